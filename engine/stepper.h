@@ -1,0 +1,89 @@
+// stepper.h — what an integrator is to the rest of kurbel: something that advances y' = f(t, y) by one step at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kurbel {
+
+// Compressed-column pattern of a square sparse matrix. Every diagonal entry is stored, zeros too (KLU needs it).
+struct SparsityPattern {
+  std::size_t size = 0;
+  std::vector<std::int64_t> column_start;  // size + 1 entries
+  std::vector<std::int64_t> row;           // row of each stored entry, ascending within a column
+};
+
+// y' = f(t, y), with its exact sparse Jacobian ∂f/∂y.
+class OdeSystem {
+ public:
+  virtual ~OdeSystem() = default;
+  virtual std::size_t size() const = 0;
+  virtual void flow(double t, std::span<const double> y, std::span<double> ydot) = 0;
+  virtual const SparsityPattern& jacobian_pattern() = 0;
+  virtual void jacobian(double t, std::span<const double> y, std::span<double> values) = 0;
+};
+
+// Local error control in the maximum norm: a step is accepted when |error_i| ≤ tolerance · scale_i for every i.
+// A scale of 0 leaves a state out of the control (quadratures). The maximum norm sees one lively state among 10⁵ at rest.
+struct ErrorControl {
+  double tolerance = 1e-8;
+  std::vector<double> scale;  // per state, in the state's own unit, ≥ 0
+};
+
+struct StepperStatistics {
+  std::int64_t steps = 0, rejected = 0, flow_calls = 0, jacobian_calls = 0, factorisations = 0, restarts = 0;
+};
+
+// The step size fell to round-off, a value became non-finite, or a solver gave up. `state` is the worst state's index.
+struct StepFailure : std::runtime_error {
+  StepFailure(const std::string& what, double time, std::size_t state)
+      : std::runtime_error(what), time(time), state(state) {}
+  double time;
+  std::size_t state;
+};
+
+// One integrator at work. After step() the solution is known at t_previous() and t(), and between them by interpolate().
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  // Begins, or begins anew after an event that changed f or y. Keeps the last good step size as a first guess.
+  virtual void start(double t, std::span<const double> y) = 0;
+  // One accepted step, ending at t_limit at the latest (lands on t_limit exactly when it reaches it). Throws StepFailure.
+  virtual void step(double t_limit) = 0;
+  // Takes the last step back and integrates from t_previous() so as to land on t exactly, t_previous() < t ≤ t().
+  virtual void retake(double t) = 0;
+  virtual void interpolate(double t, std::span<double> y) = 0;  // t_previous() ≤ t ≤ t()
+
+  virtual double t() const = 0;
+  virtual double t_previous() const = 0;
+  virtual std::span<const double> y() const = 0;
+  virtual std::span<const double> y_previous() const = 0;
+  virtual std::span<const double> ydot() const = 0;           // f(t(), y())
+  virtual std::span<const double> ydot_previous() const = 0;  // f(t_previous(), y_previous())
+  // True while the step size is held down by stability rather than by accuracy (explicit methods on stiff equations).
+  virtual bool held_by_stability() const { return false; }
+
+  const StepperStatistics& statistics() const { return statistics_; }
+
+ protected:
+  StepperStatistics statistics_;
+};
+
+enum class Method {
+  dormand_prince_54,   // explicit, order 5
+  dormand_prince_853,  // explicit, order 8
+  esdirk_43,           // implicit, L-stable, order 4 (SUNDIALS ARKStep)
+  bdf,                 // implicit, multistep, order 1…5 (SUNDIALS CVODE)
+  adams                // multistep, order 1…12 (SUNDIALS CVODE, fixed-point iteration)
+};
+
+std::string_view name_of(Method method);
+std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorControl control);
+
+}  // namespace kurbel
