@@ -1,0 +1,124 @@
+// torque_source.h — torques given as functions of time, angle or speed; sources drive, loads resist.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/curve.h"
+#include "engine/dual.h"
+#include "engine/element.h"
+
+namespace kurbel {
+
+// M = M₀ + M₁ sin(2π f t + ψ)
+struct HarmonicTorque {
+  Account work_account = Account::driving;
+  double mean = 0;       // M₀ [N·m]
+  double amplitude = 0;  // M₁ [N·m]
+  double frequency = 0;  // f [Hz]
+  double phase = 0;      // ψ [rad]
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    if (amplitude == 0) return T(mean);
+    return T(mean + amplitude * std::sin(2 * std::numbers::pi * frequency * x.t + phase));
+  }
+  Rated rated() const { return {std::abs(mean) + std::abs(amplitude), 0}; }
+};
+
+// M = sign · f(t), piecewise: the piece is the mode.
+struct TorqueOverTime {
+  Account work_account = Account::driving;
+  Curve curve;      // [s] → [N·m]
+  double sign = 1;  // −1: a load
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double t = x.t - shift(x.t, x.mode);
+    return T(sign * curve.value_in(x.mode, t));
+  }
+  int mode_at(double t) const { return curve.piece(t - curve.offset(t)); }
+  double next_edge(double t) const {
+    const double base = curve.offset(t);
+    double next = base + curve.piece_end(curve.piece(t - base));
+    if (next <= t) next = base + curve.piece_end(curve.piece(t - base) + 1);  // round-off at an edge
+    return next;
+  }
+  Rated rated() const { return {curve.max_abs(), 0}; }
+
+ private:
+  // Brings t near the piece in force, so that a period's end does not jump within a step.
+  double shift(double t, int piece) const {
+    if (curve.period() == 0) return 0;
+    const double middle = 0.5 * (curve.piece_begin(piece) + curve.piece_end(piece));
+    return curve.period() * std::round((t - middle) / curve.period());
+  }
+};
+
+// Guards of a law given by a curve over a quantity q: positive while q lies in the piece that is the mode.
+struct PieceGuard {
+  // q brought near the piece by whole periods.
+  static double near_piece(const Curve& curve, int piece, double q) {
+    if (curve.period() == 0) return q;
+    const double middle = 0.5 * (curve.piece_begin(piece) + curve.piece_end(piece));
+    return q - curve.period() * std::round((q - middle) / curve.period());
+  }
+  static void guard(const Curve& curve, int piece, double q, double scale, double* g) {
+    const double x = near_piece(curve, piece, q);
+    g[0] = std::min(1.0, (x - curve.piece_begin(piece)) / scale);
+    g[1] = std::min(1.0, (curve.piece_end(piece) - x) / scale);
+  }
+  static int next(const Curve& curve, int piece, int which) {
+    const int pieces = static_cast<int>(curve.x().size()) - 1;
+    const int moved = which == 0 ? piece - 1 : piece + 1;
+    if (curve.period() > 0) return (moved + pieces) % pieces;
+    return std::clamp(moved, -1, pieces);
+  }
+  static int first(const Curve& curve, double q) { return curve.piece(q - curve.offset(q)); }
+};
+
+// M = sign · f(φ)
+struct TorqueOverAngle {
+  static constexpr bool uses_angle = true;
+  static constexpr int guards = 2;
+  Account work_account = Account::driving;
+  Curve curve;  // [rad] → [N·m], periodic
+  double sign = 1;
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double moved = PieceGuard::near_piece(curve, x.mode, value_of(x.angle)) - value_of(x.angle);
+    return sign * curve.value_in(x.mode, x.angle + moved);
+  }
+  void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(curve, x.mode, x.angle, 1.0, g); }
+  int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.angle); }
+  int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
+  std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
+  Rated rated() const { return {curve.max_abs(), 0}; }
+};
+
+// M = sign · f(ω): a characteristic given "graphically"; motors by table, hydraulic drives, turbines, brakes.
+struct TorqueOverSpeed {
+  static constexpr int guards = 2;
+  Account work_account = Account::driving;
+  Curve curve;  // [rad/s] → [N·m]
+  double sign = 1;
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    return sign * curve.value_in(x.mode, x.rate);
+  }
+  void guard(const ShaftState<double>& x, double* g) const {
+    PieceGuard::guard(curve, x.mode, x.rate, curve.x().back() - curve.x().front(), g);
+  }
+  int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.rate); }
+  int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
+  std::string mode_name(int) const { return {}; }
+  Rated rated() const {
+    return {curve.max_abs(), std::max(std::abs(curve.x().front()), std::abs(curve.x().back()))};
+  }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,46 @@
+// butcher_tables.h — the numbers of the explicit embedded Runge–Kutta methods, zero coefficients left out.
+//
+// Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993),
+// table II.5.2 (Dormand–Prince 5(4)), section II.10 and its program DOP853 (8(5,3)), II.6 (dense output).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace kurbel {
+
+inline constexpr std::size_t most_stages = 16;
+
+struct Term {
+  std::size_t stage;
+  double weight;
+};
+using Combination = std::vector<Term>;  // Σ weight · k[stage], ascending in stage
+
+// Stage i: k[i] = f(t + node[i] h, y + h Σ row[i]).
+// The first `stages` of them make the step. Number `stages` is the slope at the end of the step: its row is the
+// solution itself, and it serves as k[0] of the next step. The ones after it exist for the dense output alone.
+struct EmbeddedTable {
+  std::string_view name;
+  std::size_t order;
+  std::size_t stages;
+  std::vector<double> node;
+  std::vector<Combination> row;
+
+  Combination error;        // estimate e of the local error, divided by h
+  Combination rough_error;  // lower-order estimate r that corrects it to e² / √(e² + 0.01 r²); empty: e alone
+  // y(t + θh) = y + θ(Δ + (1−θ)(hf₀−Δ + θ(2Δ−h(f₀+f₁) + (1−θ)(d₀ + θ(d₁ + (1−θ)(d₂ + …)))))), d = h Σ dense[·]
+  std::vector<Combination> dense;
+
+  double integral_exponent;      // of the step controller: h ∝ error^−integral · previous_error^proportional
+  double proportional_exponent;  //
+  double smallest_factor;        // a step changes at most by these factors
+  double largest_factor;         //
+  double stability_limit;        // of h·ρ along the negative real axis, as far as it can be told from two stages
+};
+
+const EmbeddedTable& dormand_prince_54();
+const EmbeddedTable& dormand_prince_853();
+
+}  // namespace kurbel

@@ -1,0 +1,411 @@
+// compile.cpp — merges what is rigidly joined: from the machine as drawn to its smallest set of coordinates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+#include <set>
+
+#include "engine/model.h"
+#include "engine/units.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Nodes that hang together rigidly, each with its speed relative to the first of them.
+struct Merging {
+  std::vector<int> group;
+  std::vector<double> gain;  // ω_node / ω_first
+  int groups = 0;
+};
+
+// Walks the joints that `is_rigid` admits.
+template <class IsRigid>
+Merging merge(const Network& network, IsRigid is_rigid) {
+  const std::size_t n = network.nodes.size();
+  std::vector<std::vector<std::size_t>> joints_at(n);
+  for (std::size_t j = 0; j < network.joints.size(); ++j)
+    if (is_rigid(network.joints[j])) {
+      joints_at[at(network.joints[j].a)].push_back(j);
+      joints_at[at(network.joints[j].b)].push_back(j);
+    }
+  Merging merging{std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
+  for (std::size_t first = 0; first < n; ++first) {
+    if (merging.group[first] >= 0) continue;
+    std::vector<std::size_t> queue = {first};
+    merging.group[first] = merging.groups;
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+      const std::size_t node = queue[next];
+      for (const std::size_t j : joints_at[node]) {
+        const Network::Joint& joint = network.joints[j];
+        const bool from_a = at(joint.a) == node;
+        const std::size_t other = at(from_a ? joint.b : joint.a);
+        if (merging.group[other] >= 0) continue;
+        merging.group[other] = merging.groups;
+        merging.gain[other] = from_a ? merging.gain[node] / joint.ratio : merging.gain[node] * joint.ratio;
+        queue.push_back(other);
+      }
+    }
+    ++merging.groups;
+  }
+  return merging;
+}
+
+class Compiler {
+ public:
+  Compiler(Network network, const Scene& scene, const Effects& effects) : messages_(scene.file) {
+    model_.network = std::move(network);
+    model_.scene = scene;
+    model_.effects = effects;
+  }
+
+  std::shared_ptr<const Model> compile() {
+    check_tree();
+    choose_reduction_node();
+    find_node_ratios();
+    settle_relative_damping();
+    switch_effects();
+    make_shafts();
+    make_elastic_joints();
+    check_inertias();
+    find_scales();
+    track_angles();
+    place_elements();
+    list_torque_joints();
+    estimate_fastest_rate();
+    messages_.throw_if_any();
+    model_.jacobian = lay_out_jacobian(model_);
+    return std::make_shared<const Model>(std::move(model_));
+  }
+
+ private:
+  Network& net() { return model_.network; }
+  Location location_of(const std::string& component) const {
+    const Section* section = model_.scene.find(component);
+    return section ? section->at : Location{};
+  }
+
+  void check_tree() {
+    if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
+    const Merging all = merge(net(), [](const Network::Joint&) { return true; });
+    if (all.groups > 1 || net().joints.size() + 1 != net().nodes.size())
+      throw SceneError({{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
+  }
+
+  // The reduction link is the crank of the first mechanism, else the first shaft of the line.
+  void choose_reduction_node() {
+    for (std::size_t e = 0; e < net().elements.size(); ++e)
+      if (net().elements[e].element->cycle() > 0) {
+        model_.reduction_node = net().elements[e].node;
+        model_.cycle = net().elements[e].element->cycle();
+        model_.reduction_element = static_cast<int>(e);
+        return;
+      }
+  }
+
+  void find_node_ratios() {
+    const Merging all = merge(net(), [](const Network::Joint&) { return true; });
+    model_.node_ratio = all.gain;
+    const double reduction = all.gain[at(model_.reduction_node)];
+    for (double& ratio : model_.node_ratio) ratio /= reduction;
+  }
+
+  // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
+  // effects are on: 1/J_red = 1/J_a + i²/J_b.
+  void settle_relative_damping() {
+    const Merging finest = merge(net(), [](const Network::Joint& joint) { return !joint.element; });
+    std::vector<double> inertia(at(finest.groups), 0.0);
+    for (std::size_t n = 0; n < net().nodes.size(); ++n)
+      inertia[at(finest.group[n])] += net().nodes[n].prescribed >= 0 ? HUGE_VAL : net().nodes[n].inertia * finest.gain[n] * finest.gain[n];
+    for (const Network::ShaftElement& e : net().elements)
+      inertia[at(finest.group[at(e.node)])] += e.element->mean_inertia() * finest.gain[at(e.node)] * finest.gain[at(e.node)];
+    for (Network::Joint& joint : net().joints) {
+      if (!joint.element) continue;
+      const auto own = [&](int node) { return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]); };
+      const double compliance = 1 / own(joint.a) + joint.ratio * joint.ratio / own(joint.b);
+      joint.element->settle(compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0);
+    }
+  }
+
+  void switch_effects() {
+    for (Network::Joint& joint : net().joints) {
+      joint.elastic = joint.element && model_.effects.is_elastic(joint.component);
+      if (joint.element && !joint.elastic && (model_.merged.empty() || model_.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
+        model_.merged.push_back(fmt::format("\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
+    }
+  }
+
+  void make_shafts() {
+    const Merging merging = merge(net(), [](const Network::Joint& joint) { return !joint.elastic; });
+    std::vector<Shaft> groups(at(merging.groups));
+    for (std::size_t n = 0; n < net().nodes.size(); ++n) groups[at(merging.group[n])].nodes.push_back(static_cast<int>(n));
+    for (Shaft& shaft : groups) {
+      shaft.reference = shaft.nodes.front();
+      for (const int n : shaft.nodes) {
+        if (net().nodes[at(n)].prescribed < 0) continue;
+        if (shaft.prescribed >= 0)
+          messages_.add(location_of(net().nodes[at(n)].component), fmt::format("\"{}\" prescribes the speed of a shaft whose speed \"{}\" prescribes already; keep one, or put an elastic coupling between them",
+                        net().nodes[at(n)].component, net().nodes[at(shaft.reference)].component));
+        shaft.prescribed = net().nodes[at(n)].prescribed;
+        shaft.reference = n;
+      }
+    }
+    for (const Network::ShaftElement& e : net().elements) {
+      Shaft& shaft = groups[at(merging.group[at(e.node)])];
+      if (e.element->cycle() > 0 && !shaft.variable) {
+        shaft.variable = true;
+        if (shaft.prescribed < 0) shaft.reference = e.node;
+      }
+      shaft.directional = shaft.directional || e.element->directional();
+    }
+    for (Shaft& shaft : groups) {
+      if (shaft.prescribed < 0 && std::count(shaft.nodes.begin(), shaft.nodes.end(), model_.reduction_node)) shaft.reference = model_.reduction_node;
+      const double reference = merging.gain[at(shaft.reference)];
+      for (const int n : shaft.nodes) {
+        const double gain = merging.gain[at(n)] / reference;
+        shaft.inertia += net().nodes[at(n)].inertia * gain * gain;
+      }
+    }
+    // Free shafts first, so that their speeds stand side by side in the state.
+    std::vector<std::size_t> order(groups.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return groups[i].prescribed < 0; });
+    model_.shaft_of_node.assign(net().nodes.size(), 0);
+    model_.gain_of_node.assign(net().nodes.size(), 1);
+    for (const std::size_t i : order) {
+      if (groups[i].prescribed < 0) ++model_.free_shafts;
+      for (const int n : groups[i].nodes) {
+        model_.shaft_of_node[at(n)] = static_cast<int>(model_.shafts.size());
+        model_.gain_of_node[at(n)] = merging.gain[at(n)] / merging.gain[at(groups[i].reference)];
+      }
+      model_.shafts.push_back(std::move(groups[i]));
+    }
+    for (Shaft& shaft : model_.shafts) shaft.mean_inertia = shaft.inertia;
+    for (const Network::ShaftElement& e : net().elements) {
+      const double gain = model_.gain_of_node[at(e.node)];
+      model_.shafts[at(model_.shaft_of_node[at(e.node)])].mean_inertia += e.element->mean_inertia() * gain * gain;
+    }
+  }
+
+  void make_elastic_joints() {
+    for (std::size_t j = 0; j < net().joints.size(); ++j) {
+      const Network::Joint& joint = net().joints[j];
+      if (!joint.elastic) continue;
+      model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)], model_.shaft_of_node[at(joint.b)],
+                                model_.gain_of_node[at(joint.a)], joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4});
+    }
+  }
+
+  void check_inertias() {
+    for (std::size_t s = 0; s < model_.free_shafts; ++s) {
+      const Shaft& shaft = model_.shafts[s];
+      if (shaft.mean_inertia > 0) continue;
+      std::set<std::string> names;
+      for (const int n : shaft.nodes) names.insert(model_.node_label(n));
+      messages_.add(location_of(net().nodes[at(shaft.nodes.front())].component),
+                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a half inertia, or switch the elasticity beside it off",
+                                listed({names.begin(), names.end()}, "and")));
+    }
+    messages_.throw_if_any();
+  }
+
+  // Rated speed and torque, carried to the reduction link and from there to every shaft.
+  void find_scales() {
+    double speed = 0, torque = 0, resisting = 0, inertia = 0;
+    for (std::size_t n = 0; n < net().nodes.size(); ++n) inertia += net().nodes[n].inertia * model_.node_ratio[n] * model_.node_ratio[n];
+    for (const Network::ShaftElement& e : net().elements) {
+      const double ratio = std::abs(model_.node_ratio[at(e.node)]);
+      const Rated rated = e.element->rated();
+      speed = std::max(speed, std::abs(rated.speed) / ratio);
+      double& sum = e.element->account() == Account::driving ? torque : resisting;
+      sum = std::max(sum, std::abs(rated.torque) * ratio);
+      inertia += e.element->mean_inertia() * ratio * ratio;
+    }
+    for (std::size_t n = 0; n < net().nodes.size(); ++n) {
+      if (net().nodes[n].prescribed < 0) continue;
+      const PrescribedSpeed& given = net().prescribed[at(net().nodes[n].prescribed)];
+      for (const double s : given.speed) speed = std::max(speed, std::abs(s / model_.node_ratio[n]));
+      speed = std::max(speed, std::abs(given.amplitude / model_.node_ratio[n]));
+    }
+    const StartSettings& start = model_.scene.run.start;
+    const auto speed_of = [&](const std::string& component, double value) {
+      const int node = component.empty() ? model_.reduction_node : net().ports.at(component).in;
+      speed = std::max(speed, std::abs(value / model_.node_ratio[at(node)]));
+    };
+    if (start.speed != 0) speed_of(start.on, start.speed);
+    for (const auto& [component, given] : start.components)
+      if (given.speed) speed_of(component, *given.speed);
+    if (torque == 0) torque = resisting;  // nothing drives: the loads set the scale
+    if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / inertia);  // after one turn
+    if (speed == 0) speed = 1;
+    if (torque == 0) torque = std::max(0.5 * inertia * speed * speed, 1e-12);  // kinetic energy per radian
+    model_.speed_scale = speed;
+    model_.torque_scale = torque;
+    for (Shaft& shaft : model_.shafts) {
+      const double ratio = std::abs(model_.node_ratio[at(shaft.reference)]);
+      shaft.speed_scale = speed * ratio;
+      shaft.torque_scale = torque / ratio;
+    }
+    for (ElasticJoint& e : model_.elastic) {
+      const Network::Joint& joint = net().joints[at(e.joint)];
+      const double stiffness = joint.element->stiffness();
+      if (stiffness > 0) e.twist_scale = torque / std::abs(model_.node_ratio[at(joint.a)]) / stiffness;
+    }
+  }
+
+  int tracked(int node) {
+    const int shaft = model_.shaft_of_node[at(node)];
+    const double gain = model_.gain_of_node[at(node)];
+    for (std::size_t i = 0; i < model_.angles.size(); ++i)
+      if (model_.angles[i].shaft == shaft && model_.angles[i].gain == gain) return static_cast<int>(i);
+    model_.angles.push_back({node, shaft, gain});
+    return static_cast<int>(model_.angles.size()) - 1;
+  }
+  void track_angles() { model_.reduction_angle = tracked(model_.reduction_node); }
+
+  int account(const std::string& name, Account kind) {
+    model_.accounts.push_back({name, kind});
+    return static_cast<int>(model_.accounts.size()) - 1;
+  }
+
+  void place_elements() {
+    PoolSet pools;
+    std::string last;
+    int loss = -1;
+    for (std::size_t i = 0; i < model_.elastic.size(); ++i) {
+      const ElasticJoint& e = model_.elastic[i];
+      const Network::Joint& joint = net().joints[at(e.joint)];
+      if (joint.component != last || loss < 0) loss = account(joint.component, Account::harmful);
+      last = joint.component;
+      joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss, joint.component});
+    }
+    for (std::size_t i = 0; i < net().elements.size(); ++i) {
+      const Network::ShaftElement& e = net().elements[i];
+      ShaftPorts ports{.id = static_cast<int>(i), .shaft = model_.shaft_of_node[at(e.node)], .gain = model_.gain_of_node[at(e.node)],
+                       .window = e.window, .component = e.component};
+      if (e.element->uses_angle()) {
+        ports.angle = tracked(e.node);
+        ports.phase = e.phase;
+      }
+      ports.mode = static_cast<int>(model_.mode_slots);
+      model_.mode_slots += at(e.element->mode_count());
+      ports.account = account(e.component, e.element->account());
+      for (const auto& [name, kind] : e.element->further_accounts()) account(name, kind);
+      e.element->place(pools, ports);
+    }
+    for (const Network::Node& node : net().nodes)
+      if (node.prescribed >= 0) account(node.component, Account::driving);
+    model_.pools = pools.release();
+    for (const auto& pool : model_.pools) pool->add_channels(model_.pool_channels);
+  }
+
+  void list_torque_joints() {
+    std::map<std::string, int> segments, seen;
+    for (const Network::Joint& joint : net().joints)
+      if (joint.element) ++segments[joint.component];
+    int elastic = 0;
+    for (std::size_t j = 0; j < net().joints.size(); ++j) {
+      const Network::Joint& joint = net().joints[j];
+      if (!joint.element) continue;
+      const int index = joint.elastic ? elastic++ : -1;
+      const int total = segments[joint.component], k = ++seen[joint.component];
+      if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
+      const std::string name = total == 1 ? joint.component : fmt::format("{}.{}", joint.component, k);
+      model_.torque_joints.push_back({name, static_cast<int>(j), index, model_.torque_scale / std::abs(model_.node_ratio[at(joint.a)])});
+    }
+  }
+
+  // ω² ≤ max over elastic joints of the stiffness sums at their two shafts; likewise the damping rates.
+  void estimate_fastest_rate() {
+    std::vector<double> stiffness(model_.shafts.size(), 0.0), damping(model_.shafts.size(), 0.0);
+    const auto over = [&](int shaft, double x) { return model_.shafts[at(shaft)].prescribed >= 0 ? 0 : x / model_.shafts[at(shaft)].mean_inertia; };
+    for (const ElasticJoint& e : model_.elastic) {
+      const ConnectionMaker& element = *net().joints[at(e.joint)].element;
+      stiffness[at(e.shaft_a)] += over(e.shaft_a, element.stiffness() * e.gain_a * e.gain_a);
+      stiffness[at(e.shaft_b)] += over(e.shaft_b, element.stiffness() * e.gain_b * e.gain_b);
+      damping[at(e.shaft_a)] += over(e.shaft_a, element.damping() * e.gain_a * e.gain_a);
+      damping[at(e.shaft_b)] += over(e.shaft_b, element.damping() * e.gain_b * e.gain_b);
+    }
+    for (const ElasticJoint& e : model_.elastic)
+      model_.fastest_rate = std::max({model_.fastest_rate, std::sqrt(stiffness[at(e.shaft_a)] + stiffness[at(e.shaft_b)]),
+                                      damping[at(e.shaft_a)] + damping[at(e.shaft_b)]});
+  }
+
+  Model model_;
+  Messages messages_;
+};
+
+}  // namespace
+
+std::string Model::node_label(int node) const {
+  const Network::Node& n = network.nodes[static_cast<std::size_t>(node)];
+  return n.label.empty() ? n.component : n.component + "." + n.label;
+}
+
+std::string Model::explain() const {
+  const std::size_t twists = elastic.size();
+  std::string text = fmt::format("effects on: {}\n", effects.describe());
+  text += fmt::format("coordinates: {} = {} shaft speed{}{}; angles kept: {} (turns apart from the remainder)\n", free_shafts + twists, free_shafts,
+                      free_shafts == 1 ? "" : "s", twists ? fmt::format(" + {} twist{}", twists, twists == 1 ? "" : "s") : "", angles.size());
+  text += fmt::format("reduction link: {}\n", node_label(reduction_node));
+  const std::size_t shown = 40;
+  for (std::size_t s = 0; s < shafts.size() && s < shown; ++s) {
+    const Shaft& shaft = shafts[s];
+    std::string names;
+    for (std::size_t i = 0; i < shaft.nodes.size() && i < 24; ++i) {
+      const double gain = gain_of_node[static_cast<std::size_t>(shaft.nodes[i])];
+      names += (i ? ", " : "") + node_label(shaft.nodes[i]) + (gain == 1 ? "" : fmt::format(" (×{:.6g})", gain));
+    }
+    text += fmt::format("  shaft {}: {}{}; on {}: {}\n", s + 1, with_unit(shaft.mean_inertia, "kg*m2"),
+                        shaft.variable ? " (mean; varies with the crank angle)" : "", node_label(shaft.reference), names);
+    if (shaft.prescribed >= 0) text += "    its speed is prescribed\n";
+  }
+  if (shafts.size() > shown) text += fmt::format("  … and {} more shafts\n", shafts.size() - shown);
+  for (std::size_t i = 0; i < elastic.size() && i < shown; ++i) {
+    const Network::Joint& joint = network.joints[static_cast<std::size_t>(elastic[i].joint)];
+    text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component, with_unit(joint.element->stiffness(), "N*m/rad"),
+                        with_unit(joint.element->damping(), "N*m*s/rad"));
+  }
+  for (const std::string& line : merged) text += "  merged: " + line + "\n";
+  for (const Network::Joint& joint : network.joints)
+    if (!joint.element && joint.ratio != 1)
+      text += fmt::format("  merged: gear of \"{}\", ratio {:.6g}; inertias behind it count by the square of the ratio\n", joint.component, joint.ratio);
+  return text;
+}
+
+Network build_network(const Scene& scene) {
+  Network network;
+  Messages messages(scene.file);
+  for (const Section& section : scene.components) {
+    network.components.push_back(section.name);
+    section.kind->build(section, network, messages);
+  }
+  messages.throw_if_any();
+  const auto port_named = [&](const std::string& from) {
+    const std::size_t dot = from.find('.');
+    const Network::Ports& ports = network.ports.at(from.substr(0, dot));
+    return dot != std::string::npos && from.substr(dot + 1) == "in" ? ports.in : ports.out;
+  };
+  for (const Line& line : scene.lines) {
+    int end = line.from.empty() ? -1 : port_named(line.from);
+    for (const std::string& name : line.names) {
+      const Network::Ports& ports = network.ports.at(name);
+      if (end >= 0) network.join(end, ports.in, 1, "");
+      end = ports.out;
+    }
+  }
+  return network;
+}
+
+std::shared_ptr<const Model> compile_network(Network network, const Scene& scene, const Effects& effects) {
+  return Compiler(std::move(network), scene, effects).compile();
+}
+
+std::shared_ptr<const Model> compile(const Scene& scene, const Effects& effects) {
+  return compile_network(build_network(scene), scene, effects);
+}
+
+}  // namespace kurbel

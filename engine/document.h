@@ -1,0 +1,44 @@
+// document.h — a scene file as a tree of values, each with its place in the file. Knows TOML, knows no machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/messages.h"
+
+namespace kurbel {
+
+struct DocumentEntry;
+
+struct DocumentValue {
+  enum class Type { flag, integer, number, text, list, table, other };
+  Type type = Type::table;
+  Location at;
+  bool flag = false;
+  std::int64_t integer = 0;
+  double number = 0;
+  std::string text = {};
+  std::vector<DocumentValue> items = {};    // of a list
+  std::vector<DocumentEntry> entries = {};  // of a table, in the order of the file
+
+  const DocumentEntry* find(std::string_view key) const;
+  std::string describe() const;  // "the number 12", "the text \"abc\"", "a table"
+};
+
+struct DocumentEntry {
+  std::string key;
+  Location at;  // of the key
+  DocumentValue value;
+};
+
+// Largest scene file that is read; anything bigger is no scene.
+inline constexpr std::size_t max_scene_bytes = 4'000'000;
+
+// The text of a file. Throws SceneError if it is missing, a folder, unreadable, or larger than `limit`.
+std::string read_text_file(const std::string& path, std::size_t limit);
+
+// Throws SceneError with line and column on text that is not TOML.
+DocumentValue parse_toml(const std::string& text, const std::string& file);
+
+}  // namespace kurbel

@@ -1,0 +1,585 @@
+// equations.cpp — right-hand side, Jacobian, modes and outputs of a compiled model, as a flat list of stages.
+#include "engine/equations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// 4π as two doubles: 10⁶ wraps lose no digit.
+constexpr double two_turns = 4 * std::numbers::pi;
+constexpr double two_turns_rest = 4 * 1.2246467991473532e-16;
+
+}  // namespace
+
+Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(std::move(model)) {
+  const Model& m = *model_;
+  states_ = m.state_count();
+  if (audit) quadratures_ = m.accounts.size() + 2 * m.torque_joints.size();
+  for (const auto& pool : m.pools) {
+    guard_begin_.push_back(guard_count_);
+    guard_count_ += static_cast<std::size_t>(pool->guard_count());
+  }
+  for (std::size_t s = 0; s < m.shafts.size(); ++s) {
+    if (m.shafts[s].directional) directional_.push_back(static_cast<int>(s));
+    if (m.shafts[s].variable) variable_.push_back(static_cast<int>(s));
+    constant_inertia_.push_back(m.shafts[s].inertia);
+    inverse_inertia_.push_back(m.shafts[s].inertia > 0 ? 1 / m.shafts[s].inertia : 0);
+  }
+  guard_count_ += 2 * directional_.size();
+  inertia_ = constant_inertia_;
+  const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size(), nodes = m.network.nodes.size();
+  direction_.assign(shafts, 1);
+  mode_.assign(m.mode_slots, 0);
+  active_.assign(elements, 1);
+  turns_.assign(m.angles.size(), 0);
+  speed_.assign(shafts, 0);
+  torque_.assign(shafts, 0);
+  alpha_.assign(shafts, 0);
+  twist_rate_.assign(m.elastic.size(), 0);
+  connection_torque_.assign(m.elastic.size(), 0);
+  spring_torque_.assign(m.elastic.size(), 0);
+  element_torque_.assign(elements, 0);
+  element_inertia_.assign(elements, 0);
+  balance_.assign(nodes, 0);
+  node_angle_.assign(nodes, 0);
+  joint_torque_.assign(m.network.joints.size(), 0);
+  shaft_hold_.assign(shafts, {});
+  element_hold_.assign(elements, {});
+  work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
+  shaft_angle_.assign(shafts, 0);
+  list_rigid_trees();
+  list_elastic_tree();
+}
+
+// The elastic joints in an order that leads outwards from the reduction link.
+void Equations::list_elastic_tree() {
+  const Model& m = *model_;
+  std::vector<std::vector<int>> joints_at(m.shafts.size());
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    joints_at[at(m.elastic[i].shaft_a)].push_back(static_cast<int>(i));
+    joints_at[at(m.elastic[i].shaft_b)].push_back(static_cast<int>(i));
+  }
+  std::vector<char> seen(m.shafts.size(), 0);
+  std::vector<int> queue = {m.shaft_of_node[at(m.reduction_node)]};
+  seen[at(queue.front())] = 1;
+  for (std::size_t next = 0; next < queue.size(); ++next)
+    for (const int i : joints_at[at(queue[next])]) {
+      const bool forward = m.elastic[at(i)].shaft_a == queue[next];
+      const int other = forward ? m.elastic[at(i)].shaft_b : m.elastic[at(i)].shaft_a;
+      if (seen[at(other)]) continue;
+      seen[at(other)] = 1;
+      queue.push_back(other);
+      elastic_steps_.push_back({i, forward});
+    }
+}
+
+// The rigid joints within each merged shaft, leaves first, seen from its reference node.
+void Equations::list_rigid_trees() {
+  const Network& net = model_->network;
+  std::vector<std::vector<int>> joints_at(net.nodes.size());
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    if (net.joints[j].elastic) continue;
+    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
+    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
+  }
+  std::vector<char> seen(net.nodes.size(), 0);
+  for (const Shaft& shaft : model_->shafts) {
+    std::vector<int> queue = {shaft.reference};
+    seen[at(shaft.reference)] = 1;
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const int j : joints_at[at(queue[next])]) {
+        const Network::Joint& joint = net.joints[at(j)];
+        const int other = joint.a == queue[next] ? joint.b : joint.a;
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        rigid_steps_.push_back({j, other, queue[next], other == joint.b});
+        queue.push_back(other);
+      }
+  }
+  std::reverse(rigid_steps_.begin(), rigid_steps_.end());
+}
+
+Instant Equations::instant(double t, std::span<const double> y) {
+  const Model& m = *model_;
+  const double* speed = y.data() + speed_index(0);
+  if (m.free_shafts < m.shafts.size()) {
+    std::copy(speed, speed + m.free_shafts, speed_.begin());
+    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].value(t);
+    speed = speed_.data();
+  }
+  return {t, y.data(), y.data() + twists_begin(), speed, mode_.data(), direction_.data(), active_.data()};
+}
+
+// Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
+void Equations::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate) {
+  const Model& m = *model_;
+  std::fill(torque_.begin(), torque_.end(), 0.0);
+  for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
+  if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
+  snapshot_.now = instant(t, y);
+  snapshot_.sums = {torque_.data(), inertia_.data(), twist_rate, connection_torque_.data(), spring_torque_.data(),
+                    element_torque_.data(), element_inertia_.data(), work_rate};
+  for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
+  for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
+  for (const int s : variable_)
+    if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
+  for (const int s : directional_)
+    if (direction_[at(s)] == 0 && at(s) < m.free_shafts) alpha[s] = 0;
+}
+
+void Equations::flow(double t, std::span<const double> y, std::span<double> ydot) {
+  const Model& m = *model_;
+  double* const alpha = ydot.data() + speed_index(0);
+  double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
+  evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
+  if (audit()) {
+    std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
+    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].slope(t);
+    find_joint_torques(alpha_.data());
+    write_quadratures(ydot.data() + states_);
+  }
+}
+
+// d'Alembert from the leaves of each merged shaft to its root: what a node needs beyond its own torques comes through
+// the joint towards the root.
+void Equations::find_joint_torques(const double* alpha) {
+  const Model& m = *model_;
+  const Network& net = m.network;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    balance_[n] = net.nodes[n].inertia * m.gain_of_node[n] * alpha[m.shaft_of_node[n]];
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const std::size_t n = at(net.elements[e].node);
+    balance_[n] += element_inertia_[e] * m.gain_of_node[n] * alpha[m.shaft_of_node[n]] - element_torque_[e];
+  }
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const Network::Joint& joint = net.joints[at(m.elastic[i].joint)];
+    joint_torque_[at(m.elastic[i].joint)] = connection_torque_[i];
+    balance_[at(joint.a)] += connection_torque_[i];
+    balance_[at(joint.b)] -= joint.ratio * connection_torque_[i];
+  }
+  // At standstill the opposing elements hold the rest, in proportion to what each can hold.
+  for (const int s : directional_) {
+    if (direction_[at(s)] != 0) continue;
+    std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
+    std::fill(element_hold_.begin(), element_hold_.end(), Hold{});
+    for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
+    const double rest = -torque_[at(s)];
+    const double capacity = rest > 0 ? shaft_hold_[at(s)].high : shaft_hold_[at(s)].low;
+    if (capacity == 0) continue;
+    for (std::size_t e = 0; e < net.elements.size(); ++e) {
+      const std::size_t n = at(net.elements[e].node);
+      if (m.shaft_of_node[n] != s) continue;
+      const double share = rest / capacity * (rest > 0 ? element_hold_[e].high : element_hold_[e].low);
+      balance_[n] -= share;
+    }
+  }
+  for (const RigidStep& step : rigid_steps_) {
+    const double ratio = net.joints[at(step.joint)].ratio, need = balance_[at(step.child)];
+    if (step.child_is_b) {
+      joint_torque_[at(step.joint)] = need / ratio;
+      balance_[at(step.parent)] += need / ratio;
+    } else {
+      joint_torque_[at(step.joint)] = -need;
+      balance_[at(step.parent)] += ratio * need;
+    }
+  }
+}
+
+// Work of prescribed motions (their reaction is known only now) and the squares of the torques.
+void Equations::write_quadratures(double* rate) {
+  const Model& m = *model_;
+  std::size_t account = m.accounts.size();
+  for (std::size_t n = m.network.nodes.size(); n-- > 0;) {
+    if (m.network.nodes[n].prescribed < 0) continue;
+    --account;
+    const std::size_t s = at(m.shaft_of_node[n]);
+    rate[account] = balance_[n] * m.gain_of_node[n] * snapshot_.now.speed[s];
+  }
+  for (std::size_t i = 0; i < m.torque_joints.size(); ++i) {
+    const TorqueJoint& joint = m.torque_joints[i];
+    const double tau = joint_torque_[at(joint.joint)];
+    const double spring = joint.elastic >= 0 ? spring_torque_[at(joint.elastic)] : tau;
+    rate[m.accounts.size() + 2 * i] = tau * tau;
+    rate[m.accounts.size() + 2 * i + 1] = spring * spring;
+  }
+}
+
+const SparsityPattern& Equations::jacobian_pattern() {
+  if (pattern_.size == size()) return pattern_;
+  pattern_ = model_->jacobian.pattern;
+  pattern_.size = size();
+  for (std::size_t q = 0; q < quadratures_; ++q) {
+    pattern_.row.push_back(static_cast<std::int64_t>(states_ + q));
+    pattern_.column_start.push_back(static_cast<std::int64_t>(pattern_.row.size()));
+  }
+  return pattern_;
+}
+
+// Quadratures feed nothing back; their rows are left empty, so that they cost the factorisation nothing.
+void Equations::jacobian(double t, std::span<const double> y, std::span<double> values) {
+  const Model& m = *model_;
+  const JacobianLayout& layout = m.jacobian;
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  slot_.assign(layout.slot_position.size(), 0.0);
+  for (const auto& pool : m.pools) pool->add_jacobian(snapshot_.now, alpha_.data(), slot_.data());
+  std::fill(values.begin(), values.end(), 0.0);
+  const std::size_t stored = layout.pattern.row.size();
+  for (std::size_t k = 0; k < slot_.size(); ++k)
+    if (layout.slot_position[k] < stored) values[layout.slot_position[k]] += slot_[k];
+  for (std::size_t i = 0; i < stored; ++i) {
+    const int s = layout.row_shaft[i];
+    if (s >= 0) values[i] *= m.shafts[at(s)].directional && direction_[at(s)] == 0 ? 0.0 : 1 / inertia_[at(s)];
+  }
+  for (const auto& [position, value] : layout.constant) values[position] += value;
+}
+
+ErrorControl Equations::error_control(double tolerance) const {
+  const Model& m = *model_;
+  ErrorControl control{tolerance, {}};
+  for (const TrackedAngle& angle : m.angles) control.scale.push_back(std::max(1.0, std::abs(m.node_ratio[at(angle.node)])));
+  for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
+  for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
+  control.scale.resize(size(), 0.0);
+  return control;
+}
+
+std::string Equations::state_name(std::size_t state) const {
+  const Model& m = *model_;
+  if (state < m.angle_count()) return fmt::format("angle of {}", m.node_label(m.angles[state].node));
+  if (state < speed_index(0)) return fmt::format("twist of {}", m.network.joints[at(m.elastic[state - twists_begin()].joint)].component);
+  if (state < states_) return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
+  if (state < states_ + m.accounts.size()) return fmt::format("work of {}", m.accounts[state - states_].name);
+  return "a squared torque";
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Start
+
+// Angles of all shafts from the twists, outwards from the reduction link: φ_b = (gain_a φ_a − θ)/gain_b.
+void Equations::set_shaft_angles(const double* twists, std::vector<double>& angles) const {
+  for (const ElasticStep& step : elastic_steps_) {
+    const ElasticJoint& e = model_->elastic[at(step.elastic)];
+    if (step.forward) {
+      angles[at(e.shaft_b)] = (e.gain_a * angles[at(e.shaft_a)] - twists[step.elastic]) / e.gain_b;
+    } else {
+      angles[at(e.shaft_a)] = (e.gain_b * angles[at(e.shaft_b)] + twists[step.elastic]) / e.gain_a;
+    }
+  }
+}
+
+std::vector<double> Equations::start_angles(std::vector<double>& twists) {
+  const Model& m = *model_;
+  const StartSettings& start = m.scene.run.start;
+  const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
+  const double reduction_angle = start.angle / m.node_ratio[at(on)];
+  std::vector<double> angles(m.shafts.size());
+  for (std::size_t s = 0; s < m.shafts.size(); ++s) angles[s] = m.node_ratio[at(m.shafts[s].reference)] * reduction_angle;
+  bool given = false;
+  for (const auto& [component, c] : start.components) {
+    if (!c.angle) continue;
+    const int node = m.network.ports.at(component).in;
+    angles[at(m.shaft_of_node[at(node)])] = *c.angle / m.gain_of_node[at(node)];
+    given = true;
+  }
+  if (given)
+    for (std::size_t i = 0; i < twists.size(); ++i) {
+      const ElasticJoint& e = m.elastic[i];
+      twists[i] = e.gain_a * angles[at(e.shaft_a)] - e.gain_b * angles[at(e.shaft_b)];
+    }
+  for (std::size_t i = 0; i < twists.size(); ++i) {
+    const auto c = start.components.find(m.network.joints[at(m.elastic[i].joint)].component);
+    if (c != start.components.end() && c->second.twist) twists[i] = *c->second.twist;
+  }
+  set_shaft_angles(twists.data(), angles);
+  return angles;
+}
+
+std::vector<double> Equations::start(double t) {
+  const Model& m = *model_;
+  const StartSettings& settings = m.scene.run.start;
+  std::vector<double> y(size(), 0.0);
+  std::vector<double> twists(m.elastic.size(), 0.0);
+  const std::vector<double> angles = start_angles(twists);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[at(m.angles[i].shaft)];
+  for (std::size_t i = 0; i < twists.size(); ++i) y[twists_begin() + i] = twists[i];
+  const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
+  for (std::size_t s = 0; s < m.free_shafts; ++s)
+    y[speed_index(static_cast<int>(s))] = settings.speed * m.node_ratio[at(m.shafts[s].reference)] / m.node_ratio[at(on)];
+  for (const auto& [component, c] : settings.components) {
+    if (!c.speed) continue;
+    const int node = m.network.ports.at(component).in;
+    const int s = m.shaft_of_node[at(node)];
+    if (at(s) < m.free_shafts) y[speed_index(s)] = *c.speed / m.gain_of_node[at(node)];
+  }
+  std::fill(turns_.begin(), turns_.end(), 0.0);
+  wrap(y);
+  for (const auto& pool : m.pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  for (const int s : directional_) {
+    const double w = instant(t, y).speed[s];
+    direction_[at(s)] = w > 0 ? 1 : w < 0 ? -1 : 0;
+  }
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  if (settings.equilibrium) balance_twists(y, t);
+  std::vector<std::size_t> still;
+  for (const int s : directional_)
+    if (direction_[at(s)] == 0) still.push_back(at(s));
+  settle_directions(t, y, still, nullptr);
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  return y;
+}
+
+// Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.
+// The machine as a whole may accelerate; all shafts then do so together.
+void Equations::balance_twists(std::span<double> y, double t) {
+  const Model& m = *model_;
+  if (m.elastic.empty()) return;
+  const Network& net = m.network;
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) y[twists_begin() + i] = 0;
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  // Without twists the elements' torques alone remain; sum them over the whole machine.
+  double torque = 0, inertia = 0;
+  bool free = true;
+  std::vector<double> need(net.nodes.size(), 0.0);
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+    inertia += net.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
+    free = free && net.nodes[n].prescribed < 0;
+  }
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const double ratio = m.node_ratio[at(net.elements[e].node)];
+    torque += element_torque_[e] * ratio;
+    inertia += element_inertia_[e] * ratio * ratio;
+  }
+  // At standstill the opposing elements may hold the machine.
+  double hold_low = 0, hold_high = 0;
+  std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
+  std::fill(element_hold_.begin(), element_hold_.end(), Hold{});
+  for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
+  const bool still = std::all_of(y.begin() + static_cast<std::ptrdiff_t>(speed_index(0)), y.begin() + static_cast<std::ptrdiff_t>(states_), [](double w) { return w == 0; });
+  if (still)
+    for (std::size_t e = 0; e < net.elements.size(); ++e) {
+      hold_low += element_hold_[e].low * m.node_ratio[at(net.elements[e].node)];
+      hold_high += element_hold_[e].high * m.node_ratio[at(net.elements[e].node)];
+    }
+  const double held = std::clamp(-torque, hold_low, hold_high);
+  const double capacity = held > 0 ? hold_high : hold_low;
+  const double acceleration = free ? (torque + held) / inertia : 0;  // of the reduction link
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) need[n] = net.nodes[n].inertia * m.node_ratio[n] * acceleration;
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const std::size_t n = at(net.elements[e].node);
+    need[n] += element_inertia_[e] * m.node_ratio[n] * acceleration - element_torque_[e];
+    if (still && capacity != 0) need[n] -= held / capacity * (held > 0 ? element_hold_[e].high : element_hold_[e].low);
+  }
+  // Sum from the leaves of the whole tree to a root that can take the rest (a prescribed motion, if there is one).
+  std::vector<std::vector<int>> joints_at(net.nodes.size());
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
+    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
+  }
+  int root = m.reduction_node;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    if (net.nodes[n].prescribed >= 0) root = static_cast<int>(n);
+  std::vector<RigidStep> steps;
+  std::vector<char> seen(net.nodes.size(), 0);
+  std::vector<int> queue = {root};
+  seen[at(root)] = 1;
+  for (std::size_t next = 0; next < queue.size(); ++next)
+    for (const int j : joints_at[at(queue[next])]) {
+      const Network::Joint& joint = net.joints[at(j)];
+      const int other = joint.a == queue[next] ? joint.b : joint.a;
+      if (seen[at(other)]) continue;
+      seen[at(other)] = 1;
+      steps.push_back({j, other, queue[next], other == joint.b});
+      queue.push_back(other);
+    }
+  std::vector<double> joint_torque(net.joints.size(), 0.0);
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    const double ratio = net.joints[at(step->joint)].ratio, wanted = need[at(step->child)];
+    joint_torque[at(step->joint)] = step->child_is_b ? wanted / ratio : -wanted;
+    need[at(step->parent)] += step->child_is_b ? wanted / ratio : ratio * wanted;
+  }
+  std::vector<double> twists(m.elastic.size());
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const int j = m.elastic[i].joint;
+    twists[i] = net.joints[at(j)].element->twist_at(joint_torque[at(j)]);
+    y[twists_begin() + i] = twists[i];
+  }
+  // Shafts away from the reduction link stand turned by the twists.
+  std::vector<double> angles(m.shafts.size(), 0.0);
+  set_shaft_angles(twists.data(), angles);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] += m.angles[i].gain * angles[at(m.angles[i].shaft)];
+  wrap(y);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Events
+
+void Equations::guards(double t, std::span<const double> y, std::span<double> g) {
+  const Model& m = *model_;
+  const Instant now = instant(t, y);
+  for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
+  if (directional_.empty()) return;
+  const bool still = std::any_of(directional_.begin(), directional_.end(), [&](int s) { return direction_[at(s)] == 0; });
+  if (still) {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
+    for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
+  }
+  double* direction_guard = g.data() + guard_count_ - 2 * directional_.size();
+  for (const int s : directional_) {
+    const Shaft& shaft = m.shafts[at(s)];
+    if (direction_[at(s)] != 0) {
+      *direction_guard++ = direction_[at(s)] * now.speed[s] / shaft.speed_scale;
+      *direction_guard++ = 1;
+    } else if (at(s) >= m.free_shafts) {
+      *direction_guard++ = 1;
+      *direction_guard++ = 1;
+    } else {
+      *direction_guard++ = (torque_[at(s)] + shaft_hold_[at(s)].high) / shaft.torque_scale;
+      *direction_guard++ = -(torque_[at(s)] + shaft_hold_[at(s)].low) / shaft.torque_scale;
+    }
+  }
+}
+
+void Equations::fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log) {
+  const Model& m = *model_;
+  std::vector<std::size_t> stopped;
+  const std::size_t directions_begin = guard_count_ - 2 * directional_.size();
+  for (const std::size_t guard : fired) {
+    if (guard >= directions_begin) {
+      const auto s = at(directional_[(guard - directions_begin) / 2]);
+      if (direction_[s] != 0) {
+        if (s < m.free_shafts) y[speed_index(static_cast<int>(s))] = 0;
+        direction_[s] = s < m.free_shafts ? 0 : -direction_[s];
+      }
+      stopped.push_back(s);
+      continue;
+    }
+    std::size_t p = m.pools.size() - 1;
+    while (guard_begin_[p] > guard) --p;
+    const int local = static_cast<int>(guard - guard_begin_[p]);
+    m.pools[p]->fire(instant(t, y), local, mode_.data());
+    const GuardLabel label = m.pools[p]->label(local, mode_.data());
+    if (!label.what.empty()) log.push_back({t, label.component, label.what});
+  }
+  settle_directions(t, y, stopped, &log);
+}
+
+// A shaft at standstill stays there while its opposing elements can hold it; else it moves the way it is pushed.
+void Equations::settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts, std::vector<Event>* log) {
+  const Model& m = *model_;
+  for (const std::size_t s : shafts) {
+    if (s >= m.free_shafts) continue;
+    direction_[s] = 0;
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
+    for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
+    const double push = torque_[s];
+    if (push + shaft_hold_[s].low > 0) {
+      direction_[s] = 1;
+    } else if (push + shaft_hold_[s].high < 0) {
+      direction_[s] = -1;
+    }
+    for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+    if (!log) continue;
+    const std::string name = m.node_label(m.shafts[s].reference);
+    if (direction_[s] == 0) {
+      log->push_back({t, name, "comes to rest and is held"});
+    } else {
+      log->push_back({t, name, direction_[s] > 0 ? "moves forwards" : "moves backwards"});
+    }
+  }
+}
+
+double Equations::next_edge(double t) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const auto& pool : model_->pools) next = std::min(next, pool->next_edge(t));
+  for (const PrescribedSpeed& given : model_->network.prescribed) next = std::min(next, given.next_edge(t));
+  return next;
+}
+
+void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log) {
+  const std::vector<char> before = active_;
+  for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  for (std::size_t e = 0; e < active_.size(); ++e)
+    if (active_[e] != before[e]) log.push_back({t, model_->network.elements[e].component, active_[e] ? "on" : "off"});
+  std::vector<std::size_t> still;
+  for (const int s : directional_)
+    if (direction_[at(s)] == 0) still.push_back(at(s));
+  if (!still.empty()) settle_directions(t, y, still, nullptr);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Angles
+
+bool Equations::needs_wrap(std::span<const double> y) const {
+  for (std::size_t i = 0; i < turns_.size(); ++i)
+    if (std::abs(y[i]) > 4 * two_turns) return true;
+  return false;
+}
+
+bool Equations::wrap(std::span<double> y) {
+  bool changed = false;
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    const double k = std::floor(y[i] / two_turns);
+    if (k == 0) continue;
+    y[i] = std::fma(-k, two_turns, y[i]) - k * two_turns_rest;
+    turns_[i] += k;
+    changed = true;
+  }
+  return changed;
+}
+
+double Equations::angle_with_turns(std::size_t tracked, std::span<const double> y) const {
+  return static_cast<double>(static_cast<long double>(turns_[tracked]) * 4 * std::numbers::pi_v<long double> + y[tracked]);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Outputs
+
+const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
+  const Model& m = *model_;
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate_.data());
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].slope(t);
+  find_joint_torques(alpha_.data());
+  const TrackedAngle& reference = m.angles[at(m.reduction_angle)];
+  shaft_angle_[at(reference.shaft)] = angle_with_turns(at(m.reduction_angle), y) / reference.gain;
+  set_shaft_angles(snapshot_.now.twist, shaft_angle_);
+  for (std::size_t n = 0; n < node_angle_.size(); ++n) node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
+  snapshot_.alpha = alpha_.data();
+  snapshot_.joint_torque = joint_torque_.data();
+  snapshot_.node_angle = node_angle_.data();
+  snapshot_.quadrature = audit() ? y.data() + states_ : nullptr;
+  return snapshot_;
+}
+
+double Equations::kinetic_energy(double t, std::span<const double> y) {
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  double sum = 0;
+  for (std::size_t s = 0; s < model_->shafts.size(); ++s) sum += 0.5 * inertia_[s] * snapshot_.now.speed[s] * snapshot_.now.speed[s];
+  return sum;
+}
+
+double Equations::kinetic_energy_of_bodies(double t, std::span<const double> y) {
+  const Instant now = instant(t, y);
+  double sum = 0;
+  for (std::size_t s = 0; s < model_->shafts.size(); ++s) sum += 0.5 * constant_inertia_[s] * now.speed[s] * now.speed[s];
+  for (const auto& pool : model_->pools) sum += pool->kinetic_energy_of_bodies(now);
+  return sum;
+}
+
+double Equations::stored_energy(double t, std::span<const double> y) {
+  const Instant now = instant(t, y);
+  double sum = 0;
+  for (const auto& pool : model_->pools) sum += pool->energy(now);
+  return sum;
+}
+
+}  // namespace kurbel

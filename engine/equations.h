@@ -1,0 +1,120 @@
+// equations.h — the equations of motion of a compiled model, and the modes that hold between events.
+//
+// State: [ angles φ | twists θ | speeds ω | quadratures ].
+//   φ̇ = gain ω,   θ̇ = gain_a ω_a − gain_b ω_b,   I(φ) ω̇ = Σ torques − ½ I′ ω²          (THEORY 2.4, 5)
+// Twists are states of their own: a twist of 1e-4 rad keeps its digits when the machine has turned 1e6 rad.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/model.h"
+#include "engine/stepper.h"
+
+namespace kurbel {
+
+struct Event {
+  double t = 0;
+  std::string component, what;
+};
+
+class Equations final : public OdeSystem {
+ public:
+  // With an audit the work of every account and the squares of the torques are integrated along.
+  Equations(std::shared_ptr<const Model> model, bool audit);
+
+  // OdeSystem
+  std::size_t size() const override { return states_ + quadratures_; }
+  void flow(double t, std::span<const double> y, std::span<double> ydot) override;
+  const SparsityPattern& jacobian_pattern() override;
+  void jacobian(double t, std::span<const double> y, std::span<double> values) override;
+
+  const Model& model() const { return *model_; }
+  std::shared_ptr<const Model> shared_model() const { return model_; }
+  bool audit() const { return quadratures_ > 0; }
+  // Scales of all states: speeds by rated speed, twists by rated torque over stiffness, angles by 1 rad.
+  ErrorControl error_control(double tolerance) const;
+  std::string state_name(std::size_t state) const;
+
+  // State at the start as the scene demands it; sets all modes.
+  std::vector<double> start(double t);
+
+  // --- events ---
+  std::size_t guard_count() const { return guard_count_; }
+  void guards(double t, std::span<const double> y, std::span<double> g);
+  // Changes the modes whose guards fired (y may be set exactly onto the event). Appends to `log`.
+  void fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log);
+  double next_edge(double t) const;
+  void pass_edge(double t, std::span<double> y, std::vector<Event>& log);
+  bool has_directions() const { return !directional_.empty(); }
+  bool at_standstill(std::size_t shaft) const { return direction_[shaft] == 0; }
+
+  // --- angles ---
+  // Takes whole multiples of two turns out of the angles; true if any changed.
+  bool wrap(std::span<double> y);
+  bool needs_wrap(std::span<const double> y) const;
+  double angle_with_turns(std::size_t tracked, std::span<const double> y) const;
+
+  // --- outputs ---
+  const Snapshot& snapshot(double t, std::span<const double> y);
+  double kinetic_energy(double t, std::span<const double> y);
+  // The same from the mechanisms' bodies rather than from their reduced inertia; slow.
+  double kinetic_energy_of_bodies(double t, std::span<const double> y);
+  double stored_energy(double t, std::span<const double> y);
+  std::size_t work_index(std::size_t account) const { return states_ + account; }
+  // ∫τ² dt of the transmitted and of the spring torque of a torque joint.
+  std::size_t square_index(std::size_t torque_joint, bool spring) const {
+    return states_ + model_->accounts.size() + 2 * torque_joint + (spring ? 1 : 0);
+  }
+  std::size_t speed_index(int shaft) const { return twists_begin() + model_->twist_count() + static_cast<std::size_t>(shaft); }
+  std::size_t twist_index(int elastic) const { return twists_begin() + static_cast<std::size_t>(elastic); }
+
+ private:
+  struct RigidStep {  // one joint of the tree within a merged shaft, leaves first
+    int joint, child, parent;
+    bool child_is_b;
+  };
+  struct ElasticStep {  // an elastic joint, walked outwards from the reduction link
+    int elastic;
+    bool forward;
+  };
+  std::size_t twists_begin() const { return model_->angle_count(); }
+  Instant instant(double t, std::span<const double> y);
+  void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate);
+  void find_joint_torques(const double* alpha);
+  void write_quadratures(double* rate);
+  void list_rigid_trees();
+  void list_elastic_tree();
+  void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts, std::vector<Event>* log);
+  std::vector<double> start_angles(std::vector<double>& twists);
+  void balance_twists(std::span<double> y, double t);
+  void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
+
+  std::shared_ptr<const Model> model_;
+  std::size_t states_ = 0, quadratures_ = 0, guard_count_ = 0;
+  std::vector<std::size_t> guard_begin_;      // per pool
+  std::vector<int> directional_;              // shafts that carry elements opposing motion
+  std::vector<double> constant_inertia_, inverse_inertia_, inertia_;
+  std::vector<int> variable_;
+  std::vector<RigidStep> rigid_steps_;
+  std::vector<ElasticStep> elastic_steps_;
+
+  // modes, fixed between events
+  std::vector<int> mode_, direction_;
+  std::vector<char> active_;
+  std::vector<double> turns_;                 // per tracked angle, in units of two turns
+
+  // working arrays
+  std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_;
+  std::vector<double> element_torque_, element_inertia_, balance_, joint_torque_, node_angle_, work_rate_, shaft_angle_;
+  std::vector<Hold> shaft_hold_, element_hold_;
+  Snapshot snapshot_{};
+
+  // Jacobian: the model's layout with the quadratures' empty diagonal appended
+  SparsityPattern pattern_;
+  std::vector<double> slot_;
+};
+
+}  // namespace kurbel

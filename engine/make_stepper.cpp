@@ -1,0 +1,62 @@
+// make_stepper.cpp — from the name of a method to the integrator.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/butcher_tables.h"
+#include "engine/explicit_runge_kutta.h"
+#include "engine/stepper.h"
+#include "engine/sundials_stepper.h"
+
+namespace kurbel {
+namespace {
+
+void check(const OdeSystem& system, const ErrorControl& control) {
+  if (!(control.tolerance > 0) || !std::isfinite(control.tolerance))
+    throw std::invalid_argument(fmt::format("error control: tolerance = {}; must be > 0", control.tolerance));
+  if (control.scale.size() != system.size())
+    throw std::invalid_argument(
+        fmt::format("error control: {} scales for {} states; must be one each", control.scale.size(), system.size()));
+  for (std::size_t i = 0; i < control.scale.size(); ++i) {
+    if (!(control.scale[i] >= 0) || !std::isfinite(control.scale[i]))
+      throw std::invalid_argument(
+          fmt::format("error control: scale of state {} = {}; must be ≥ 0 and finite", i, control.scale[i]));
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Method method) {
+  switch (method) {
+    case Method::dormand_prince_54:
+      return "dormand_prince_54";
+    case Method::dormand_prince_853:
+      return "dormand_prince_853";
+    case Method::esdirk_43:
+      return "esdirk_43";
+    case Method::bdf:
+      return "bdf";
+    case Method::adams:
+      return "adams";
+  }
+  return "unknown";
+}
+
+std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorControl control) {
+  check(system, control);
+  switch (method) {
+    case Method::dormand_prince_54:
+      return std::make_unique<ExplicitRungeKutta>(dormand_prince_54(), system, control);
+    case Method::dormand_prince_853:
+      return std::make_unique<ExplicitRungeKutta>(dormand_prince_853(), system, control);
+    case Method::esdirk_43:
+      return make_esdirk_stepper(system, control);
+    case Method::bdf:
+      return make_bdf_stepper(system, control);
+    case Method::adams:
+      return make_adams_stepper(system, control);
+  }
+  throw std::invalid_argument(fmt::format("method {} is unknown", static_cast<int>(method)));
+}
+
+}  // namespace kurbel

@@ -1,0 +1,109 @@
+// model.h — a machine compiled into its smallest set of coordinates; never changes after it is made.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/network.h"
+#include "engine/scene.h"
+#include "engine/stepper.h"
+
+namespace kurbel {
+
+// One coordinate: all nodes that are rigidly joined, reduced to one of them.
+struct Shaft {
+  int reference = 0;          // node whose speed is the shaft's speed ω
+  std::vector<int> nodes;
+  double inertia = 0;         // constant part, on the reference node [kg·m²]
+  double mean_inertia = 0;    // with the mean of the mechanisms
+  bool variable = false;      // carries a mechanism
+  bool directional = false;   // carries an element that opposes motion
+  int prescribed = -1;        // its speed is given
+  double speed_scale = 1;     // [rad/s]
+  double torque_scale = 1;    // [N·m]
+};
+
+// A joint that stayed elastic. θ = gain_a φ_A − gain_b φ_B over the merged shafts A, B.
+struct ElasticJoint {
+  int joint = 0;  // in the network
+  int shaft_a = 0, shaft_b = 0;
+  double gain_a = 1, gain_b = 1;
+  double twist_scale = 1e-4;  // [rad]
+};
+
+// An angle that something depends on: turns are kept apart from the remainder.
+struct TrackedAngle {
+  int node = 0, shaft = 0;
+  double gain = 1;  // dφ/dt = gain · ω
+};
+
+// A coupling, whether it stayed elastic or was merged: its torque is a result of every run.
+struct TorqueJoint {
+  std::string component;
+  int joint = 0;
+  int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
+  double torque_scale = 1;    // [N·m]
+};
+
+struct WorkAccount {
+  std::string name;
+  Account kind;
+};
+
+// Where the derivatives of the elements go in the sparse Jacobian of the states (quadratures not counted).
+struct JacobianLayout {
+  SparsityPattern pattern;
+  std::vector<std::size_t> slot_position;                      // per slot: stored entry; one past the end: no state
+  std::vector<std::pair<std::size_t, double>> constant;        // kinematic entries: stored entry, value
+  std::vector<int> row_shaft;                                  // per stored entry: shaft of a speed's row, else −1
+};
+
+struct Model {
+  Scene scene;
+  Effects effects;
+  Network network;
+  std::vector<Shaft> shafts;        // free ones first, prescribed ones last
+  std::size_t free_shafts = 0;
+  std::vector<int> shaft_of_node;
+  std::vector<double> gain_of_node;  // ω_node = gain · ω_shaft
+  std::vector<double> node_ratio;    // ω_node / ω_reduction_link when the whole machine turns rigidly
+  std::vector<ElasticJoint> elastic;
+  std::vector<TrackedAngle> angles;
+  std::vector<TorqueJoint> torque_joints;
+  std::vector<WorkAccount> accounts;
+  std::vector<std::unique_ptr<ElementPool>> pools;
+  std::vector<Channel> pool_channels;
+  std::size_t mode_slots = 0;
+  std::vector<std::string> merged;   // what was merged and why, a line each
+
+  int reduction_node = 0;            // crank of the first mechanism, else the line's first shaft
+  int reduction_angle = 0;           // its tracked angle
+  double cycle = 0;                  // angle of one cycle of the reduction link [rad]; 0: none
+  int reduction_element = -1;        // first mechanism among the elements
+  double speed_scale = 1, torque_scale = 1;  // of the reduction link
+  JacobianLayout jacobian;
+  double fastest_rate = 0;           // upper bound of the linearised drive's eigenvalues [1/s]
+
+  std::size_t angle_count() const { return angles.size(); }
+  std::size_t twist_count() const { return elastic.size(); }
+  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts; }
+  std::string node_label(int node) const;
+  // What was merged, the coordinates, their inertias, and why.
+  std::string explain() const;
+};
+
+// Lets every element register its derivatives, and sorts them into a compressed-column pattern.
+JacobianLayout lay_out_jacobian(const Model& model);
+
+// Fills the network from a scene's components. Throws SceneError with everything that the components refuse.
+Network build_network(const Scene& scene);
+
+// Compiles a scene with the given effects. Throws SceneError where the equations would be singular.
+std::shared_ptr<const Model> compile(const Scene& scene, const Effects& effects);
+
+// Compiles a network made by hand (benches, library users); scene carries effects and run settings.
+std::shared_ptr<const Model> compile_network(Network network, const Scene& scene, const Effects& effects);
+
+}  // namespace kurbel

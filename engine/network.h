@@ -1,0 +1,163 @@
+// network.h — the machine before merging: every shaft end a node, every connection a joint, every element on its node.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <vector>
+
+#include "engine/element_pool.h"
+
+namespace kurbel {
+
+// The pools of a model, one per type of element, made when its first element comes.
+class PoolSet {
+ public:
+  template <class Pool>
+  Pool& of() {
+    std::unique_ptr<ElementPool>*& known = by_type_[std::type_index(typeid(Pool))];
+    if (!known) {
+      pools_.push_back(std::make_unique<std::unique_ptr<ElementPool>>(std::make_unique<Pool>()));
+      known = pools_.back().get();
+    }
+    return static_cast<Pool&>(**known);
+  }
+  std::vector<std::unique_ptr<ElementPool>> release();
+
+ private:
+  std::map<std::type_index, std::unique_ptr<ElementPool>*> by_type_;
+  std::vector<std::unique_ptr<std::unique_ptr<ElementPool>>> pools_;  // in the order of first use
+};
+
+// An elastic connection, waiting to be placed into its pool.
+class ConnectionMaker {
+ public:
+  virtual ~ConnectionMaker() = default;
+  virtual void settle(double inertia) = 0;
+  virtual double stiffness() const = 0;
+  virtual double damping() const = 0;
+  virtual double twist_at(double torque) const = 0;
+  virtual double torque(double twist, double rate) const = 0;
+  // dτ/dt from θ̇ and θ̈.
+  virtual double torque_rate(double twist, double rate, double acceleration) const = 0;
+  virtual void place(PoolSet& pools, const ConnectionPorts& ports) const = 0;
+};
+
+template <class E>
+class ConnectionMakerOf final : public ConnectionMaker {
+ public:
+  explicit ConnectionMakerOf(E element) : element_(std::move(element)) {}
+  void settle(double inertia) override {
+    if constexpr (requires(E& e) { e.settle(inertia); }) element_.settle(inertia);
+  }
+  double stiffness() const override { return element_.stiffness_at_rest(); }
+  double damping() const override {
+    return element_.torque(Twist<Dual<1>>{Dual<1>(0.0), Dual<1>::input(0.0, 0)}).d[0];
+  }
+  double twist_at(double torque) const override { return element_.twist_at(torque); }
+  double torque(double twist, double rate) const override { return element_.torque(Twist<double>{twist, rate}); }
+  double torque_rate(double twist, double rate, double acceleration) const override {
+    Twist<Dual<1>> x{Dual<1>(twist), Dual<1>(rate)};
+    x.angle.d[0] = rate;
+    x.rate.d[0] = acceleration;
+    return element_.torque(x).d[0];
+  }
+  void place(PoolSet& pools, const ConnectionPorts& ports) const override {
+    pools.of<ConnectionPool<E>>().place(element_, ports);
+  }
+
+ private:
+  E element_;
+};
+
+// An element on a shaft, waiting to be placed. Mechanisms have makers of their own.
+class ShaftElementMaker {
+ public:
+  virtual ~ShaftElementMaker() = default;
+  virtual bool uses_angle() const { return false; }
+  virtual bool directional() const { return false; }
+  virtual Rated rated() const { return {}; }
+  virtual Account account() const = 0;
+  virtual double mean_inertia() const { return 0; }  // of a mechanism, on its own shaft
+  virtual double cycle() const { return 0; }         // angle of one cycle of a mechanism [rad]
+  virtual int mode_count() const { return 1; }
+  // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
+  virtual std::vector<std::pair<std::string, Account>> further_accounts() const { return {}; }
+  virtual void place(PoolSet& pools, const ShaftPorts& ports) const = 0;
+};
+
+template <class E>
+class ShaftElementMakerOf final : public ShaftElementMaker {
+ public:
+  explicit ShaftElementMakerOf(E element) : element_(std::move(element)) {}
+  bool uses_angle() const override { return UsesAngle<E>; }
+  bool directional() const override { return Directional<E>; }
+  Rated rated() const override { return element_.rated(); }
+  Account account() const override {
+    if constexpr (requires { element_.work_account; }) return element_.work_account;
+    else return E::account;
+  }
+  void place(PoolSet& pools, const ShaftPorts& ports) const override { pools.of<ShaftPool<E>>().place(element_, ports); }
+
+ private:
+  E element_;
+};
+
+// A speed that is given as a function of time.
+struct PrescribedSpeed {
+  std::vector<double> time, speed;  // straight between the points; constant before and after [s, rad/s]
+  double amplitude = 0, frequency = 0, phase = 0;  // + amplitude sin(2π f t + phase) [rad/s, Hz, rad]
+  double value(double t) const;
+  double slope(double t) const;  // dω/dt from the right
+  double next_edge(double t) const;
+};
+
+class Network {
+ public:
+  struct Node {
+    std::string component, label;
+    double inertia = 0;  // [kg·m²]
+    int prescribed = -1;
+  };
+  // φ_a = ratio φ_b, plus the twist where the joint is elastic.
+  struct Joint {
+    int a = 0, b = 0;
+    double ratio = 1;
+    std::string component;
+    std::shared_ptr<ConnectionMaker> element;  // null: always rigid
+    bool elastic = false;                      // by the effects that are on
+  };
+  struct ShaftElement {
+    int node = 0;
+    std::string component;
+    std::shared_ptr<ShaftElementMaker> element;
+    Window window;
+    double phase = 0;
+  };
+  struct Ports {
+    int in = -1, out = -1;
+  };
+
+  int add_node(const std::string& component, const std::string& label, double inertia);
+  void join(int a, int b, double ratio, const std::string& component);
+  template <class E>
+  void connect(int a, int b, double ratio, const std::string& component, E element) {
+    joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false});
+  }
+  template <class E>
+  void put(int node, const std::string& component, E element, Window window = {}) {
+    put_made(node, component, std::make_shared<ShaftElementMakerOf<E>>(std::move(element)), window, 0);
+  }
+  void put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window, double phase);
+  void prescribe(int node, PrescribedSpeed speed);
+
+  std::vector<Node> nodes;
+  std::vector<Joint> joints;
+  std::vector<ShaftElement> elements;
+  std::vector<PrescribedSpeed> prescribed;
+  std::map<std::string, Ports> ports;            // of each component
+  std::vector<std::string> components;           // canonical order
+};
+
+}  // namespace kurbel

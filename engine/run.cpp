@@ -1,0 +1,318 @@
+// run.cpp — the event loop: step, look at the guards, go back to the first event, change modes, go on.
+#include "engine/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <utility>
+
+namespace kurbel {
+namespace {
+
+double cpu_now() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Method method_named(const std::string& name) {
+  if (name == "auto" || name == "dop853") return Method::dormand_prince_853;
+  if (name == "dopri5") return Method::dormand_prince_54;
+  if (name == "esdirk") return Method::esdirk_43;
+  if (name == "bdf") return Method::bdf;
+  if (name == "adams") return Method::adams;
+  throw std::invalid_argument(fmt::format("method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
+}
+
+// A guard that is this far below zero (of a scale of one) has fired.
+constexpr double fired_below = -1e-11;
+constexpr int most_events_at_once = 100;
+
+// Explicit steps that stability holds down are worth leaving once implicit ones get this much longer.
+constexpr int held_steps_before_switch = 300;
+constexpr double implicit_step_cost = 8;
+
+class Loop {
+ public:
+  Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
+      : equations_(equations), options_(options), observers_(observers), guard_(equations.guard_count()), guard_before_(guard_.size()) {}
+
+  RunOutcome run() {
+    begin_ = cpu_now();
+    try {
+      start();
+      while (stepper_->t() < options_.until && advance()) {
+      }
+      out_.complete = out_.diagnosis.empty();
+    } catch (const StepFailure& failure) {
+      fail(failure.time, fmt::format("{}; worst: {}. Try another method, a looser accuracy, or a smaller stiffness or load step there", failure.what(), equations_.state_name(failure.state)));
+    }
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  void start() {
+    std::vector<double> y = equations_.start(0);
+    method_ = method_named(options_.method);
+    out_.statistics.method = std::string(name_of(method_));
+    if (options_.method != "auto") {
+      out_.statistics.reason = "asked for";
+    } else if (equations_.model().elastic.empty()) {
+      out_.statistics.reason = "rigid: nothing is stiff, and a high order takes the longest steps";
+    } else {
+      out_.statistics.reason = "explicit while its steps are held by accuracy, not by stability";
+    }
+    make(method_, 0, y);
+    for (Observer* observer : observers_) observer->begin(0, stepper_->y(), equations_);
+  }
+
+  void make(Method method, double t, std::span<const double> y) {
+    if (stepper_) add_statistics();
+    stepper_ = make_stepper(method, equations_, equations_.error_control(options_.tolerance));
+    method_ = method;
+    restart(t, y);
+  }
+
+  void restart(double t, std::span<const double> y) {
+    state_.assign(y.begin(), y.end());
+    stepper_->start(t, state_);
+    equations_.guards(t, state_, guard_before_);
+    edge_ = equations_.next_edge(t);
+  }
+
+  // One step with all that happens at its end. False: the run ends here.
+  bool advance() {
+    if (out_of_budget()) return false;
+    stepper_->step(limit());
+    equations_.guards(stepper_->t(), stepper_->y(), guard_);
+    const std::vector<std::size_t> fired = locate_event();
+    StepView view(equations_, *stepper_);
+    if (stepper_->t() > stepper_->t_previous())
+      for (Observer* observer : observers_) observer->step(view);
+    const double t = stepper_->t();
+    if (!fired.empty()) return pass_event(t, fired);
+    if (t >= edge_) {
+      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      equations_.pass_edge(t, y, out_.events);
+      equations_.wrap(y);
+      restart(t, y);
+      return true;
+    }
+    if (equations_.needs_wrap(stepper_->y())) {
+      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      equations_.wrap(y);
+      restart(t, y);
+      return true;
+    }
+    std::swap(guard_, guard_before_);
+    watch_stiffness();
+    return true;
+  }
+
+  // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back unseen.
+  double limit() const {
+    double t = std::min(options_.until, edge_);
+    const Model& m = equations_.model();
+    for (const TrackedAngle& angle : m.angles) {
+      if (!m.shafts[static_cast<std::size_t>(angle.shaft)].variable && equations_.guard_count() == 0) continue;
+      if (static_cast<std::size_t>(angle.shaft) >= m.free_shafts) continue;
+      const double omega = std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
+      if (omega > 0) t = std::min(t, stepper_->t() + 0.5 * M_PI / omega);
+    }
+    return t;
+  }
+
+  double guard_at(double t, std::size_t which) {
+    work_.resize(equations_.size());
+    stepper_->interpolate(t, work_);
+    probe_.resize(guard_.size());
+    equations_.guards(t, work_, probe_);
+    return probe_[which];
+  }
+
+  // Goes back to the first guard that fired within the step; returns all that fire there, none if the step was smooth.
+  std::vector<std::size_t> locate_event() {
+    std::vector<std::size_t> fired;
+    for (int round = 0; round < 8; ++round) {
+      std::vector<std::size_t> below;
+      for (std::size_t i = 0; i < guard_.size(); ++i)
+        if (guard_[i] < fired_below) below.push_back(i);
+      if (below.empty()) return fired;
+      const double t0 = stepper_->t_previous(), t1 = stepper_->t();
+      // The mode was wrong from the step's begin: nothing to find, take the whole step back.
+      fired.clear();
+      for (const std::size_t i : below)
+        if (guard_before_[i] <= 0) fired.push_back(i);
+      if (!fired.empty()) {
+        at_begin_ = true;
+        return fired;
+      }
+      double first = t1;
+      std::vector<double> root(below.size());
+      for (std::size_t k = 0; k < below.size(); ++k) {
+        const std::size_t i = below[k];
+        root[k] = find_root([&](double t) { return guard_at(t, i); }, t0, guard_before_[i], t1, guard_[i], 1e-14);
+        first = std::min(first, root[k]);
+      }
+      for (std::size_t k = 0; k < below.size(); ++k)
+        if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k]);
+      land_on(first, fired.front());
+      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      // What is at its root now counts as fired; another guard may have fired before it.
+      for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
+    }
+    return fired;
+  }
+
+  // A true step onto the event, corrected by the secant until the guard is zero to round-off.
+  void land_on(double t, std::size_t guard) {
+    const double t0 = stepper_->t_previous(), t1 = stepper_->t();
+    const double delta = 1e-4 * (t1 - t0);
+    const double slope = (guard_at(std::min(t + delta, t1), guard) - guard_at(std::max(t - delta, t0), guard)) /
+                         (std::min(t + delta, t1) - std::max(t - delta, t0));
+    double last = HUGE_VAL;
+    for (int i = 0; i < 4; ++i) {
+      if (!(t > t0)) t = std::nextafter(t0, t1);
+      stepper_->retake(t);
+      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      const double residual = guard_[guard];
+      if (std::abs(residual) < 1e-14 || std::abs(residual) > 0.1 * last || slope == 0) return;
+      last = std::abs(residual);
+      const double better = t - residual / slope;
+      if (!(better > t0) || better > t1) return;
+      t = better;
+    }
+  }
+
+  bool pass_event(double t, const std::vector<std::size_t>& fired) {
+    const bool at_begin = std::exchange(at_begin_, false);
+    const double time = at_begin ? stepper_->t_previous() : t;
+    const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
+    std::vector<double> y(source.begin(), source.end());
+    events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
+    last_event_ = time;
+    if (events_here_ > most_events_at_once) {
+      fail(time, fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge (rise) or its friction", most_events_at_once));
+      return false;
+    }
+    ++out_.statistics.events;
+    equations_.fire(time, y, fired, out_.events);
+    equations_.wrap(y);
+    restart(time, y);
+    return true;
+  }
+
+  // From explicit to implicit when stability holds the steps down, and back if that did not pay.
+  void watch_stiffness() {
+    if (options_.method != "auto" || equations_.model().elastic.empty()) return;
+    const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
+    if (method_ == Method::dormand_prince_853) {
+      held_ = stepper_->held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
+      if (held_ < held_steps_before_switch || implicit_failed_ || left < 10 * held_steps_before_switch * h) return;
+      explicit_step_ = h;
+      implicit_since_ = stepper_->t();
+      implicit_steps_ = 0;
+      const double t = stepper_->t();
+      const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      make(Method::esdirk_43, t, y);
+      out_.statistics.method += fmt::format(", from {:.4g} s on {}", t, name_of(Method::esdirk_43));
+      out_.statistics.reason = fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h);
+      return;
+    }
+    if (++implicit_steps_ != 100) return;
+    const double mean = (stepper_->t() - implicit_since_) / 100;
+    if (mean >= implicit_step_cost * explicit_step_) return;
+    implicit_failed_ = true;
+    const double t = stepper_->t();
+    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    make(Method::dormand_prince_853, t, y);
+    out_.statistics.method += fmt::format(", from {:.4g} s on {}", t, name_of(Method::dormand_prince_853));
+    out_.statistics.reason = fmt::format("implicit steps of {:.3g} s were not long enough to pay for themselves", mean);
+  }
+
+  bool out_of_budget() {
+    if (++checks_ % 64 != 0) return false;
+    if (options_.interrupted && options_.interrupted->load()) {
+      fail(stepper_->t(), "interrupted");
+      return true;
+    }
+    if (options_.progress) options_.progress(stepper_->t() / options_.until);
+    if (cpu_now() - begin_ < options_.budget) return false;
+    const double h = stepper_->t() - stepper_->t_previous();
+    fail(stepper_->t(), fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). Raise `budget`, loosen `accuracy`, or switch an effect off", options_.budget, h));
+    return true;
+  }
+
+  void fail(double t, const std::string& why) { out_.diagnosis = fmt::format("stopped at t = {:.9g} s: {}", t, why); }
+
+  void add_statistics() {
+    const StepperStatistics& s = stepper_->statistics();
+    StepperStatistics& sum = out_.statistics.stepper;
+    sum.steps += s.steps;
+    sum.rejected += s.rejected;
+    sum.flow_calls += s.flow_calls;
+    sum.jacobian_calls += s.jacobian_calls;
+    sum.factorisations += s.factorisations;
+    sum.restarts += s.restarts;
+  }
+
+  void finish() {
+    if (stepper_) {
+      add_statistics();
+      out_.t = stepper_->t();
+      out_.state.assign(stepper_->y().begin(), stepper_->y().end());
+    }
+    out_.statistics.cpu_seconds = cpu_now() - begin_;
+  }
+
+  Equations& equations_;
+  const RunOptions& options_;
+  const std::vector<Observer*>& observers_;
+  std::unique_ptr<Stepper> stepper_;
+  Method method_ = Method::dormand_prince_853;
+  RunOutcome out_;
+  std::vector<double> guard_, guard_before_, probe_, work_, state_;
+  double begin_ = 0, edge_ = 0, last_event_ = -1;
+  int events_here_ = 0, held_ = 0, implicit_steps_ = 0;
+  double explicit_step_ = 0, implicit_since_ = 0;
+  bool at_begin_ = false, implicit_failed_ = false;
+  std::int64_t checks_ = 0;
+};
+
+}  // namespace
+
+std::span<const double> StepView::at(double time) {
+  if (time >= stepper_.t()) return stepper_.y();
+  if (time <= stepper_.t_previous()) return stepper_.y_previous();
+  stepper_.interpolate(time, scratch_);
+  return scratch_;
+}
+
+double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough) {
+  for (int i = 0; i < 100; ++i) {
+    if (fb == 0 || std::abs(fb) <= enough) return b;
+    double c = (fa * b - fb * a) / (fa - fb);
+    if (!(c > std::min(a, b) && c < std::max(a, b))) c = 0.5 * (a + b);
+    if (c == a || c == b || std::abs(b - a) <= 4e-16 * std::max(std::abs(a), std::abs(b))) return b;
+    const double fc = f(c);
+    if ((fc > 0) == (fb > 0)) {
+      fa *= 0.5;  // Illinois: keeps the far end from standing still
+    } else {
+      a = b;
+      fa = fb;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
+}
+
+RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers) {
+  return Loop(equations, options, observers).run();
+}
+
+}  // namespace kurbel

@@ -1,0 +1,74 @@
+// run.h — integrates a model from its start to its end: steps, events, and whoever watches.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/equations.h"
+#include "engine/stepper.h"
+
+namespace kurbel {
+
+struct RunOptions {
+  double tolerance = 1e-8;                  // local, over the scale of each state
+  std::string method = "auto";              // auto, dopri5, dop853, esdirk, bdf, adams
+  double until = 1;                         // [s]
+  double budget = 300;                      // processor time [s]
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(double fraction)> progress;
+};
+
+struct RunStatistics {
+  StepperStatistics stepper;
+  std::int64_t events = 0;
+  double cpu_seconds = 0;
+  std::string method;  // what ran
+  std::string reason;  // and why
+};
+
+// The state of a run just after an accepted step, for observers. Between t_previous and t the solution is smooth.
+class StepView {
+ public:
+  StepView(Equations& equations, Stepper& stepper) : equations_(equations), stepper_(stepper), scratch_(equations.size()) {}
+  double t_previous() const { return stepper_.t_previous(); }
+  double t() const { return stepper_.t(); }
+  std::span<const double> y() const { return stepper_.y(); }
+  std::span<const double> y_previous() const { return stepper_.y_previous(); }
+  // The state at a time within the step; valid until the next call.
+  std::span<const double> at(double time);
+  const Snapshot& snapshot(double time) { return equations_.snapshot(time, at(time)); }
+  Equations& equations() { return equations_; }
+
+ private:
+  Equations& equations_;
+  Stepper& stepper_;
+  std::vector<double> scratch_;
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void begin(double /*t*/, std::span<const double> /*y*/, Equations&) {}
+  virtual void step(StepView& view) = 0;
+};
+
+struct RunOutcome {
+  bool complete = false;
+  std::string diagnosis;  // of an incomplete run: when, where, why, what to try
+  double t = 0;
+  std::vector<double> state;
+  std::vector<Event> events;
+  RunStatistics statistics;
+};
+
+// Never throws for a run that fails on its way: the outcome says so and keeps what was computed.
+// Throws std::invalid_argument for an unknown method.
+RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers);
+
+// Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.
+double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
+
+}  // namespace kurbel

@@ -1,0 +1,76 @@
+// scene.h — a machine as its file describes it: plain values in SI, each with its place in the file.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/keys.h"
+#include "engine/messages.h"
+
+namespace kurbel {
+
+// Which effects are simulated. Every name in `elastic` is a component whose elasticity is on.
+struct Effects {
+  bool all_elastic = false;
+  std::vector<std::string> elastic;
+
+  bool is_elastic(const std::string& component) const;
+  std::string describe() const;  // "elasticity", "elasticity of main_coupling", "none"
+};
+
+// Start of one component: what is not given follows from the others.
+struct ComponentStart {
+  std::optional<double> angle = {}, speed = {}, twist = {};  // rad, rad/s, rad
+  Location at;
+};
+
+struct StartSettings {
+  bool equilibrium = false;  // twists balance the loads
+  double angle = 0, speed = 0;
+  std::string on;  // component that angle and speed belong to; empty: the reduction link
+  std::map<std::string, ComponentStart> components;
+  Location at;
+};
+
+struct RunSettings {
+  StartSettings start;
+  double until = 1;            // s
+  double accuracy = 1e-6;      // measured error of every figure over its scale
+  std::string method = "auto";
+  std::string model = "reduced";
+  int samples = 1000;          // rows of the trajectory
+  std::vector<std::string> output;  // components in the trajectory; empty: all (both ends of long chains)
+  double budget = 300;         // s of CPU time for one integration
+};
+
+// A row of components along a shaft, beginning at a component of another line ("" for the main line).
+struct Line {
+  std::string from = {};  // "gearbox.out"
+  std::vector<std::string> names = {};
+  Location at = {};
+  std::vector<Location> name_at = {};
+};
+
+struct Scene {
+  std::string file, title, text;
+  std::vector<Line> lines;           // main line first, branches in canonical order
+  std::vector<Section> components;   // canonical order: along the lines, then by name
+  Effects effects;
+  RunSettings run;
+
+  const Section* find(const std::string& name) const;
+};
+
+// Reads a scene; `kinds` lists the components that a line may hold. Throws SceneError with all errors of the file.
+Scene read_scene(const std::string& path, const std::vector<Kind>& kinds);
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds);
+
+// "none", "elasticity", or "elasticity:motor_coupling,main_coupling". Throws std::invalid_argument.
+Effects parse_effects(const std::string& text, const Scene& scene);
+
+// Keys of [run], for the docs.
+const std::vector<Key>& run_keys();
+
+}  // namespace kurbel

@@ -1,0 +1,94 @@
+// periodic_table.h — several functions of an angle with period 2π, tabulated together in adaptive polynomial pieces.
+//
+// [0, 2π) is cut into dyadic pieces, short where a channel bends; every piece carries one polynomial of degree 9 per channel.
+// A uniform grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same everywhere:
+//
+//     const auto cursor = table.locate(phi);          // wraps phi, finds the piece
+//     const double inertia = table.value(cursor, 0);  // channel 0 there
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kurbel {
+
+// What a channel's error is compared with.
+enum class ErrorScale {
+  own_value,   // |value| at the same angle: for a channel that keeps its sign
+  own_maximum  // largest |value| over the period: for a channel that passes through zero
+};
+
+struct ChannelSpec {
+  std::string name;
+  ErrorScale scale = ErrorScale::own_maximum;
+  double least_scale = 0;  // in the channel's unit, ≥ 0: a channel that is mere rounding noise is compared with this
+};
+
+// How well the pieces met fresh samples at check points between the nodes.
+struct TableReport {
+  struct Channel {
+    std::string name;
+    double maximum = 0;  // largest |value| sampled
+    double error = 0;    // largest measured error, relative to the channel's scale
+  };
+  std::size_t pieces = 0;   // in the finished table
+  std::size_t samples = 0;  // taken in all
+  bool converged = false;   // every error within the tolerance
+  std::vector<Channel> channels;
+};
+
+class PeriodicTable {
+ public:
+  static constexpr std::size_t degree = 9;
+  static constexpr double period = 2 * std::numbers::pi;
+
+  // Writes all channels at an angle in [0, 2π].
+  using Sampler = std::function<void(double phi, std::span<double> values)>;
+
+  // A place in the table, good for every channel.
+  struct Cursor {
+    const double* coefficients;  // of the piece, channel after channel
+    double x;                    // −1 … 1 within the piece
+  };
+
+  // Bisects pieces until each agrees with fresh samples to `tolerance` of every channel's scale, or there are max_pieces;
+  // report().converged and the errors say which. Throws std::invalid_argument on an empty or senseless request.
+  static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
+                             std::size_t max_pieces);
+
+  // Any angle. One that is not finite gives values that are NaN.
+  Cursor locate(double phi) const {
+    if (!(phi >= 0 && phi < period)) return locate_wrapped(phi);
+    const double* piece = pieces_.data() + grid_[static_cast<std::size_t>(phi * cells_per_radian_)];
+    return {piece + header, (phi - piece[0]) * piece[1]};
+  }
+
+  // Two interleaved Horner schemes, for the even and the odd powers.
+  static double value(Cursor at, std::size_t channel) {
+    const double* c = at.coefficients + channel * (degree + 1);
+    const double x = at.x, y = x * x;
+    const double even = c[0] + y * (c[2] + y * (c[4] + y * (c[6] + y * c[8])));
+    const double odd = c[1] + y * (c[3] + y * (c[5] + y * (c[7] + y * c[9])));
+    return even + x * odd;
+  }
+
+  const TableReport& report() const { return report_; }
+
+ private:
+  friend class TableBuilder;
+  static constexpr std::size_t header = 2;  // middle [rad] and 1/half-width [1/rad] precede a piece's coefficients
+
+  Cursor locate_wrapped(double phi) const;
+
+  double cells_per_radian_ = 0;
+  std::vector<std::uint32_t> grid_;  // cell → where its piece begins in pieces_; one more for an angle rounded up to 2π
+  std::vector<double> pieces_;
+  TableReport report_;
+};
+
+}  // namespace kurbel

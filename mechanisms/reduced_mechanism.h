@@ -1,0 +1,88 @@
+// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody.
+//
+// Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost digits.
+//     (2.4)  M_d − M_c = I_r ε + ½ ω² I_r′        power of a slider force F: F x′ ω
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "mechanisms/periodic_table.h"
+#include "mechanisms/slider_crank_geometry.h"
+#include "mechanisms/slider_crank_simbody.h"
+
+namespace kurbel {
+
+class ReducedMechanism {
+ public:
+  enum Channel : std::size_t {
+    inertia_channel,            // I_r [kg·m²]
+    inertia_slope,              // I_r′ [kg·m²/rad]
+    inertia_curvature,          // I_r″ [kg·m²/rad²]
+    slider_position_channel,    // x [m]
+    slider_velocity_ratio,      // x′ [m/rad]
+    slider_acceleration_ratio,  // x″ [m/rad²]
+    gravity_torque_channel,     // M_g [N·m], positive when it drives
+    gravity_torque_slope,       // M_g′ [N·m/rad]
+    channel_count
+  };
+
+  // Magnitudes that mark a channel as rounding noise: a channel smaller than these is tabulated relative to them.
+  struct NoiseScales {
+    double inertia = 0;         // for I_r′ and I_r″ [kg·m²]
+    double gravity_torque = 0;  // for M_g and M_g′ [N·m]
+  };
+
+  // The mechanism at one angle; each pair costs two polynomials.
+  class At {
+   public:
+    At(const PeriodicTable& table, double phi) : cursor_(table.locate(phi)) {}
+    double value(Channel channel) const { return PeriodicTable::value(cursor_, channel); }
+    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                       // I_r, I_r′
+    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }              // I_r′, I_r″
+    ValueAndSlope<double> slider_position() const { return pair(slider_position_channel); }       // x, x′
+    ValueAndSlope<double> slider_velocity() const { return pair(slider_velocity_ratio); }         // x′, x″
+    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }         // M_g, M_g′
+
+   private:
+    ValueAndSlope<double> pair(std::size_t first) const {
+      return {PeriodicTable::value(cursor_, first), PeriodicTable::value(cursor_, first + 1)};
+    }
+    PeriodicTable::Cursor cursor_;
+  };
+
+  // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report().
+  ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
+                   std::size_t max_pieces);
+
+  At at(double phi) const { return At(table_, phi); }
+  ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
+  ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
+  ValueAndSlope<double> slider_position(double phi) const { return at(phi).slider_position(); }
+  ValueAndSlope<double> slider_velocity(double phi) const { return at(phi).slider_velocity(); }
+  ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
+
+  // Pieces, samples and the measured error of every channel.
+  const TableReport& report() const { return table_.report(); }
+
+ private:
+  PeriodicTable table_;
+};
+
+// Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what may
+// lie between the check points.
+inline constexpr double table_tolerance = 0.5e-12;
+inline constexpr std::size_t table_max_pieces = 4096;
+
+// The slider-crank extracted from Simbody. Kept for the life of the process and shared by all who ask with equal data.
+// Throws as SliderCrankBodies does. Safe to call from several threads.
+std::shared_ptr<const ReducedMechanism> reduce_slider_crank(const SliderCrankData& data,
+                                                            double tolerance = table_tolerance,
+                                                            std::size_t max_pieces = table_max_pieces);
+
+// The same, always extracted afresh.
+ReducedMechanism extract_slider_crank(const SliderCrankData& data, double tolerance = table_tolerance,
+                                      std::size_t max_pieces = table_max_pieces);
+
+}  // namespace kurbel

@@ -1,0 +1,101 @@
+// simbody_reduction.h — reduces a planar Simbody mechanism of one degree of freedom to one coordinate, exactly.
+//
+// C++17 island: include it only from sources that are compiled against Simbody.
+//
+// The mechanism is a tree of Pin and Slider mobilizers moving parallel to the x-y plane, its loops closed by PointInPlane
+// constraints (one for a slider's line, two for a pin). Inertia, speeds, accelerations and constraint matrices are Simbody's.
+// Two things that Simbody does not give are computed here from Simbody's own topology and frames: the closure error in
+// extended precision (near a dead position double loses half its digits) and the third derivative of the motion, for I_r″.
+#pragma once
+
+#include <Simbody.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace kurbel {
+
+// A point fixed to a body.
+struct TrackedPoint {
+  SimTK::MobilizedBodyIndex body;
+  SimTK::Vec3 station;  // in the body's frame [m]
+};
+
+// A tracked point's position and its first two derivatives by the reduction coordinate.
+struct PointMotion {
+  SimTK::Vec3 position, velocity_ratio, acceleration_ratio;
+};
+
+// The mechanism as seen from its reduction coordinate φ, at one configuration; derivatives are by φ.
+struct Reduction {
+  double inertia = 0, slope = 0, curvature = 0;  // I_r, I_r′, I_r″ (2.1)
+  SimTK::Vector q1, q2, q3;                      // dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates
+  std::vector<PointMotion> points;               // one for each tracked point
+  double determinant = 0;    // of ∂(closure errors)/∂(dependent coordinates): changes sign only in a dead position
+  double closure_error = 0;  // Simbody's own, largest [m]
+};
+
+// A planar vector in precision T.
+template <class T>
+struct Planar {
+  T x{}, y{};
+  friend Planar operator+(Planar a, Planar b) { return {a.x + b.x, a.y + b.y}; }
+  friend Planar operator-(Planar a, Planar b) { return {a.x - b.x, a.y - b.y}; }
+  friend Planar operator*(T s, Planar a) { return {s * a.x, s * a.y}; }
+  friend T dot(Planar a, Planar b) { return a.x * b.x + a.y * b.y; }
+  friend Planar left(Planar a) { return {-a.y, a.x}; }  // ẑ × a
+};
+
+// Velocity, acceleration and jerk ratios of a body: of its origin and of its angle.
+struct BodyMotion {
+  Planar<double> v, a, j;
+  double w = 0, alpha = 0, zeta = 0;
+};
+
+class SimbodyReduction {
+ public:
+  SimbodyReduction(const SimTK::MultibodySystem& system, const SimTK::SimbodyMatterSubsystem& matter, int coordinate,
+                   std::vector<TrackedPoint> points);
+
+  // Newton's method on the closure error: moves the dependent coordinates of `state` until its loops close to rounding.
+  // It goes to the assembly branch that the state is near; the caller checks which by reduce().determinant.
+  // Throws std::runtime_error if it does not converge.
+  void close(SimTK::State& state) const;
+
+  // The reduction at a closed state, whose speeds are set to the velocity ratios (dφ/dt = 1). Throws std::runtime_error
+  // if Simbody finds the loops open.
+  Reduction reduce(SimTK::State& state) const;
+
+ private:
+  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  struct Joint {
+    int parent;
+    bool slides;                          // Slider along x of its inboard frame, else Pin
+    Planar<double> in_parent, in_body;    // origin of the inboard frame in the parent, of the outboard frame in the body
+    double tilt;                          // of the inboard frame in the parent [rad]
+    int q;                                // index of its coordinate
+  };
+  struct Closure {
+    int plane_body, follower_body;
+    Planar<double> normal, follower;
+    double height;
+  };
+
+  void read_joints();
+  void read_closures();
+  Extended closure_errors(const Extended& q) const;
+  int dependent(int j) const { return j < coordinate_ ? j : j + 1; }  // index of the j-th dependent coordinate
+  std::vector<BodyMotion> motion_without_q3(const SimTK::State& state, const SimTK::Vector& q2,
+                                            const SimTK::Vector_<SimTK::SpatialVec>& a) const;
+  SimTK::Vector closure_jerks(const SimTK::State& state, const std::vector<BodyMotion>& motion) const;
+
+  const SimTK::MultibodySystem& system_;
+  const SimTK::SimbodyMatterSubsystem& matter_;
+  int coordinate_;
+  std::vector<TrackedPoint> points_;
+  std::vector<Joint> joints_;  // by body; [0] is the ground
+  std::vector<Closure> closures_;
+  double size_ = 0;  // a length no smaller than the mechanism [m]
+};
+
+}  // namespace kurbel

@@ -1,0 +1,189 @@
+// slider_crank_geometry.h — the planar slider-crank in closed form: motion, reduced inertia and weight over the crank angle.
+//
+//                                        ___
+//        y       A  r = OA, l = AB      |   |        O  crank axis, origin        β  rod's angle from +x
+//        |      / `-._  β               | B |  y = e A  crank pin                 e  offset of the slider line
+//        |     / φ    `-._______________|_o_|        B  slider pin
+//        O----------------------------------- x      C  rod's centre of mass, AC = rod_com
+//
+// φ is measured from the +x stroke axis to OA, counter-clockwise, with and without offset. For e = 0, φ = 0 is the extended
+// dead centre and φ = π the folded one; for e ≠ 0 they lie at extended_angle() and folded_angle().
+// The rod always points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
+#pragma once
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace kurbel {
+
+struct SliderCrankData {
+  double radius = 0;          // r [m], > 0
+  double rod_length = 0;      // l [m], > r + |e|
+  double offset = 0;          // e [m], the slider moves on the line y = e
+  double crank_mass = 0;      // [kg], ≥ 0
+  double crank_com = 0;       // from the axis towards the pin [m], < 0: counterweighted
+  double crank_inertia = 0;   // about the crank's axis [kg·m²], ≥ crank_mass · crank_com²
+  double rod_mass = 0;        // [kg], ≥ 0
+  double rod_com = 0;         // from the crank pin along the rod [m]
+  double rod_inertia = 0;     // central [kg·m²], ≥ 0
+  double slider_mass = 0;     // [kg], ≥ 0
+  double gravity = 0;         // [m/s²]
+  double stroke_angle = 0;    // of +x above the horizontal [rad]; +y is 90° ahead of +x
+};
+
+// A function of φ with its first two derivatives by φ.
+template <class T>
+struct ValueSlopeCurvature {
+  T value, slope, curvature;
+};
+
+// A function of φ with its first derivative by φ.
+template <class T>
+struct ValueAndSlope {
+  T value, slope;
+};
+
+// Throws std::invalid_argument naming the first value outside its domain.
+inline void validate(const SliderCrankData& d) {
+  const auto require = [](bool holds, const char* what, double got, const char* domain) {
+    if (holds) return;
+    std::ostringstream message;
+    message << "slider-crank: " << what << " = " << got << "; must be " << domain;
+    throw std::invalid_argument(message.str());
+  };
+  const double values[] = {d.radius,   d.rod_length, d.offset,      d.crank_mass,  d.crank_com, d.crank_inertia,
+                           d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
+  for (const double value : values) require(std::isfinite(value), "a value", value, "finite");
+  require(d.radius > 0, "radius", d.radius, "> 0 m");
+  require(d.rod_length > d.radius + std::fabs(d.offset), "rod_length", d.rod_length, "> radius + |offset|");
+  require(d.crank_mass >= 0, "crank_mass", d.crank_mass, ">= 0 kg");
+  require(d.rod_mass >= 0, "rod_mass", d.rod_mass, ">= 0 kg");
+  require(d.slider_mass >= 0, "slider_mass", d.slider_mass, ">= 0 kg");
+  require(d.rod_inertia >= 0, "rod_inertia", d.rod_inertia, ">= 0 kg m2");
+  const double least_inertia = d.crank_mass * d.crank_com * d.crank_com;
+  require(d.crank_inertia >= least_inertia * (1 - 1e-12), "crank_inertia", d.crank_inertia,
+          ">= crank_mass crank_com^2 (it is taken about the crank's axis)");
+}
+
+// Closed form over T = double, long double or a dual number with sin, cos, sqrt, + − · / and comparison by value.
+class SliderCrankGeometry {
+ public:
+  explicit SliderCrankGeometry(const SliderCrankData& data) : d_(data) { validate(data); }
+  const SliderCrankData& data() const { return d_; }
+
+  // The rod in line with the crank: sin φ = e/(l + r), and sin(φ − π) = e/(l − r).
+  double extended_angle() const { return std::asin(d_.offset / (d_.rod_length + d_.radius)); }
+  double folded_angle() const { return std::acos(-1.0) + std::asin(d_.offset / (d_.rod_length - d_.radius)); }
+  double x_max() const { return leg(d_.rod_length + d_.radius); }
+  double x_min() const { return leg(d_.rod_length - d_.radius); }
+
+  // Slider position x [m], velocity ratio x′ = v/ω [m/rad], acceleration ratio x″ = (a − x′ε)/ω² [m/rad²].
+  template <class T>
+  ValueSlopeCurvature<T> slider(T phi) const {
+    const Pose<T> p(d_, phi);
+    return {p.x, p.x1, p.x2};
+  }
+
+  // Rod angle β [rad] and its ratios β′ = ω_rod/ω, β″.
+  template <class T>
+  ValueSlopeCurvature<T> rod(T phi) const {
+    using std::atan2;
+    const Pose<T> p(d_, phi);
+    return {atan2(p.sin_beta, p.cos_beta), p.beta1, p.beta2};
+  }
+
+  // Reduced inertia I_r [kg·m²] (2.1) with I_r′ and I_r″.
+  template <class T>
+  ValueSlopeCurvature<T> inertia(T phi) const {
+    const Pose<T> p(d_, phi);
+    const T r = d_.radius, c = d_.rod_com;
+    // The rod's centre of mass: v_C²/ω² = r² + c² β′² + 2 r c f with f = β′ cos(φ − β).
+    const T turn = T(1) - p.beta1;  // (φ − β)′
+    const T cosine = p.cos_phi * p.cos_beta + p.sin_phi * p.sin_beta;
+    const T sine = p.sin_phi * p.cos_beta - p.cos_phi * p.sin_beta;
+    const T cosine1 = -sine * turn, cosine2 = -cosine * turn * turn + sine * p.beta2;
+    const T f = p.beta1 * cosine, f1 = p.beta2 * cosine + p.beta1 * cosine1;
+    const T f2 = p.beta3 * cosine + T(2) * p.beta2 * cosine1 + p.beta1 * cosine2;
+    // Squares: (β′²)′ = 2 β′β″, (β′²)″ = 2 (β″² + β′β‴), and the same for x.
+    const T m = d_.rod_mass, swing = d_.rod_mass * d_.rod_com * d_.rod_com + d_.rod_inertia, slide = d_.slider_mass;
+    return {T(d_.crank_inertia) + m * r * (r + T(2) * c * f) + swing * p.beta1 * p.beta1 + slide * p.x1 * p.x1,
+            T(2) * (m * r * c * f1 + swing * p.beta1 * p.beta2 + slide * p.x1 * p.x2),
+            T(2) * (m * r * c * f2 + swing * (p.beta2 * p.beta2 + p.beta1 * p.beta3) +
+                    slide * (p.x2 * p.x2 + p.x1 * p.x3))};
+  }
+
+  // I_r and I_r′ alone, which is all that the equation of motion (2.4) needs.
+  template <class T>
+  ValueAndSlope<T> inertia_and_slope(T phi) const {
+    const ValueSlopeCurvature<T> all = inertia(phi);
+    return {all.value, all.slope};
+  }
+
+  // Torque of all weights on the crank [N·m] by (2.2), positive when it drives: M_g = −V′, with its slope.
+  template <class T>
+  ValueAndSlope<T> gravity_torque(T phi) const {
+    using std::cos;
+    using std::sin;
+    const Pose<T> p(d_, phi);
+    // Static moments about O of all that turns with the crank and of the rod about A.
+    const T crank = T(d_.crank_mass) * d_.crank_com + T(d_.rod_mass) * d_.radius, rod = T(d_.rod_mass) * d_.rod_com;
+    const T x1 = -crank * p.sin_phi - rod * p.sin_beta * p.beta1 + d_.slider_mass * p.x1;
+    const T y1 = crank * p.cos_phi + rod * p.cos_beta * p.beta1;
+    const T beta1_squared = p.beta1 * p.beta1;
+    const T x2 = -crank * p.cos_phi - rod * (p.cos_beta * beta1_squared + p.sin_beta * p.beta2) + d_.slider_mass * p.x2;
+    const T y2 = -crank * p.sin_phi + rod * (p.cos_beta * p.beta2 - p.sin_beta * beta1_squared);
+    const T up_x = sin(T(d_.stroke_angle)), up_y = cos(T(d_.stroke_angle)), g = d_.gravity;
+    return {-g * (up_x * x1 + up_y * y1), -g * (up_x * x2 + up_y * y2)};
+  }
+
+  // Potential energy V of all weights [J], zero at the height of the crank's axis.
+  template <class T>
+  T potential_energy(T phi) const {
+    using std::cos;
+    using std::sin;
+    const Pose<T> p(d_, phi);
+    const T crank = T(d_.crank_mass) * d_.crank_com + T(d_.rod_mass) * d_.radius, rod = T(d_.rod_mass) * d_.rod_com;
+    const T x = crank * p.cos_phi + rod * p.cos_beta + d_.slider_mass * p.x;
+    const T y = crank * p.sin_phi + rod * p.sin_beta + T(d_.slider_mass) * d_.offset;
+    return d_.gravity * (sin(T(d_.stroke_angle)) * x + cos(T(d_.stroke_angle)) * y);
+  }
+
+ private:
+  // Closure r sin φ + l sin β = e, cos β > 0, and its first three derivatives by φ.
+  template <class T>
+  struct Pose {
+    T sin_phi, cos_phi, sin_beta, cos_beta, beta1, beta2, beta3, x, x1, x2, x3;
+
+    Pose(const SliderCrankData& d, T phi) {
+      using std::cos;
+      using std::sin;
+      using std::sqrt;
+      const T r = d.radius, l = d.rod_length, e = d.offset;
+      sin_phi = sin(phi), cos_phi = cos(phi);
+      sin_beta = (e - r * sin_phi) / l;
+      // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they keep
+      // every digit.
+      const T cos_squared = cos_phi * cos_phi;
+      const T below = sin_phi < T(0) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;  // 1 + sin φ
+      const T above = sin_phi > T(0) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
+      cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
+      const T lever = l * cos_beta, rise = l * sin_beta;
+      beta1 = -r * cos_phi / lever;
+      const T beta1_squared = beta1 * beta1;
+      beta2 = (r * sin_phi + rise * beta1_squared) / lever;
+      beta3 = beta1 * (beta1_squared - T(1)) + T(3) * sin_beta / cos_beta * beta1 * beta2;
+      x = r * cos_phi + lever;
+      x1 = -r * sin_phi - rise * beta1;
+      x2 = -r * cos_phi - lever * beta1_squared - rise * beta2;
+      x3 = r * sin_phi + rise * (beta1 * beta1_squared - beta3) - T(3) * lever * beta1 * beta2;
+    }
+  };
+
+  // √(hypotenuse² − e²) without cancellation.
+  double leg(double hypotenuse) const { return std::sqrt((hypotenuse - d_.offset) * (hypotenuse + d_.offset)); }
+
+  SliderCrankData d_;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,213 @@
+// slider_loads.h — forces on the slider, each a page of physics over the slider's motion.
+//
+// F is positive along +x, towards the extended end. Tables and profiles are given over the distance d to the working end
+// and are positive where they push the slider away from it; d = x_end − x at an extended working end, x − x_end at a
+// folded one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "drivetrain/torque_source.h"
+#include "engine/curve.h"
+#include "engine/dual.h"
+#include "engine/element.h"
+
+namespace kurbel {
+
+// Motion of the slider as its loads see it.
+template <class T>
+struct SliderState {
+  T phi;              // crank angle [rad]
+  T x;                // position from the crank axis [m]
+  T v;                // speed [m/s]
+  int travel = 0;     // sign of v, fixed between events; 0 = crank at standstill
+  int mode = 0;       // piece of the load's law, fixed between events
+};
+
+// Where the working end lies.
+struct WorkingEnd {
+  double position = 0;  // x of that end [m]
+  int side = 1;         // +1 extended, −1 folded
+
+  template <class T>
+  T distance(const T& x) const {
+    return static_cast<double>(side) * (position - x);
+  }
+  bool approached(int travel) const { return travel * side > 0; }
+};
+
+// F = F₀
+struct ConstantForce {
+  double force = 0;  // [N]
+  template <class T>
+  T value(const SliderState<T>&) const {
+    return T(force);
+  }
+};
+
+// F = −F₀ sgn v; holds the slider at standstill with up to F₀.
+struct OpposingForce {
+  static constexpr bool directional = true;
+  double force = 0;  // [N], ≥ 0
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return T(-force * s.travel);
+  }
+  Hold hold(const SliderState<double>&) const { return {-force, force}; }
+};
+
+// F = −(c v + q v |v|): resistance of the medium.
+struct MediumResistance {
+  double viscous = 0;    // c [N·s/m], ≥ 0
+  double quadratic = 0;  // q [N·s²/m²], ≥ 0
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    using std::abs;
+    return -(viscous + quadratic * abs(s.v)) * s.v;
+  }
+};
+
+// Straight pieces with jumps between them; numbered as a Curve's.
+struct Profile {
+  std::vector<double> knot;          // ascending [m]
+  std::vector<double> left, right;   // value at the begin and at the end of each inner piece [N]
+
+  int piece(double d) const { return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1; }
+  double piece_begin(int p) const { return p < 0 ? -HUGE_VAL : knot[static_cast<std::size_t>(p)]; }
+  double piece_end(int p) const { return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(p + 1)]; }
+  template <class T>
+  T value_in(int p, const T& d) const {
+    if (p < 0 || p + 1 >= static_cast<int>(knot.size())) return T(0.0);
+    const auto i = static_cast<std::size_t>(p);
+    return left[i] + (right[i] - left[i]) / (knot[i + 1] - knot[i]) * (d - knot[i]);
+  }
+};
+
+// Press force over travel: the nominal force within the last millimetres before the working end, on the working stroke
+// only; then break-through. It resists and never drives, and holds the slider against motion towards the end.
+struct PressForce {
+  static constexpr bool directional = true;
+  WorkingEnd end;
+  Profile profile;  // over the distance to the working end
+  double stroke = 1;
+
+  // nominal force F from d = travel on, reached within `rise`; drops to zero over `drop` from d = breakthrough on.
+  static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough, double drop) {
+    PressForce press{end, {}, stroke};
+    const auto add = [&](double from, double to, double at_from, double at_to) {
+      if (to <= from) return;
+      if (press.profile.knot.empty()) press.profile.knot.push_back(from);
+      press.profile.knot.push_back(to);
+      press.profile.left.push_back(at_from);
+      press.profile.right.push_back(at_to);
+    };
+    // From the end outwards; beyond the end itself the force just holds.
+    const double inner = breakthrough > 0 ? breakthrough : -stroke;
+    if (breakthrough > 0) add(breakthrough - drop, breakthrough, 0, force);
+    add(inner, travel - rise, force, force);
+    add(travel - rise, travel, force, 0);
+    return press;
+  }
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    if (!end.approached(s.travel)) return T(0.0);
+    return -static_cast<double>(end.side) * profile.value_in(s.mode, end.distance(s.x));
+  }
+  Hold hold(const SliderState<double>& s) const {
+    const double force = profile.value_in(profile.piece(end.distance(s.x)), end.distance(s.x));
+    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
+  }
+  void guard(const SliderState<double>& s, double* g) const {
+    g[0] = g[1] = 1;
+    if (!end.approached(s.travel)) return;
+    g[0] = std::min(1.0, (end.distance(s.x) - profile.piece_begin(s.mode)) / stroke);
+    g[1] = std::min(1.0, (profile.piece_end(s.mode) - end.distance(s.x)) / stroke);
+  }
+  int first_mode(const SliderState<double>& s) const { return profile.piece(end.distance(s.x)); }
+  int next_mode(const SliderState<double>& s, int which) const {
+    return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
+  }
+  std::string mode_name(const SliderState<double>& s) const {
+    const double middle = 0.5 * (profile.piece_begin(s.mode) + profile.piece_end(s.mode));
+    if (!std::isfinite(middle) || profile.value_in(s.mode, middle) == 0) return "load ends";
+    return "load edge";
+  }
+  double greatest() const {
+    return std::max(*std::max_element(profile.left.begin(), profile.left.end()), *std::max_element(profile.right.begin(), profile.right.end()));
+  }
+};
+
+// Force over travel by table, with a branch of its own for the return stroke where one is given.
+struct TravelForce {
+  WorkingEnd end;
+  Curve approach, retreat;  // over the distance to the working end; retreat may be empty
+  double stroke = 1;
+
+  const Curve& branch(int travel) const { return retreat.empty() || end.approached(travel) ? approach : retreat; }
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return -static_cast<double>(end.side) * branch(s.travel).value_in(s.mode, end.distance(s.x));
+  }
+  void guard(const SliderState<double>& s, double* g) const {
+    PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
+  }
+  int first_mode(const SliderState<double>& s) const { return branch(s.travel).piece(end.distance(s.x)); }
+  int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(branch(s.travel), s.mode, which); }
+  std::string mode_name(const SliderState<double>&) const { return {}; }
+};
+
+// Force over the crank angle: indicator diagram of a two-stroke (period 360°) or four-stroke (720°) machine.
+struct AngleForce {
+  WorkingEnd end;
+  Curve curve;  // periodic [rad] → [N]
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    const double moved = PieceGuard::near_piece(curve, s.mode, value_of(s.phi)) - value_of(s.phi);
+    return -static_cast<double>(end.side) * curve.value_in(s.mode, s.phi + moved);
+  }
+  void guard(const SliderState<double>& s, double* g) const { PieceGuard::guard(curve, s.mode, value_of(s.phi), 1.0, g); }
+  int first_mode(const SliderState<double>& s) const { return PieceGuard::first(curve, s.phi); }
+  int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(curve, s.mode, which); }
+  std::string mode_name(const SliderState<double>&) const { return {}; }
+};
+
+struct SliderLoad {
+  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce> law;
+  std::string name;  // "press.load"
+  Account account = Account::useful;
+
+  bool depends_on_travel() const {  // on the sign of the slider's speed
+    return std::visit([](const auto& l) {
+      using L = std::decay_t<decltype(l)>;
+      if constexpr (std::is_same_v<L, TravelForce>) return !l.retreat.empty();
+      return Directional<L>;
+    }, law);
+  }
+  bool directional() const {
+    return std::visit([](const auto& l) { return Directional<std::decay_t<decltype(l)>>; }, law);
+  }
+  double period() const {
+    const auto* over_angle = std::get_if<AngleForce>(&law);
+    return over_angle ? over_angle->curve.period() : 0;
+  }
+  double greatest_force() const;
+};
+
+inline double SliderLoad::greatest_force() const {
+  struct Greatest {
+    double operator()(const ConstantForce& l) const { return std::abs(l.force); }
+    double operator()(const OpposingForce& l) const { return l.force; }
+    double operator()(const MediumResistance&) const { return 0; }
+    double operator()(const PressForce& l) const { return l.greatest(); }
+    double operator()(const TravelForce& l) const { return std::max(l.approach.max_abs(), l.retreat.max_abs()); }
+    double operator()(const AngleForce& l) const { return l.curve.max_abs(); }
+  };
+  return std::visit(Greatest{}, law);
+}
+
+}  // namespace kurbel

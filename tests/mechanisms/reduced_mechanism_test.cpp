@@ -1,0 +1,145 @@
+// reduced_mechanism_test.cpp — the table extracted from Simbody against the closed form in long double.
+#include "mechanisms/reduced_mechanism.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "tests/mechanisms/mechanism_examples.h"
+
+namespace kurbel {
+namespace {
+
+using Channel = ReducedMechanism::Channel;
+
+// Largest error of each channel at random angles: of I_r's own value, of the other channels' maxima.
+void expect_accurate(const ReducedMechanism& mechanism, const SliderCrankGeometry& geometry, double tolerance) {
+  std::mt19937 random(7);
+  const Maxima maximum(geometry);
+  for (int i = 0; i < 5000; ++i) {
+    const double phi = random_angle(random);
+    const auto at = mechanism.at(phi);
+    const Truth truth(geometry, phi);
+    for (int c = 0; c < channels; ++c) {
+      const long double scale = c == 0 ? truth.value[0] : maximum.value[c];
+      ASSERT_LE(std::fabs(at.value(static_cast<Channel>(c)) - truth.value[c]), tolerance * scale)
+          << "channel " << c << " phi = " << phi
+          << " l/(r + |e|) = " << geometry.data().rod_length / (0.1 + std::fabs(geometry.data().offset));
+    }
+  }
+}
+
+class NearAndFarFromTheDeadPosition : public testing::TestWithParam<double> {};
+
+TEST_P(NearAndFarFromTheDeadPosition, EveryChannelIsGoodToTwelveDigits) {
+  for (const double offset : {0.0, 0.03, -0.06}) {
+    const SliderCrankData d = full_mechanism(GetParam(), offset);
+    const ReducedMechanism mechanism = extract_slider_crank(d);
+    EXPECT_TRUE(mechanism.report().converged);
+    EXPECT_LE(mechanism.report().pieces, GetParam() < 1.01 ? 1024u : 128u);
+    expect_accurate(mechanism, SliderCrankGeometry(d), 1e-12);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(RodToCrank, NearAndFarFromTheDeadPosition,
+                         testing::Values(1.0001, 1.001, 1.01, 1.05, 1.2, 2.0, 3.5, 10.0));
+
+TEST(ReducedMechanism, ReferenceMachineNeedsFewPieces) {
+  const ReducedMechanism mechanism = extract_slider_crank(reference_mechanism());
+  EXPECT_LE(mechanism.report().pieces, 32u);
+  EXPECT_LE(mechanism.report().samples, 800u);
+  for (const auto& channel : mechanism.report().channels) EXPECT_LE(channel.error, table_tolerance) << channel.name;
+}
+
+TEST(ReducedMechanism, PairsHoldAFunctionAndItsSlope) {
+  const SliderCrankGeometry geometry(full_mechanism(2, 0.03));
+  const auto mechanism = reduce_slider_crank(geometry.data());
+  const double phi = 4.2;
+  const auto inertia = geometry.inertia(phi), slider = geometry.slider(phi);
+  const auto weight = geometry.gravity_torque(phi);
+  EXPECT_NEAR(mechanism->inertia(phi).value, inertia.value, 1e-12);
+  EXPECT_NEAR(mechanism->inertia(phi).slope, inertia.slope, 1e-12);
+  EXPECT_NEAR(mechanism->inertia_derivative(phi).value, inertia.slope, 1e-12);
+  EXPECT_NEAR(mechanism->inertia_derivative(phi).slope, inertia.curvature, 1e-12);
+  EXPECT_NEAR(mechanism->slider_position(phi).value, slider.value, 1e-12);
+  EXPECT_NEAR(mechanism->slider_position(phi).slope, slider.slope, 1e-12);
+  EXPECT_NEAR(mechanism->slider_velocity(phi).value, slider.slope, 1e-12);
+  EXPECT_NEAR(mechanism->slider_velocity(phi).slope, slider.curvature, 1e-12);
+  EXPECT_NEAR(mechanism->gravity_torque(phi).value, weight.value, 1e-10);
+  EXPECT_NEAR(mechanism->gravity_torque(phi).slope, weight.slope, 1e-10);
+}
+
+TEST(ReducedMechanism, MillionTurnsAreAsGoodAsTheFirst) {
+  const SliderCrankGeometry geometry(full_mechanism(1.2, 0.03));
+  const auto mechanism = reduce_slider_crank(geometry.data());
+  std::mt19937 random(8);
+  const Maxima maximum(geometry);
+  for (const double turns : {-1.0, 1.0, 47.0, -1e4, 1e6, -1e6})
+    for (int i = 0; i < 200; ++i) {
+      const double phi = turns * 2 * std::numbers::pi + random_angle(random);
+      const Truth truth(geometry, phi);
+      for (int c = 0; c < channels; ++c)
+        ASSERT_LE(std::fabs(mechanism->at(phi).value(static_cast<Channel>(c)) - truth.value[c]),
+                  1e-12 * maximum.value[c]);
+    }
+}
+
+TEST(ReducedMechanism, VanishingChannelsDoNotHauntTheTable) {
+  SliderCrankData flywheel = reference_mechanism();  // nothing moves but the crank
+  flywheel.rod_mass = flywheel.rod_inertia = flywheel.slider_mass = 0;
+  SliderCrankData guided = reference_mechanism();  // all weight is carried by the guide
+  guided.rod_mass = 0;
+  guided.gravity = 9.80665;
+  SliderCrankData heavy = full_mechanism(3.5, 0.03);  // a flywheel of 10⁵ times the moving inertia
+  heavy.crank_inertia = 5000;
+  for (const SliderCrankData& d : {flywheel, guided, heavy}) {
+    const ReducedMechanism mechanism = extract_slider_crank(d);
+    EXPECT_TRUE(mechanism.report().converged);
+    EXPECT_LE(mechanism.report().pieces, 40u);
+  }
+  EXPECT_NEAR(extract_slider_crank(guided).gravity_torque(1).value, 0, 1e-14);
+  EXPECT_EQ(extract_slider_crank(flywheel).inertia(1).slope, 0);
+}
+
+TEST(ReducedMechanism, RandomMechanismsConverge) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 25; ++i) {
+    SliderCrankData d = random_mechanism(random);
+    d.crank_inertia += 1e-3 * d.radius * d.radius;  // never all massless
+    const ReducedMechanism mechanism = extract_slider_crank(d);
+    EXPECT_TRUE(mechanism.report().converged) << "mechanism " << i;
+    const SliderCrankGeometry geometry(d);
+    for (int k = 0; k < 200; ++k) {
+      const double phi = random_angle(random), inertia = geometry.inertia(phi).value;
+      ASSERT_NEAR(mechanism.inertia(phi).value / inertia, 1, 1e-12) << "mechanism " << i << " phi = " << phi;
+    }
+  }
+}
+
+TEST(ReducedMechanism, EqualDataShareOneTable) {
+  SliderCrankData d = full_mechanism(2.5, 0);
+  const auto first = reduce_slider_crank(d);
+  EXPECT_EQ(reduce_slider_crank(d), first);
+  EXPECT_NE(reduce_slider_crank(d, 1e-9), first);
+  d.slider_mass += 1e-9;
+  EXPECT_NE(reduce_slider_crank(d), first);
+  d.slider_mass = -1;
+  EXPECT_THROW(reduce_slider_crank(d), std::invalid_argument);
+}
+
+TEST(ReducedMechanism, WrongBranchReachesTheCaller) {
+  SliderCrankBodies bodies(reference_mechanism());
+  const auto wrong = [&](double phi) { return bodies.sample(phi, std::numbers::pi); };
+  EXPECT_THROW(ReducedMechanism(wrong, {}, 1e-9, 100), std::runtime_error);
+}
+
+TEST(ReducedMechanism, SaysWhenThePiecesDoNotSuffice) {
+  const ReducedMechanism mechanism = extract_slider_crank(full_mechanism(1.001, 0), table_tolerance, 40);
+  EXPECT_FALSE(mechanism.report().converged);
+  EXPECT_GT(mechanism.report().channels[ReducedMechanism::inertia_curvature].error, 1e-9);
+}
+
+}  // namespace
+}  // namespace kurbel
