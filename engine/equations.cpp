@@ -336,6 +336,19 @@ std::vector<double> Equations::start(double t) {
   return y;
 }
 
+std::vector<double> Equations::modes_from_scratch(double t, double reduction_angle, double reduction_speed) {
+  const Model& m = *model_;
+  std::vector<double> y(size(), 0.0);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * reduction_angle;
+  for (std::size_t s = 0; s < m.free_shafts; ++s) y[speed_index(static_cast<int>(s))] = reduction_speed * m.node_ratio[at(m.shafts[s].reference)];
+  std::fill(turns_.begin(), turns_.end(), 0.0);
+  wrap(y);
+  for (const auto& pool : m.pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  for (const int s : directional_) direction_[at(s)] = reduction_speed > 0 ? 1 : reduction_speed < 0 ? -1 : 0;
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  return y;
+}
+
 // Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.
 // The machine as a whole may accelerate; all shafts then do so together.
 void Equations::balance_twists(std::span<double> y, double t) {

@@ -41,6 +41,9 @@ class Equations final : public OdeSystem {
   // State at the start as the scene demands it; sets all modes.
   std::vector<double> start(double t);
 
+  // A state of the rigid machine with all modes found anew, for integrators that know no events.
+  std::vector<double> modes_from_scratch(double t, double reduction_angle, double reduction_speed);
+
   // --- events ---
   std::size_t guard_count() const { return guard_count_; }
   void guards(double t, std::span<const double> y, std::span<double> g);

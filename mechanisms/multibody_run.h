@@ -1,4 +1,4 @@
-// multibody_run.h — the slider-crank run as a full multibody system in Simbody: the slow reference for the reduced machine.
+// multibody_run.h — the slider-crank as a full multibody run in Simbody: the slow reference of the reduced machine.
 #pragma once
 
 #include <functional>
@@ -14,12 +14,12 @@ struct MultibodyProblem {
   double shaft_inertia = 0;  // more inertia on the crank's shaft [kg·m²], ≥ 0
   std::function<double(double t, double phi, double omega)> shaft_torque;  // on the crank [N·m]; empty: none
   std::function<double(double t, double x, double v)> slider_force;        // along +x on the slider [N]; empty: none
-  double phi0 = 0;         // [rad]
-  double omega0 = 0;       // [rad/s]
-  double t_end = 0;        // [s], > 0
-  double accuracy = 1e-6;  // of Simbody's local error control, 0 < accuracy < 1; and of the closed loop
-  std::vector<double> times;                       // to report, ascending, 0 … t_end; the end alone if empty
-  std::string integrator = "RungeKuttaMerson";     // one of multibody_integrators()
+  double phi0 = 0;                                                         // [rad]
+  double omega0 = 0;                                                       // [rad/s]
+  double t_end = 0;                                                        // [s], > 0
+  double accuracy = 1e-6;     // of Simbody's local error control, 0 < accuracy < 1; the loop is held to a tenth of it
+  std::vector<double> times;  // to report, ascending, 0 … t_end; the end alone if empty
+  std::string integrator = "RungeKuttaMerson";  // one of multibody_integrators()
 };
 
 struct MultibodySample {
@@ -37,9 +37,9 @@ struct MultibodyResult {
 // Names for MultibodyProblem::integrator, the default first.
 std::vector<std::string> multibody_integrators();
 
-// Steps end on the report times exactly (nothing is interpolated); the loop is projected back whenever it leaves its tolerance.
-// Throws std::invalid_argument on a senseless problem; std::runtime_error if the integrator fails, a state becomes
-// non-finite or the loop changes its assembly branch; and whatever the torque and force functions throw.
+// Steps end on the report times exactly (nothing is interpolated); the loop is projected back whenever it leaves its
+// tolerance. Throws std::invalid_argument on a senseless problem; std::runtime_error if the integrator fails, a state
+// becomes non-finite or the loop changes its assembly branch; and whatever the torque and force functions throw.
 MultibodyResult run_multibody(const MultibodyProblem& problem);
 
 }  // namespace kurbel

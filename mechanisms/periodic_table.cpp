@@ -58,7 +58,8 @@ class TableBuilder {
         max_pieces_(std::max(max_pieces, first_pieces)),
         maximum_(channels_.size()) {
     if (channels_.empty()) throw std::invalid_argument("periodic table: no channels");
-    if (!(tolerance > 0)) throw std::invalid_argument(fmt::format("periodic table: tolerance = {}; must be > 0", tolerance));
+    if (!(tolerance > 0))
+      throw std::invalid_argument(fmt::format("periodic table: tolerance = {}; must be > 0", tolerance));
   }
 
   PeriodicTable run() {
@@ -86,8 +87,8 @@ class TableBuilder {
     ++samples_;
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (!std::isfinite(values[c]))
-        throw std::runtime_error(
-            fmt::format("periodic table: channel \"{}\" is {} at phi = {:.17g} rad", channels_[c].name, values[c], phi));
+        throw std::runtime_error(fmt::format("periodic table: channel \"{}\" is {} at phi = {:.17g} rad",
+                                             channels_[c].name, values[c], phi));
       maximum_[c] = std::max(maximum_[c], std::fabs(values[c]));
     }
     return values;
@@ -140,8 +141,7 @@ class TableBuilder {
         continue;
       }
       ++total;
-      for (std::size_t side = 0; side < 2; ++side)
-        halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}});
+      for (std::size_t side = 0; side < 2; ++side) halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}});
     }
     return halves;
   }
@@ -188,7 +188,8 @@ PeriodicTable PeriodicTable::build(const Sampler& sampler, std::vector<ChannelSp
   return TableBuilder(sampler, std::move(channels), tolerance, max_pieces).run();
 }
 
-// φ − 2πk with 2π in three parts: k times the first two is exact while |k| < 2²⁴, so that nothing is lost that φ still has.
+// φ − 2πk with 2π in three parts: k times the first two is exact while |k| < 2²⁴, so that nothing is lost that φ still
+// has.
 PeriodicTable::Cursor PeriodicTable::locate_wrapped(double phi) const {
   constexpr double high = 0x1.921fb54p+2, low = 0x1.921fb54442d18p+2 - high, rest = 2.4492935982947064e-16;
   if (!std::isfinite(phi)) return {pieces_.data() + header, std::numeric_limits<double>::quiet_NaN()};

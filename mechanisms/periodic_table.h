@@ -1,7 +1,8 @@
 // periodic_table.h — several functions of an angle with period 2π, tabulated together in adaptive polynomial pieces.
 //
-// [0, 2π) is cut into dyadic pieces, short where a channel bends; every piece carries one polynomial of degree 9 per channel.
-// A uniform grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same everywhere:
+// [0, 2π) is cut into dyadic pieces, short where a channel bends; every piece carries one polynomial of degree 9 per
+// channel. A uniform grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same
+// everywhere:
 //
 //     const auto cursor = table.locate(phi);          // wraps phi, finds the piece
 //     const double inertia = table.value(cursor, 0);  // channel 0 there
@@ -56,8 +57,9 @@ class PeriodicTable {
     double x;                    // −1 … 1 within the piece
   };
 
-  // Bisects pieces until each agrees with fresh samples to `tolerance` of every channel's scale, or there are max_pieces;
-  // report().converged and the errors say which. Throws std::invalid_argument on an empty or senseless request.
+  // Bisects pieces until each agrees with fresh samples to `tolerance` of every channel's scale, or there are
+  // max_pieces; report().converged and the errors say which. Throws std::invalid_argument on an empty or senseless
+  // request.
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
                              std::size_t max_pieces);
 

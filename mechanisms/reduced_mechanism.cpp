@@ -14,7 +14,7 @@ namespace {
 
 std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& noise) {
   using enum ErrorScale;
-  return {{"inertia", own_value, 0},
+  return {{"inertia", own_value, 10 * noise.inertia},
           {"inertia_slope", own_maximum, noise.inertia},
           {"inertia_curvature", own_maximum, noise.inertia},
           {"slider_position", own_maximum, 0},
@@ -47,19 +47,21 @@ ReducedMechanism::NoiseScales noise_scales(const SliderCrankData& d) {
 using CacheKey = std::array<double, 14>;
 
 CacheKey cache_key(const SliderCrankData& d, double tolerance, std::size_t max_pieces) {
-  return {d.radius,        d.rod_length,  d.offset,  d.crank_mass,
-          d.crank_com,     d.crank_inertia, d.rod_mass, d.rod_com,
-          d.rod_inertia,   d.slider_mass, d.gravity, d.stroke_angle,
-          tolerance,       static_cast<double>(max_pieces)};
+  return {d.radius,      d.rod_length,
+          d.offset,      d.crank_mass,
+          d.crank_com,   d.crank_inertia,
+          d.rod_mass,    d.rod_com,
+          d.rod_inertia, d.slider_mass,
+          d.gravity,     d.stroke_angle,
+          tolerance,     static_cast<double>(max_pieces)};
 }
 
 }  // namespace
 
 ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
                                    double tolerance, std::size_t max_pieces)
-    : table_(PeriodicTable::build(
-          [&](double phi, std::span<double> values) { write_channels(sampler(phi), values); }, channel_specs(noise),
-          tolerance, max_pieces)) {}
+    : table_(PeriodicTable::build([&](double phi, std::span<double> values) { write_channels(sampler(phi), values); },
+                                  channel_specs(noise), tolerance, max_pieces)) {}
 
 ReducedMechanism extract_slider_crank(const SliderCrankData& data, double tolerance, std::size_t max_pieces) {
   SliderCrankBodies bodies(data);

@@ -1,6 +1,7 @@
 // reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody.
 //
-// Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost digits.
+// Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
+// digits.
 //     (2.4)  M_d − M_c = I_r ε + ½ ω² I_r′        power of a slider force F: F x′ ω
 #pragma once
 
@@ -30,7 +31,7 @@ class ReducedMechanism {
 
   // Magnitudes that mark a channel as rounding noise: a channel smaller than these is tabulated relative to them.
   struct NoiseScales {
-    double inertia = 0;         // for I_r′ and I_r″ [kg·m²]
+    double inertia = 0;  // for I_r′ and I_r″; ten times it for I_r, which may vanish in a dead centre [kg·m²]
     double gravity_torque = 0;  // for M_g and M_g′ [N·m]
   };
 
@@ -39,11 +40,11 @@ class ReducedMechanism {
    public:
     At(const PeriodicTable& table, double phi) : cursor_(table.locate(phi)) {}
     double value(Channel channel) const { return PeriodicTable::value(cursor_, channel); }
-    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                       // I_r, I_r′
-    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }              // I_r′, I_r″
-    ValueAndSlope<double> slider_position() const { return pair(slider_position_channel); }       // x, x′
-    ValueAndSlope<double> slider_velocity() const { return pair(slider_velocity_ratio); }         // x′, x″
-    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }         // M_g, M_g′
+    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                  // I_r, I_r′
+    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }         // I_r′, I_r″
+    ValueAndSlope<double> slider_position() const { return pair(slider_position_channel); }  // x, x′
+    ValueAndSlope<double> slider_velocity() const { return pair(slider_velocity_ratio); }    // x′, x″
+    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }    // M_g, M_g′
 
    private:
     ValueAndSlope<double> pair(std::size_t first) const {
@@ -70,8 +71,8 @@ class ReducedMechanism {
   PeriodicTable table_;
 };
 
-// Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what may
-// lie between the check points.
+// Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what
+// may lie between the check points.
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 

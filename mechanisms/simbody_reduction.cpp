@@ -1,4 +1,4 @@
-// simbody_reduction.cpp — velocity ratios, reduced inertia and its derivatives from Simbody's constraint and mass matrices.
+// simbody_reduction.cpp — reduced inertia and its derivatives from Simbody's constraint and mass matrices.
 #include "mechanisms/simbody_reduction.h"
 
 #include <fmt/core.h>
@@ -133,7 +133,7 @@ void SimbodyReduction::close(State& state) const {
 
     step = correction.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(step)) break;
-    if (step <= SimTK::Eps / 16) {
+    if (step <= SimTK::Eps * std::fmax(1.0L, q.lpNorm<Eigen::Infinity>())) {  // what is left is far less
       for (int j = 0; j < n; ++j) state.updQ()[j] = double(q[j]);
       return;
     }
@@ -181,8 +181,8 @@ Vector SimbodyReduction::closure_jerks(const State& state, const std::vector<Bod
     const Planar<double> n = planar(plane_body.getBodyRotation(state) * Vec3(c.normal.x, c.normal.y, 0));
     const Planar<double> arm = planar(follower_body.getBodyRotation(state) * Vec3(c.follower.x, c.follower.y, 0));
 
-    const Planar<double> d = planar(follower_body.getBodyOriginLocation(state)) + arm -
-                             planar(plane_body.getBodyOriginLocation(state));
+    const Planar<double> d =
+        planar(follower_body.getBodyOriginLocation(state)) + arm - planar(plane_body.getBodyOriginLocation(state));
     const Planar<double> d1 = f.v + turn1(f, arm) - p.v;
     const Planar<double> d2 = f.a + turn2(f, arm) - p.a;
     const Planar<double> d3 = f.j + turn3(f, arm) - p.j;

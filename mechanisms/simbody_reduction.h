@@ -2,10 +2,11 @@
 //
 // C++17 island: include it only from sources that are compiled against Simbody.
 //
-// The mechanism is a tree of Pin and Slider mobilizers moving parallel to the x-y plane, its loops closed by PointInPlane
-// constraints (one for a slider's line, two for a pin). Inertia, speeds, accelerations and constraint matrices are Simbody's.
-// Two things that Simbody does not give are computed here from Simbody's own topology and frames: the closure error in
-// extended precision (near a dead position double loses half its digits) and the third derivative of the motion, for I_r″.
+// The mechanism is a tree of Pin and Slider mobilizers moving parallel to the x-y plane, its loops closed by
+// PointInPlane constraints (one for a slider's line, two for a pin). Inertia, speeds, accelerations and constraint
+// matrices are Simbody's. Two things that Simbody does not give are computed here from Simbody's own topology and
+// frames: the closure error in extended precision (near a dead position double loses half its digits) and the third
+// derivative of the motion, for I_r″.
 #pragma once
 
 #include <Simbody.h>
@@ -70,10 +71,10 @@ class SimbodyReduction {
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
   struct Joint {
     int parent;
-    bool slides;                          // Slider along x of its inboard frame, else Pin
-    Planar<double> in_parent, in_body;    // origin of the inboard frame in the parent, of the outboard frame in the body
-    double tilt;                          // of the inboard frame in the parent [rad]
-    int q;                                // index of its coordinate
+    bool slides;                        // Slider along x of its inboard frame, else Pin
+    Planar<double> in_parent, in_body;  // origin of the inboard frame in the parent, of the outboard frame in the body
+    double tilt;                        // of the inboard frame in the parent [rad]
+    int q;                              // index of its coordinate
   };
   struct Closure {
     int plane_body, follower_body;

@@ -1,4 +1,4 @@
-// slider_crank_geometry.h — the planar slider-crank in closed form: motion, reduced inertia and weight over the crank angle.
+// slider_crank_geometry.h — the slider-crank in closed form: motion, reduced inertia and weight over the crank angle.
 //
 //                                        ___
 //        y       A  r = OA, l = AB      |   |        O  crank axis, origin        β  rod's angle from +x
@@ -6,9 +6,9 @@
 //        |     / φ    `-._______________|_o_|        B  slider pin
 //        O----------------------------------- x      C  rod's centre of mass, AC = rod_com
 //
-// φ is measured from the +x stroke axis to OA, counter-clockwise, with and without offset. For e = 0, φ = 0 is the extended
-// dead centre and φ = π the folded one; for e ≠ 0 they lie at extended_angle() and folded_angle().
-// The rod always points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
+// φ is measured from the +x stroke axis to OA, counter-clockwise, with and without offset. For e = 0, φ = 0 is the
+// extended dead centre and φ = π the folded one; for e ≠ 0 they lie at extended_angle() and folded_angle(). The rod
+// always points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
 #pragma once
 
 #include <cmath>
@@ -18,18 +18,18 @@
 namespace kurbel {
 
 struct SliderCrankData {
-  double radius = 0;          // r [m], > 0
-  double rod_length = 0;      // l [m], > r + |e|
-  double offset = 0;          // e [m], the slider moves on the line y = e
-  double crank_mass = 0;      // [kg], ≥ 0
-  double crank_com = 0;       // from the axis towards the pin [m], < 0: counterweighted
-  double crank_inertia = 0;   // about the crank's axis [kg·m²], ≥ crank_mass · crank_com²
-  double rod_mass = 0;        // [kg], ≥ 0
-  double rod_com = 0;         // from the crank pin along the rod [m]
-  double rod_inertia = 0;     // central [kg·m²], ≥ 0
-  double slider_mass = 0;     // [kg], ≥ 0
-  double gravity = 0;         // [m/s²]
-  double stroke_angle = 0;    // of +x above the horizontal [rad]; +y is 90° ahead of +x
+  double radius = 0;         // r [m], > 0
+  double rod_length = 0;     // l [m], > r + |e|
+  double offset = 0;         // e [m], the slider moves on the line y = e
+  double crank_mass = 0;     // [kg], ≥ 0
+  double crank_com = 0;      // from the axis towards the pin [m], < 0: counterweighted
+  double crank_inertia = 0;  // about the crank's axis [kg·m²], ≥ crank_mass · crank_com²
+  double rod_mass = 0;       // [kg], ≥ 0
+  double rod_com = 0;        // from the crank pin along the rod [m]
+  double rod_inertia = 0;    // central [kg·m²], ≥ 0
+  double slider_mass = 0;    // [kg], ≥ 0
+  double gravity = 0;        // [m/s²]
+  double stroke_angle = 0;   // of +x above the horizontal [rad]; +y is 90° ahead of +x
 };
 
 // A function of φ with its first two derivatives by φ.
@@ -162,8 +162,8 @@ class SliderCrankGeometry {
       const T r = d.radius, l = d.rod_length, e = d.offset;
       sin_phi = sin(phi), cos_phi = cos(phi);
       sin_beta = (e - r * sin_phi) / l;
-      // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they keep
-      // every digit.
+      // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
+      // keep every digit.
       const T cos_squared = cos_phi * cos_phi;
       const T below = sin_phi < T(0) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;  // 1 + sin φ
       const T above = sin_phi > T(0) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ

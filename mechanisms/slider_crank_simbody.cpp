@@ -20,7 +20,8 @@ namespace {
 // A flat body's central inertia: only its moment about z matters here; half of it about x and y keeps Simbody content.
 Inertia flat(double about_z) { return Inertia(about_z / 2, about_z / 2, about_z); }
 
-// Simbody refuses inertia without mass. Mass on the axis neither moves nor has a torque, so a massless crank is given one.
+// Simbody refuses inertia without mass. Mass on the axis neither moves nor has a torque, so a massless crank is given
+// one.
 MassProperties crank_properties(const SliderCrankData& d, double shaft_inertia) {
   const double central = std::fmax(0, d.crank_inertia - d.crank_mass * d.crank_com * d.crank_com) + shaft_inertia;
   if (d.crank_mass == 0) return {1, Vec3(0), flat(central)};
@@ -32,10 +33,11 @@ MassProperties crank_properties(const SliderCrankData& d, double shaft_inertia) 
 MassProperties rod_properties(const SliderCrankData& d) {
   const Vec3 com(d.rod_com, 0, 0), end(d.rod_length, 0, 0);
   const double mass = d.rod_mass + d.slider_mass;
-  if (mass == 0 && d.rod_inertia == 0) return {};
+  if (mass == 0 && d.rod_inertia == 0) return {0, Vec3(0), Inertia(0)};
   if (mass == 0)
-    throw std::invalid_argument(fmt::format(
-        "slider-crank: rod_inertia = {} kg m2 with rod_mass = slider_mass = 0; give one of them a mass", d.rod_inertia));
+    throw std::invalid_argument(
+        fmt::format("slider-crank: rod_inertia = {} kg m2 with rod_mass = slider_mass = 0; give one of them a mass",
+                    d.rod_inertia));
   return {mass, (d.rod_mass * com + d.slider_mass * end) / mass,
           flat(d.rod_inertia) + Inertia(com, d.rod_mass) + Inertia(end, d.slider_mass)};
 }
@@ -43,6 +45,12 @@ MassProperties rod_properties(const SliderCrankData& d) {
 // sin β on the closed loop; the right branch has cos β > 0.
 double rod_angle(const SliderCrankData& d, double phi) {
   return std::asin((d.offset - d.radius * std::sin(phi)) / d.rod_length);
+}
+
+// φ between −π and π. Simbody's coordinate β − φ is a double: a small one keeps more digits of β.
+double within_a_turn(double phi) {
+  const long double turn = 2 * std::acos(-1.0L);
+  return double(std::remainder(static_cast<long double>(phi), turn));
 }
 
 }  // namespace
@@ -110,7 +118,7 @@ SliderCrankBodies& SliderCrankBodies::operator=(SliderCrankBodies&&) noexcept = 
 ReducedSample SliderCrankBodies::sample(double phi) { return sample(phi, rod_angle(model_->bodies.data, phi)); }
 
 ReducedSample SliderCrankBodies::sample(double phi, double rod_angle_start) {
-  const Reduction reduced = model_->bodies.reduce_at(model_->state, phi, rod_angle_start);
+  const Reduction reduced = model_->bodies.reduce_at(model_->state, within_a_turn(phi), rod_angle_start);
   const PointMotion& slider = reduced.points[SliderCrankSystem::slider_point];
 
   ReducedSample sample{};
@@ -132,14 +140,14 @@ ReducedSample SliderCrankBodies::sample(double phi, double rod_angle_start) {
 }
 
 double SliderCrankBodies::kinetic_energy(double phi, double omega) {
-  const Reduction reduced = model_->bodies.reduce_at(model_->state, phi);
+  const Reduction reduced = model_->bodies.reduce_at(model_->state, within_a_turn(phi));
   model_->state.updU() = omega * reduced.q1;
   model_->bodies.system.realize(model_->state, SimTK::Stage::Velocity);
   return model_->bodies.matter.calcKineticEnergy(model_->state);
 }
 
 double SliderCrankBodies::potential_energy(double phi) {
-  const Reduction reduced = model_->bodies.reduce_at(model_->state, phi);
+  const Reduction reduced = model_->bodies.reduce_at(model_->state, within_a_turn(phi));
   double energy = 0;
   model_->for_each_weight(reduced, [&](double mass, const PointMotion& point) {
     energy += mass * model_->bodies.data.gravity * SimTK::dot(model_->up(), point.position);

@@ -14,8 +14,8 @@ struct ReducedSample {
   double slider_velocity_ratio;                      // x′ = v/ω [m/rad]
   double slider_acceleration_ratio;                  // x″ [m/rad²]
   double rod_angle_ratio;                            // β′ = ω_rod/ω
-  double gravity_torque, gravity_torque_slope;       // of all weights on the crank [N·m], positive when it drives; by φ
-  double closure_determinant;                        // ∂(closure error)/∂(rod angle) = l cos β [m], > 0 on the right branch
+  double gravity_torque, gravity_torque_slope;  // of all weights on the crank [N·m], positive when it drives; by φ
+  double closure_determinant;  // ∂(closure error)/∂(rod angle) = l cos β [m], > 0 on the right branch
 };
 
 // Simbody's model of the mechanism, sampled one configuration at a time. Costs some 20 µs a sample; not thread-safe.
@@ -27,7 +27,8 @@ class SliderCrankBodies {
   SliderCrankBodies(SliderCrankBodies&&) noexcept;
   SliderCrankBodies& operator=(SliderCrankBodies&&) noexcept;
 
-  // Any φ. Throws std::runtime_error with the numbers if the loop does not close or closes on the wrong branch (cos β < 0).
+  // Any φ. Throws std::runtime_error with the numbers if the loop does not close or closes on the wrong branch (cos β <
+  // 0).
   ReducedSample sample(double phi);
   // The same with Newton's method started from a given rod angle β [rad].
   ReducedSample sample(double phi, double rod_angle_start);

@@ -1,9 +1,9 @@
-// slider_crank_system.h — the slider-crank as Simbody bodies, shared by its extraction and its multibody run (C++17 island).
+// slider_crank_system.h — the slider-crank as Simbody bodies, for extraction and multibody run (C++17 island).
 //
 //   ground ─Pin(q₀ = φ)→ crank ─Pin(q₁ = β − φ)→ rod with the slider's mass at its end ─PointInPlane→ y = e
 //
-// The slider only translates and its pin is the rod's end, so its mass may ride there: one constraint closes the loop, the
-// cheapest of the closures that were measured.
+// The slider only translates and its pin is the rod's end, so its mass may ride there: one constraint closes the loop,
+// the cheapest of the closures that were measured.
 #pragma once
 
 #include <Simbody.h>
@@ -16,7 +16,8 @@
 namespace kurbel {
 
 struct SliderCrankSystem {
-  SliderCrankSystem(const SliderCrankData& data, double shaft_inertia = 0);  // extra inertia on the crank's axis [kg·m²]
+  SliderCrankSystem(const SliderCrankData& data,
+                    double shaft_inertia = 0);  // extra inertia on the crank's axis [kg·m²]
   SliderCrankSystem(const SliderCrankSystem&) = delete;
   SliderCrankSystem& operator=(const SliderCrankSystem&) = delete;
 

@@ -73,8 +73,8 @@ struct Truth {
 // Largest magnitude of each channel over the period; angles crowd where the rod is steepest.
 struct Maxima {
   explicit Maxima(const SliderCrankGeometry& geometry) {
-    for (int i = 0; i < 2000; ++i) {
-      const double u = i / 1000.0 - 1;  // −1 … 1
+    for (int i = 0; i < 600; ++i) {
+      const double u = i / 300.0 - 1;  // −1 … 1
       for (const double phi : {std::numbers::pi * (1 + u), std::numbers::pi / 2 * (1 + u * u * u * u * u),
                                std::numbers::pi / 2 * (3 + u * u * u * u * u)}) {
         const Truth truth(geometry, phi);

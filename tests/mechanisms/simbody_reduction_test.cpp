@@ -39,8 +39,7 @@ struct Mechanism {
 SimTK::Body::Rigid link(double mass, double length) {
   const Vec3 com(0.4 * length, 0.1 * length, 0);
   const double central = 0.2 * mass * length * length;
-  return SimTK::Body::Rigid(
-      MassProperties(mass, com, Inertia(central / 2, central / 2, central) + Inertia(com, mass)));
+  return SimTK::Body::Rigid(MassProperties(mass, com, Inertia(central / 2, central / 2, central) + Inertia(com, mass)));
 }
 
 // The pin of two bodies: their points coincide in the plane body's x and y.

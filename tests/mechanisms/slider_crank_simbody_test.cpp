@@ -31,14 +31,9 @@ TEST(SliderCrankBodies, SamplesAgreeWithTheClosedForm) {
     for (int i = 0; i < 20; ++i) {
       const double phi = random_angle(random);
       const ReducedSample s = bodies.sample(phi);
-      const double got[channels] = {s.inertia,
-                                    s.inertia_slope,
-                                    s.inertia_curvature,
-                                    s.slider_position,
-                                    s.slider_velocity_ratio,
-                                    s.slider_acceleration_ratio,
-                                    s.gravity_torque,
-                                    s.gravity_torque_slope};
+      const double got[channels] = {s.inertia,         s.inertia_slope,         s.inertia_curvature,
+                                    s.slider_position, s.slider_velocity_ratio, s.slider_acceleration_ratio,
+                                    s.gravity_torque,  s.gravity_torque_slope};
       const Truth truth(geometry, phi);
       for (int c = 0; c < channels; ++c) {
         const double floor = c < 3 ? 1e-2 * inertia_scale(d) : c > 5 ? gravity_scale(d) : 0;

@@ -1,0 +1,315 @@
+// recorders.cpp — what a run leaves behind.
+#include "engine/recorders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
+}
+
+// Both ends of a long machine stand for the rest.
+std::vector<std::string> default_components(const Model& model) {
+  const std::vector<std::string>& all = model.network.components;
+  if (all.size() <= 60) return {};
+  return {all.front(), all.back()};
+}
+
+}  // namespace
+
+std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
+  const std::vector<std::string> wanted = components.empty() ? default_components(model) : components;
+  std::vector<Channel> channels;
+  const auto motion = [&](const std::string& name, int node) {
+    const int shaft = model.shaft_of_node[at(node)];
+    const double gain = model.gain_of_node[at(node)];
+    channels.push_back({"angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; }});
+    channels.push_back({"speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; }});
+  };
+  for (const std::string& component : model.network.components) {
+    if (!is_wanted(wanted, component)) continue;
+    const Network::Ports& ports = model.network.ports.at(component);
+    if (ports.in == ports.out) {
+      motion(component, ports.in);
+    } else {
+      motion(component + ".in", ports.in);
+      motion(component + ".out", ports.out);
+    }
+    std::vector<std::size_t> own;
+    for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+      if (model.network.elements[e].component == component && model.network.elements[e].element->cycle() == 0) own.push_back(e);
+    if (!own.empty())
+      channels.push_back({"torque." + component, "N*m", [own](const Snapshot& s) {
+                            double sum = 0;
+                            for (const std::size_t e : own) sum += s.sums.element_torque[e];
+                            return sum;
+                          }});
+  }
+  for (const TorqueJoint& joint : model.torque_joints) {
+    if (!is_wanted(wanted, joint.component.substr(0, joint.component.find('.')))) continue;
+    const int j = joint.joint, e = joint.elastic;
+    channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
+    if (e < 0) continue;
+    channels.push_back({"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
+    channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
+  }
+  for (const Channel& channel : model.pool_channels)
+    if (is_wanted(wanted, channel.name.substr(channel.name.find('.') + 1))) channels.push_back(channel);
+  return channels;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+TrajectoryRecorder::TrajectoryRecorder(std::vector<Channel> channels, double until, int rows)
+    : channels_(std::move(channels)), until_(until), rows_(rows) {
+  time_.reserve(at(rows));
+  values_.reserve(at(rows) * channels_.size());
+}
+
+void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
+  time_.push_back(t);
+  for (const Channel& channel : channels_) values_.push_back(channel.value(snapshot));
+}
+
+void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  record(t, equations.snapshot(t, y));
+}
+
+void TrajectoryRecorder::step(StepView& view) {
+  while (time_.size() < at(rows_)) {
+    const double next = time_.size() + 1 == at(rows_) ? until_ : until_ * static_cast<double>(time_.size()) / (rows_ - 1);
+    if (next > view.t()) return;
+    record(next, view.snapshot(next));
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+std::vector<ExtremeOf> extremes_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  const auto shared = &model;  // outlives the run
+  for (const TorqueJoint& joint : model.torque_joints) {
+    const int j = joint.joint, e = joint.elastic;
+    ExtremeOf transmitted{.name = "peak_torque." + joint.component, .unit = "N*m", .scale = joint.torque_scale,
+                          .value = [j](const Snapshot& s) { return s.joint_torque[j]; }, .rate = {}};
+    ExtremeOf spring = transmitted;
+    spring.name = "peak_spring_torque." + joint.component;
+    if (e >= 0) {
+      const ElasticJoint elastic = model.elastic[at(e)];
+      transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
+        const double acceleration = elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
+        return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
+      };
+      spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+      // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
+      spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
+    }
+    wanted.push_back(std::move(transmitted));
+    wanted.push_back(std::move(spring));
+  }
+  const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
+  const double gain = model.gain_of_node[at(node)];
+  const std::string link = model.network.nodes[at(node)].component;
+  ExtremeOf speed{.name = "max_speed." + link, .unit = "rad/s", .scale = model.speed_scale, .which = ExtremeOf::Which::maximum,
+                  .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
+                  .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
+  wanted.push_back(speed);
+  speed.name = "min_speed." + link;
+  speed.which = ExtremeOf::Which::minimum;
+  wanted.push_back(std::move(speed));
+  for (const Channel& channel : model.pool_channels) {
+    const std::string quantity = channel.name.substr(0, channel.name.find('.'));
+    if (quantity == "position") continue;
+    wanted.push_back({.name = "peak_" + channel.name, .unit = channel.unit, .value = channel.value, .rate = {}});
+  }
+  return wanted;
+}
+
+double ExtremeRecorder::merit(std::size_t i, double value) const {
+  switch (wanted_[i].which) {
+    case ExtremeOf::Which::largest_magnitude: return std::abs(value);
+    case ExtremeOf::Which::maximum: return value;
+    case ExtremeOf::Which::minimum: return -value;
+  }
+  return value;
+}
+
+void ExtremeRecorder::consider(std::size_t i, double t, double value) {
+  Found& found = found_[i];
+  if (found.any && merit(i, value) <= merit(i, found.value)) return;
+  found = {value, t, true};
+}
+
+void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) const {
+  out.t = t;
+  out.value.resize(wanted_.size());
+  out.rate.resize(wanted_.size());
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    out.value[i] = wanted_[i].value(snapshot);
+    out.rate[i] = wanted_[i].rate ? wanted_[i].rate(snapshot) : 0;
+  }
+}
+
+void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  sample(equations.snapshot(t, y), t, last_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) consider(i, t, last_.value[i]);
+}
+
+void ExtremeRecorder::step(StepView& view) {
+  const double t0 = view.t_previous(), t1 = view.t();
+  sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
+  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  sample(view.snapshot(t1), t1, last_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    consider(i, t0, first_.value[i]);
+    consider(i, t1, last_.value[i]);
+    search(view, i);
+  }
+}
+
+// Looks for an extreme within the step, but only where it could beat what is known already.
+void ExtremeRecorder::search(StepView& view, std::size_t i) {
+  const double h = last_.t - first_.t;
+  const double a = first_.value[i], m = middle_.value[i], b = last_.value[i];
+  const double bend = a - 2 * m + b, tilt = b - a;
+  // The parabola through the three samples reaches at most this far beyond the middle one.
+  const double reach = std::abs(bend) + std::abs(tilt);
+  if (std::max({merit(i, a), merit(i, m), merit(i, b)}) + reach <= merit(i, found_[i].value)) return;
+  const auto rate = [&](double t) {
+    if (wanted_[i].rate) return wanted_[i].rate(view.snapshot(t));
+    const double delta = 1e-3 * h;
+    const double after = wanted_[i].value(view.snapshot(std::min(t + delta, last_.t)));
+    return after - wanted_[i].value(view.snapshot(std::max(t - delta, first_.t)));
+  };
+  const double r0 = wanted_[i].rate ? first_.rate[i] : rate(first_.t);
+  const double rm = wanted_[i].rate ? middle_.rate[i] : rate(middle_.t);
+  const double r1 = wanted_[i].rate ? last_.rate[i] : rate(last_.t);
+  const auto look = [&](double ta, double ra, double tb, double rb) {
+    if (ra == 0 || rb == 0 || (ra > 0) == (rb > 0)) return;
+    const double t = find_root(rate, ta, ra, tb, rb);
+    consider(i, t, wanted_[i].value(view.snapshot(t)));
+  };
+  look(first_.t, r0, middle_.t, rm);
+  look(middle_.t, rm, last_.t, r1);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void CycleRecorder::begin(double, std::span<const double> y, Equations& equations) {
+  const Model& m = equations.model();
+  cycle_ = m.cycle;
+  if (cycle_ == 0) return;
+  const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
+  next_angle_ = cycle_ * std::ceil(angle / cycle_ - 1e-12);
+  if (std::abs(next_angle_ - angle) < 1e-9) {  // starts on the boundary
+    open_ = true;
+    begin_ = 0;
+    work_at_begin_.assign(m.accounts.size(), 0.0);
+    next_angle_ += cycle_;
+  }
+  const double omega = m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  max_ = min_ = omega;
+}
+
+void CycleRecorder::see_speed(double omega) {
+  max_ = std::max(max_, omega);
+  min_ = std::min(min_, omega);
+}
+
+void CycleRecorder::close(double t, StepView& view) {
+  const Model& m = view.equations().model();
+  const Snapshot& s = view.snapshot(t);
+  std::vector<double> work(m.accounts.size(), 0.0);
+  if (s.quadrature) std::copy(s.quadrature, s.quadrature + work.size(), work.begin());
+  const double omega = m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  see_speed(omega);
+  if (open_) {
+    CycleRecord record{begin_, t, max_, min_, work};
+    for (std::size_t k = 0; k < work.size(); ++k) record.work[k] -= work_at_begin_[k];
+    cycles_.push_back(std::move(record));
+  }
+  open_ = true;
+  begin_ = t;
+  max_ = min_ = omega;
+  work_at_begin_ = std::move(work);
+  next_angle_ += cycle_;
+}
+
+void CycleRecorder::step(StepView& view) {
+  if (cycle_ == 0) return;
+  Equations& equations = view.equations();
+  const Model& m = equations.model();
+  const std::size_t tracked = at(m.reduction_angle);
+  const int shaft = m.shaft_of_node[at(m.reduction_node)];
+  const double gain = m.angles[tracked].gain;
+  double from = view.t_previous();
+  const auto extreme_until = [&](double t) {
+    const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
+    const double a0 = alpha(from), a1 = alpha(t);
+    if (a0 != 0 && a1 != 0 && (a0 > 0) != (a1 > 0) && t > from) {
+      const double peak = find_root(alpha, from, a0, t, a1);
+      see_speed(gain * view.snapshot(peak).now.speed[shaft]);
+    }
+    see_speed(gain * view.snapshot(t).now.speed[shaft]);
+    from = t;
+  };
+  const auto beyond = [&](double t) { return equations.angle_with_turns(tracked, view.at(t)) - next_angle_; };
+  while (beyond(view.t()) >= 0) {
+    const double b0 = beyond(from), b1 = beyond(view.t());
+    const double crossing = b0 < 0 ? find_root(beyond, from, b0, view.t(), b1) : from;
+    extreme_until(crossing);
+    close(crossing, view);
+  }
+  extreme_until(view.t());
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void EnergyAudit::check(double t, std::span<const double> y, Equations& equations) {
+  const double reduced = equations.kinetic_energy(t, y), bodies = equations.kinetic_energy_of_bodies(t, y);
+  const double stored = equations.stored_energy(t, y);
+  const std::size_t accounts = equations.model().accounts.size();
+  std::vector<double> now(accounts, 0.0);
+  for (std::size_t k = 0; k < accounts && equations.audit(); ++k) now[k] = y[equations.work_index(k)];
+  double sum = 0;
+  for (std::size_t k = 0; k < accounts; ++k) {
+    sum += now[k];
+    turnover += std::abs(now[k] - (work.empty() ? 0.0 : work[k]));
+  }
+  if (checked == 0) {
+    kinetic_start = bodies;
+    stored_start = stored;
+    start_ = bodies + stored;
+  }
+  kinetic_end = bodies;
+  stored_end = stored;
+  largest_kinetic = std::max(largest_kinetic, bodies);
+  largest_residual = std::max(largest_residual, std::abs(bodies + stored - start_ - sum));
+  if (bodies > 1e-9 * largest_kinetic) reduction_residual = std::max(reduction_residual, std::abs(reduced / bodies - 1));
+  work = std::move(now);
+  ++checked;
+}
+
+void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) { check(t, y, equations); }
+
+void EnergyAudit::step(StepView& view) {
+  while (checked < checks_) {
+    const double next = checked + 1 == checks_ ? until_ : until_ * checked / (checks_ - 1);
+    if (next > view.t()) return;
+    check(next, view.at(next), view.equations());
+  }
+}
+
+double EnergyAudit::relative() const {
+  const double scale = std::max(turnover, largest_kinetic);
+  return scale > 0 ? largest_residual / scale : 0;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,100 @@
+// compare.cpp — differences, amplification factors, and a sentence that says what they mean.
+#include "studies/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/units.h"
+
+namespace kurbel {
+namespace {
+
+void add_rows(Comparison& c) {
+  for (const Figure& f : c.b.figures) {
+    ComparisonRow row{f.name, f.unit, {}, {}, f.value, f.error, 0, {}};
+    if (const Figure* other = c.a.find(f.name)) {
+      row.a = other->value;
+      row.a_error = other->error;
+      row.difference = f.value - other->value;
+      if (other->value != 0) row.ratio = f.value / other->value;
+    }
+    c.rows.push_back(std::move(row));
+  }
+  for (const ComparisonRow& row : c.rows) {
+    const std::string prefix = "peak_torque.";
+    if (!row.name.starts_with(prefix) || !row.ratio) continue;
+    ComparisonRow factor{"amplification." + row.name.substr(prefix.size()), "", {}, {}, std::abs(*row.ratio), {}, 0, {}};
+    if (row.a_error && row.b_error)
+      factor.b_error = std::abs(*row.ratio) * (*row.a_error / std::abs(*row.a) + *row.b_error / std::abs(*row.b));
+    c.amplification.push_back(std::move(factor));
+  }
+}
+
+// First value of a channel, just after the start.
+std::optional<double> at_start(const Result& result, const std::string& channel) {
+  const auto& channels = result.trajectory->channels();
+  for (std::size_t k = 0; k < channels.size(); ++k)
+    if (channels[k].name == channel && !result.trajectory->time().empty()) return result.trajectory->value(0, k);
+  return {};
+}
+
+// Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (THEORY 5).
+void note_sudden_loads(Comparison& c) {
+  std::vector<std::string> sudden;
+  for (const ComparisonRow& row : c.amplification) {
+    const std::string joint = row.name.substr(std::string("amplification.").size());
+    const auto rigid = at_start(c.a, "torque." + joint), elastic = at_start(c.b, "torque." + joint);
+    const Figure* peak = c.a.find("peak_torque." + joint);
+    if (rigid && elastic && peak && std::abs(*rigid - *elastic) > 0.05 * std::abs(peak->value))
+      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(*elastic, "N*m", 4), with_unit(*rigid, "N*m", 4)));
+  }
+  const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) { return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off"; });
+  if (edges > 0) sudden.push_back(fmt::format("{} load edges or switchings", edges));
+  if (sudden.empty()) return;
+  std::string text = "sudden loads (";
+  for (std::size_t i = 0; i < sudden.size() && i < 3; ++i) text += (i ? "; " : "") + sudden[i];
+  c.notes.push_back(text + "): however stiff the drive, its peak torque after a step tends to twice the rigid one, not to the rigid one; the motion does converge");
+}
+
+std::string sure(double value, const std::optional<double>& error, const std::string& unit) {
+  return error ? fmt::format("{} ± {}", with_unit(value, "", 6), with_unit(*error, unit, 2)) : with_unit(value, unit, 6);
+}
+
+void conclude(Comparison& c) {
+  if (!c.a.complete || !c.b.complete) {
+    c.conclusion = fmt::format("A model did not run to the end: {}", c.a.complete ? c.b.diagnosis : c.a.diagnosis);
+    return;
+  }
+  const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(), [](const ComparisonRow& x, const ComparisonRow& y) {
+    return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
+  });
+  if (worst != c.amplification.end()) {
+    const std::string joint = worst->name.substr(std::string("amplification.").size());
+    const Figure* peak = c.b.find("peak_torque." + joint);
+    c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
+                               sure(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
+  }
+  for (const ComparisonRow& row : c.rows)
+    if (row.name.starts_with("delta.") && row.ratio)
+      c.conclusion += fmt::format("{}δ changes by {:+.2g} %", c.conclusion.empty() ? "" : "; ", 100 * (*row.ratio - 1));
+  if (c.conclusion.empty()) c.conclusion = "The two models have no torque or cycle in common to compare";
+  c.conclusion += fmt::format("; it costs {:.3g} × the time.", c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
+}
+
+}  // namespace
+
+Comparison compare(const Scene& scene, const Effects& a, const std::string& label_a, const Effects& b,
+                   const std::string& label_b, const SimulateOptions& options) {
+  Comparison c;
+  c.title = scene.title.empty() ? scene.file : scene.title;
+  c.a = simulate(scene, a, label_a, options);
+  c.b = simulate(scene, b, label_b, options);
+  add_rows(c);
+  if (c.a.trajectory && c.b.trajectory) note_sudden_loads(c);
+  conclude(c);
+  return c;
+}
+
+}  // namespace kurbel

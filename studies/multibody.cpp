@@ -1,0 +1,156 @@
+// multibody.cpp — hands a compiled rigid model to the multibody run and gathers its figures.
+#include "studies/multibody.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "mechanisms/multibody_run.h"
+#include "mechanisms/slider_crank.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double cpu_now() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+const SliderCrankMaker* only_mechanism(const Model& model) {
+  const SliderCrankMaker* found = nullptr;
+  int count = 0;
+  for (const Network::ShaftElement& e : model.network.elements)
+    if (const auto* maker = dynamic_cast<const SliderCrankMaker*>(e.element.get())) {
+      found = maker;
+      ++count;
+    }
+  return count == 1 ? found : nullptr;
+}
+
+// Torque of everything but the mechanism, from scratch at each call: Simbody's integrators know no events.
+class ShaftTorque {
+ public:
+  explicit ShaftTorque(std::shared_ptr<const Model> model) : model_(std::move(model)), equations_(model_, false) {}
+  double operator()(double t, double phi, double omega) {
+    const Model& m = *model_;
+    std::vector<double> y = equations_.modes_from_scratch(t, phi, omega);
+    const Snapshot& s = equations_.snapshot(t, y);
+    double sum = 0;
+    for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+      if (static_cast<int>(e) != m.reduction_element) sum += m.gain_of_node[at(m.network.elements[e].node)] * s.sums.element_torque[e];
+    return sum;
+  }
+
+ private:
+  std::shared_ptr<const Model> model_;
+  Equations equations_;
+};
+
+double slider_force(const SliderCrank& crank, double phi, double x, double v) {
+  double sum = 0;
+  for (const SliderLoad& load : crank.loads) {
+    SliderState<double> s{phi, x, v, v > 0 ? 1 : v < 0 ? -1 : 0, 0};
+    sum += std::visit([&](const auto& law) {
+      if constexpr (requires { law.first_mode(s); }) s.mode = law.first_mode(s);
+      return law.value(s);
+    }, load.law);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Result simulate_multibody(const Model& model, const std::string& label, const SimulateOptions& options) {
+  const RunSettings& settings = model.scene.run;
+  const SliderCrankMaker* mechanism = only_mechanism(model);
+  const auto refuse = [&](const std::string& why) {
+    throw SceneError({{model.scene.file, settings.start.at, fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
+  };
+  if (!mechanism) refuse("needs exactly one slider-crank");
+  if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0) refuse("runs rigid scenes with one free shaft (effects: none)");
+  const SliderCrank& crank = mechanism->crank();
+  const auto shared = std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &model);  // the caller keeps it alive
+  const auto torque = std::make_shared<ShaftTorque>(shared);
+  Equations equations(shared, false);
+  const std::vector<double> start = equations.start(0);
+
+  MultibodyProblem problem;
+  problem.mechanism = crank.data;
+  problem.shaft_inertia = model.shafts.front().inertia;
+  const auto phi_now = std::make_shared<double>(0);
+  problem.shaft_torque = [torque, phi_now, phase = crank.phase, &options](double t, double phi, double omega) {
+    if (options.interrupted && options.interrupted->load()) throw std::runtime_error("interrupted");
+    *phi_now = phi;
+    return (*torque)(t, phi - phase, omega);
+  };
+  if (!crank.loads.empty())
+    problem.slider_force = [&crank, phi_now](double, double x, double v) { return slider_force(crank, *phi_now, x, v); };
+  problem.phi0 = equations.angle_with_turns(at(model.reduction_angle), start) + crank.phase;
+  problem.omega0 = start[equations.speed_index(0)];
+  problem.t_end = options.until.value_or(settings.until);
+  const std::vector<std::string> integrators = multibody_integrators();
+  const std::string method = options.method.value_or(settings.method);
+  problem.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
+  const int rows = std::min(settings.samples, 201);
+  for (int i = 0; i < rows; ++i) problem.times.push_back(problem.t_end * i / (rows - 1));
+
+  Result result;
+  result.title = model.scene.title;
+  result.label = label;
+  result.scene_file = model.scene.file;
+  result.effects = model.effects.describe();
+  result.coordinates = 1;
+  result.states = 2;
+  result.explanation = model.explain() + "model: multibody, the loop closed by Simbody at every step\n";
+  result.until = problem.t_end;
+  result.accuracy = options.accuracy.value_or(settings.accuracy);
+  const double begin = cpu_now();
+  const auto run_at = [&](double accuracy) {
+    problem.accuracy = accuracy;
+    ++result.runs;
+    return run_multibody(problem);
+  };
+  try {
+    // The table's dead-centre angles are those of the crank; its turns grow on.
+    problem.accuracy = std::clamp(result.accuracy, 1e-10, 1e-3);
+    MultibodyResult coarse = run_at(problem.accuracy);
+    const double after_first = cpu_now();
+    const MultibodyResult fine = options.measure_error ? run_at(problem.accuracy / 10) : coarse;
+    result.tolerance = problem.accuracy;
+    result.statistics.cpu_seconds = options.measure_error ? cpu_now() - after_first : after_first - begin;
+    result.statistics.stepper.steps = fine.steps;
+    result.statistics.stepper.rejected = fine.rejected;
+    result.statistics.stepper.flow_calls = fine.evaluations;
+    const MultibodySample &a = coarse.samples.back(), &b = fine.samples.back();
+    const auto add = [&](const std::string& name, double value, double other, const std::string& unit, double scale) {
+      Figure figure{name, value, unit, {}, b.t, scale};
+      if (options.measure_error) {
+        figure.error = std::abs(value - other);
+        result.measured_accuracy = std::max(result.measured_accuracy, *figure.error / scale);
+      }
+      result.figures.push_back(figure);
+    };
+    add("final_angle." + crank.name, b.phi - crank.phase, a.phi - crank.phase, "rad", 1);
+    add("final_speed." + crank.name, b.omega, a.omega, "rad/s", model.speed_scale);
+    result.errors_measured = options.measure_error;
+    result.accuracy_confirmed = options.measure_error && result.measured_accuracy <= result.accuracy;
+    result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};
+    result.energy.kinetic_start = fine.samples.front().kinetic_energy;
+    result.energy.kinetic_end = b.kinetic_energy;
+    result.notes.push_back(fmt::format("multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
+  } catch (const std::runtime_error& error) {
+    result.complete = false;
+    result.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy", error.what(), listed(integrators));
+  }
+  result.statistics.method = "Simbody " + problem.integrator;
+  result.statistics.reason = "model = \"multibody\"";
+  result.cpu_total = cpu_now() - begin;
+  return result;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,14 @@
+// periods.h — recognises run-up, steady motion and run-down.
+#pragma once
+
+#include "studies/result.h"
+
+namespace kurbel {
+
+// Run-up ends where the cycle's mean speed (without a mechanism: the reduction link's speed) comes within 1 % of its
+// steady value and stays there; run-down begins where the last driving source goes off; standstill is below 0.1 % of the
+// steady speed. Motion is steady when the last two cycles' mean speeds agree to 0.1 %.
+Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const TrajectoryRecorder& trajectory,
+                     const RunOutcome& outcome);
+
+}  // namespace kurbel

@@ -1,0 +1,72 @@
+// result.h — what a study hands to tables, JSON and reports: figures with units and measured errors.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/recorders.h"
+
+namespace kurbel {
+
+struct Figure {
+  std::string name;             // dotted and stable: "peak_torque.main_coupling"
+  double value = 0;             // SI
+  std::string unit;
+  std::optional<double> error;  // measured: difference to a run with tolerances 30 × looser
+  std::optional<double> at;     // time it belongs to [s]
+  double scale = 0;             // rated quantity that the error is judged by; 0: the error is not judged
+};
+
+struct ComponentState {
+  double angle = 0, speed = 0;          // of its (driving) shaft [rad, rad/s]
+  std::optional<double> angle_out, speed_out;  // of its driven shaft, where it has two
+};
+
+// Run-up, steady motion and run-down of the reduction link; times in s.
+struct Periods {
+  std::optional<double> run_up_end;      // from here on within 1 % of the steady speed
+  std::optional<double> run_down_begin;  // the last source went off
+  std::optional<double> standstill;      // came to rest
+  double steady_speed = 0;               // [rad/s]
+  bool steady = false;                   // the last two cycles agree to 0.1 %
+};
+
+struct EnergyBalance {
+  std::map<std::string, double> by_line;     // driving, useful, harmful, weight [J]
+  std::map<std::string, double> by_account;  // per component [J]
+  double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0, residual = 0, relative = 0;
+  double reduction_residual = 0;  // kinetic energy of Simbody's bodies against that from I_r, relative
+  int checks = 0;
+};
+
+struct Result {
+  std::string title, label;   // label: "rigid", "elastic"
+  std::string scene_file;
+  bool complete = true;
+  std::string diagnosis;      // of an incomplete run
+  std::string effects;
+  std::size_t coordinates = 0, states = 0;
+  std::string explanation;    // what was merged, and why
+  double until = 0, accuracy = 0;
+  double measured_accuracy = 0;  // largest error over its scale; 0 with errors not measured
+  bool accuracy_confirmed = false, errors_measured = false;
+  double tolerance = 0;
+  int runs = 0;
+  std::vector<Figure> figures;
+  std::map<std::string, ComponentState> final_state;
+  std::vector<Event> events;
+  Periods periods;
+  std::vector<CycleRecord> cycles;
+  EnergyBalance energy;
+  RunStatistics statistics;
+  double cpu_total = 0;       // of all runs, errors included [s]
+  std::vector<std::string> notes;
+  std::shared_ptr<const TrajectoryRecorder> trajectory;
+
+  const Figure* find(const std::string& name) const;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,282 @@
+// simulate.cpp — the ladder of tolerances, and the figures of one run.
+#include "studies/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/multibody.h"
+#include "studies/periods.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
+constexpr int energy_checks = 60;
+
+// One run at one tolerance with all that watches it.
+struct OneRun {
+  RunOutcome outcome;
+  std::shared_ptr<TrajectoryRecorder> trajectory;
+  std::unique_ptr<ExtremeRecorder> extremes;
+  CycleRecorder cycles;
+  std::unique_ptr<EnergyAudit> energy;
+  std::vector<Figure> figures;
+  Periods periods;
+};
+
+class Figures {
+ public:
+  Figures(const Model& model, Equations& equations, OneRun& run) : model_(model), equations_(equations), run_(run) {}
+
+  void collect() {
+    collect_extremes();
+    collect_rms();
+    collect_final();
+    collect_cycles();
+    collect_periods();
+    collect_work();
+  }
+
+ private:
+  void add(const std::string& name, double value, const std::string& unit, double scale, std::optional<double> time = {}) {
+    run_.figures.push_back({name, value, unit, {}, time, scale});
+  }
+  std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
+
+  void collect_extremes() {
+    for (std::size_t i = 0; i < run_.extremes->wanted().size(); ++i) {
+      const ExtremeOf& wanted = run_.extremes->wanted()[i];
+      const ExtremeRecorder::Found& found = run_.extremes->found()[i];
+      if (found.any) add(wanted.name, found.value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(found.value), found.time);
+    }
+  }
+  void collect_rms() {
+    if (run_.outcome.t <= 0) return;
+    for (std::size_t i = 0; i < model_.torque_joints.size(); ++i)
+      for (const bool spring : {false, true}) {
+        const double square = run_.outcome.state[equations_.square_index(i, spring)];
+        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component, std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m",
+            model_.torque_joints[i].torque_scale);
+      }
+  }
+  void collect_final() {
+    const Snapshot& s = equations_.snapshot(run_.outcome.t, run_.outcome.state);
+    for (const std::string& component : model_.network.components) {
+      if (model_.network.components.size() > 60 && component != link()) continue;
+      const Network::Ports& ports = model_.network.ports.at(component);
+      const int node = ports.out;
+      const double ratio = std::abs(model_.node_ratio[at(node)]);
+      add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
+      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]], "rad/s",
+          model_.speed_scale * ratio, run_.outcome.t);
+    }
+  }
+  // Of the last complete cycle of steady motion, or the last one before run-down.
+  void collect_cycles() {
+    run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.trajectory, run_.outcome);
+    const CycleRecord* last = nullptr;
+    for (const CycleRecord& c : run_.cycles.cycles())
+      if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
+    if (!last) return;
+    add("delta." + link(), last->delta(), "", 1, last->end);
+    add("mean_speed." + link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
+    add("cycle_time." + link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
+      double sum = 0;
+      for (std::size_t k = 0; k < last->work.size(); ++k)
+        if (model_.accounts[k].kind == kind) sum += last->work[k];
+      add(fmt::format("{}_work_per_cycle", name_of(kind)), sum, "J", energy_scale(), last->end);
+    }
+  }
+  void collect_periods() {
+    if (run_.periods.run_up_end) add("run_up_time", *run_.periods.run_up_end, "s", run_.outcome.t);
+    if (run_.periods.steady_speed != 0) add("steady_speed." + link(), run_.periods.steady_speed, "rad/s", model_.speed_scale);
+    if (run_.periods.run_down_begin && run_.periods.standstill)
+      add("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin, "s", run_.outcome.t);
+  }
+  void collect_work() {
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
+      double sum = 0;
+      for (std::size_t k = 0; k < run_.energy->work.size(); ++k)
+        if (model_.accounts[k].kind == kind) sum += run_.energy->work[k];
+      add(fmt::format("work.{}", name_of(kind)), sum, "J", energy_scale());
+    }
+  }
+  double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
+
+  const Model& model_;
+  Equations& equations_;
+  OneRun& run_;
+};
+
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options)
+      : model_(std::move(model)), options_(options), settings_(model_->scene.run), equations_(model_, true) {
+    if (options.accuracy) settings_.accuracy = *options.accuracy;
+    if (options.until) settings_.until = *options.until;
+    if (options.method) settings_.method = *options.method;
+    result_.label = label;
+  }
+
+  // Tolerances are tightened until two runs agree within the accuracy.
+  Result run() {
+    double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
+    std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
+    result_.runs = 1;
+    while (options_.measure_error && fine->outcome.complete) {
+      coarse = std::move(fine);
+      tolerance /= tolerance_step;
+      fine = one_run(tolerance);
+      ++result_.runs;
+      if (!fine->outcome.complete) {
+        result_.notes.push_back(fmt::format("the confirming run failed ({}); figures are those of the looser run, without errors", fine->outcome.diagnosis));
+        fine = std::move(coarse);
+        break;
+      }
+      result_.measured_accuracy = measure_errors(*coarse, *fine);
+      result_.errors_measured = true;
+      result_.accuracy_confirmed = result_.measured_accuracy <= settings_.accuracy;
+      if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
+    }
+    if (result_.errors_measured && !result_.accuracy_confirmed)
+      result_.notes.push_back(fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached: the tolerances cannot be tightened further", settings_.accuracy, result_.measured_accuracy));
+    fill(*fine, tolerance);
+    return std::move(result_);
+  }
+
+ private:
+  std::unique_ptr<OneRun> one_run(double tolerance) {
+    auto run = std::make_unique<OneRun>();
+    run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until, settings_.samples);
+    run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(*model_));
+    run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
+    RunOptions options{.tolerance = tolerance, .method = settings_.method, .until = settings_.until, .budget = settings_.budget,
+                       .interrupted = options_.interrupted, .progress = {}};
+    if (options_.progress)
+      options.progress = [&](double fraction) { options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction); };
+    run->outcome = integrate(equations_, options, {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()});
+    result_.cpu_total += run->outcome.statistics.cpu_seconds;
+    if (!run->outcome.state.empty()) Figures(*model_, equations_, *run).collect();
+    return run;
+  }
+
+  // Errors of the finer run's figures: what the coarser run had otherwise. Returns the largest over its scale.
+  double measure_errors(const OneRun& coarse, OneRun& fine) const {
+    double worst = 0;
+    for (Figure& figure : fine.figures) {
+      const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(), [&](const Figure& f) { return f.name == figure.name; });
+      if (other == coarse.figures.end()) continue;
+      figure.error = std::abs(figure.value - other->value);
+      if (figure.scale > 0) worst = std::max(worst, *figure.error / figure.scale);
+    }
+    return worst;
+  }
+
+  void fill(OneRun& run, double tolerance) {
+    const Model& m = *model_;
+    result_.title = m.scene.title.empty() ? m.scene.file : m.scene.title;
+    result_.scene_file = m.scene.file;
+    result_.complete = run.outcome.complete;
+    result_.diagnosis = run.outcome.diagnosis;
+    result_.effects = m.effects.describe();
+    result_.coordinates = m.free_shafts + m.twist_count();
+    result_.states = m.state_count();
+    result_.explanation = m.explain();
+    result_.until = settings_.until;
+    result_.accuracy = settings_.accuracy;
+    result_.tolerance = tolerance;
+    result_.figures = std::move(run.figures);
+    result_.events = run.outcome.events;
+    result_.periods = run.periods;
+    result_.cycles = run.cycles.cycles();
+    result_.statistics = run.outcome.statistics;
+    result_.trajectory = run.trajectory;
+    fill_energy(*run.energy);
+    if (!run.outcome.state.empty()) fill_final(run.outcome);
+  }
+  void fill_energy(const EnergyAudit& audit) {
+    EnergyBalance& e = result_.energy;
+    for (std::size_t k = 0; k < audit.work.size(); ++k) {
+      e.by_line[name_of(model_->accounts[k].kind)] += audit.work[k];
+      e.by_account[model_->accounts[k].name] += audit.work[k];
+    }
+    e.kinetic_start = audit.kinetic_start;
+    e.kinetic_end = audit.kinetic_end;
+    e.stored_start = audit.stored_start;
+    e.stored_end = audit.stored_end;
+    e.residual = audit.largest_residual;
+    e.relative = audit.relative();
+    e.reduction_residual = audit.reduction_residual;
+    e.checks = audit.checked;
+  }
+  void fill_final(const RunOutcome& outcome) {
+    const Model& m = *model_;
+    const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
+    const auto speed = [&](int node) { return m.gain_of_node[at(node)] * s.now.speed[m.shaft_of_node[at(node)]]; };
+    for (const std::string& component : m.network.components) {
+      const Network::Ports& ports = m.network.ports.at(component);
+      ComponentState state{s.node_angle[ports.in], speed(ports.in), {}, {}};
+      if (ports.out != ports.in) {
+        state.angle_out = s.node_angle[ports.out];
+        state.speed_out = speed(ports.out);
+      }
+      result_.final_state[component] = state;
+    }
+  }
+
+  std::shared_ptr<const Model> model_;
+  const SimulateOptions& options_;
+  RunSettings settings_;
+  Equations equations_;
+  Result result_;
+};
+
+}  // namespace
+
+const Figure* Result::find(const std::string& name) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options) {
+  if (model->scene.run.model == "multibody") return simulate_multibody(*model, label, options);
+  return Simulation(std::move(model), label, options).run();
+}
+
+Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options) {
+  return simulate(compile(scene, effects), label, options);
+}
+
+std::vector<Figure> figure_list(const Model& model) {
+  std::vector<Figure> list;
+  const auto add = [&](const std::string& name, const std::string& unit) { list.push_back({name, 0, unit, {}, {}, 0}); };
+  const std::string link = model.network.nodes[at(model.reduction_node)].component;
+  for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
+  for (const TorqueJoint& joint : model.torque_joints) {
+    add("rms_torque." + joint.component, "N*m");
+    add("rms_spring_torque." + joint.component, "N*m");
+  }
+  for (const std::string& component : model.network.components) {
+    if (model.network.components.size() > 60 && component != link) continue;
+    add("final_angle." + component, "rad");
+    add("final_speed." + component, "rad/s");
+  }
+  if (model.cycle > 0) {
+    add("delta." + link, "");
+    add("mean_speed." + link, "rad/s");
+    add("cycle_time." + link, "s");
+    for (const char* kind : {"driving", "useful", "harmful"}) add(std::string(kind) + "_work_per_cycle", "J");
+  }
+  add("run_up_time", "s");
+  add("steady_speed." + link, "rad/s");
+  add("run_down_time", "s");
+  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(std::string("work.") + kind, "J");
+  return list;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,30 @@
+// simulate.h — one scene, one set of effects: run until a second, tighter run confirms the accuracy asked for.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "engine/model.h"
+#include "studies/result.h"
+
+namespace kurbel {
+
+struct SimulateOptions {
+  bool measure_error = true;
+  std::optional<std::string> method;   // overrides the scene's
+  std::optional<double> accuracy, until;
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress;
+};
+
+// Throws SceneError where the scene makes no machine; a run that fails on its way is returned incomplete.
+Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options);
+Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options);
+
+// Names and units of all figures that runs of a model can yield.
+std::vector<Figure> figure_list(const Model& model);
+
+// Local tolerances are this much tighter in the run that confirms.
+inline constexpr double tolerance_step = 30;
+
+}  // namespace kurbel
