@@ -123,7 +123,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const EmbeddedTable& table, OdeSystem& sy
 void ExplicitRungeKutta::start(double t, std::span<const double> y) {
   assert(y.size() == size_);
   std::copy(y.begin(), y.end(), y_);
-  t_ = t;
+  t_ = step_end_ = t;
   evaluate(t, y_, table_.stages);
   stand_still();
   previous_error_ = 1e-4;
@@ -149,6 +149,7 @@ void ExplicitRungeKutta::step(double t_limit) {
     t_ = t_previous_;
     throw;
   }
+  step_end_ = t_;
   ++statistics_.steps;
 }
 
@@ -190,7 +191,7 @@ ExplicitRungeKutta::Aim ExplicitRungeKutta::aim(double h, double t_limit) const 
 
 void ExplicitRungeKutta::retake(double t) {
   if (t == t_) return;
-  if (!(t < t_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, t_));
+  if (!(t <= step_end_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
   t_ = std::max(t, t_previous_);
   dense_is_ready_ = false;
   take(t_ - t_previous_);

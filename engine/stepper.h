@@ -56,7 +56,8 @@ class Stepper {
   virtual void start(double t, std::span<const double> y) = 0;
   // One accepted step, ending at t_limit at the latest (lands on t_limit exactly when it reaches it). Throws StepFailure.
   virtual void step(double t_limit) = 0;
-  // Takes the last step back and integrates from t_previous() so as to land on t exactly, t_previous() < t ≤ t().
+  // Takes the last step back and integrates from t_previous() so as to land on t exactly; t lies within the step as it
+  // was accepted, so several retakes may close in on an event from either side.
   virtual void retake(double t) = 0;
   virtual void interpolate(double t, std::span<double> y) = 0;  // t_previous() ≤ t ≤ t()
 

@@ -164,6 +164,7 @@ class SundialsStepper : public Stepper {
   Owned<SUNMatrix> matrix_;                           // I − γ J
   Owned<SUNLinearSolver> linear_solver_;
   double t_ = 0, t_previous_ = 0;
+  double step_end_ = 0;  // of the last step as it was accepted
   bool restart_ = true;  // the library must be told t_ and y_ before it can go on
   double good_step_ = 0;
 
@@ -213,7 +214,7 @@ SundialsStepper::SundialsStepper(OdeSystem& system, const ErrorControl& control)
 void SundialsStepper::start(double t, std::span<const double> y) {
   std::copy(y.begin(), y.end(), y_.begin());
   y_previous_ = y_;
-  t_ = t_previous_ = t;
+  t_ = t_previous_ = step_end_ = t;
   slope_.known = slope_previous_.known = false;
   has_dense_output_ = false;
   restart_ = true;
@@ -248,6 +249,7 @@ void SundialsStepper::step(double t_limit) {
     restart_ = true;
     throw;
   }
+  step_end_ = t_;
   ++statistics_.steps;
 }
 
@@ -289,7 +291,7 @@ void SundialsStepper::jump(double t_limit) {
 
 void SundialsStepper::retake(double t) {
   if (t == t_) return;
-  if (!(t < t_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, t_));
+  if (!(t <= step_end_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
   slope_.known = false;
   restart_ = true;
   lost_state_.reset();

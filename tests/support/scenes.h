@@ -1,0 +1,37 @@
+// scenes.h — runs scenes from tests as a user would, and asks for figures by name.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/scene.h"
+#include "studies/kinds.h"
+#include "studies/simulate.h"
+
+namespace kurbel::test {
+
+inline std::string source_path(const std::string& relative) { return std::string(KURBEL_SOURCE_DIR) + "/" + relative; }
+
+inline Scene scene_from(const std::string& text) { return parse_scene(text, "test.toml", all_kinds()); }
+inline Scene scene_file(const std::string& relative) { return read_scene(source_path(relative), all_kinds()); }
+
+// Runs with the scene's own effects; errors measured unless told otherwise.
+inline Result run(const Scene& scene, bool measure_error = true) {
+  return simulate(scene, scene.effects, "test", SimulateOptions{.measure_error = measure_error, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}});
+}
+inline Result run(const std::string& text, bool measure_error = true) { return run(scene_from(text), measure_error); }
+
+inline double figure(const Result& result, const std::string& name) {
+  const Figure* found = result.find(name);
+  EXPECT_NE(found, nullptr) << "no figure " << name;
+  return found ? found->value : std::nan("");
+}
+
+// A state at a given time: run until then, errors off.
+inline Result run_until(Scene scene, double t) {
+  scene.run.until = t;
+  return run(scene, false);
+}
+
+}  // namespace kurbel::test
