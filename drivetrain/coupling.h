@@ -27,7 +27,6 @@ struct Coupling {
   static constexpr std::string_view kind = "coupling";
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0
-  Damping given = {};
 
   template <class T>
   T torque(const Twist<T>& x) const {
@@ -37,22 +36,26 @@ struct Coupling {
   double twist_at(double torque) const { return torque / stiffness; }
   double energy(double twist) const { return 0.5 * stiffness * twist * twist; }
   double stiffness_at_rest() const { return stiffness; }
+};
 
-  // inertia: J_red [kg·m²]
-  void settle(double inertia) {
-    if (given.as == Damping::As::viscous) {
-      damping = given.value;
-      return;
-    }
-    const double omega = given.frequency > 0 ? given.frequency : (inertia > 0 ? std::sqrt(stiffness / inertia) : 0.0);
-    if (omega == 0) return;
-    const double per_unit = stiffness / omega;
-    switch (given.as) {
-      case Damping::As::ratio: damping = 2 * given.value * per_unit; break;
-      case Damping::As::relative: damping = given.value * per_unit / (2 * std::numbers::pi); break;
-      case Damping::As::loss_factor: damping = given.value * per_unit; break;
+// A coupling as its data sheet gives it; viscous once the inertias that it joins are known.
+struct CouplingData {
+  using Element = Coupling;
+  double stiffness = 0;  // k [N·m/rad], > 0
+  Damping damping;
+
+  // inertia: J_red [kg·m²]; 0: none is known (both ends held), and then only c or a given frequency define the damping.
+  Coupling settled(double inertia) const {
+    if (damping.as == Damping::As::viscous) return {stiffness, damping.value};
+    const double natural = inertia > 0 ? std::sqrt(stiffness / inertia) : HUGE_VAL;
+    const double per_unit = stiffness / (damping.frequency > 0 ? damping.frequency : natural);
+    switch (damping.as) {
+      case Damping::As::ratio: return {stiffness, 2 * damping.value * per_unit};
+      case Damping::As::relative: return {stiffness, damping.value * per_unit / (2 * std::numbers::pi)};
+      case Damping::As::loss_factor: return {stiffness, damping.value * per_unit};
       case Damping::As::viscous: break;
     }
+    return {stiffness, 0};
   }
 };
 

@@ -55,7 +55,7 @@ Window window_of(const Section& s, Messages& messages) {
   window.start = s.number_or("start", window.start);
   window.stop = s.number_or("stop", window.stop);
   if (s.given("start") && s.given("stop") && window.stop <= window.start)
-    messages.add(s.where("stop"), fmt::format("{} \"{}\": stop = {} s; must be later than start = {} s", s.kind->name, s.name, window.stop, window.start));
+    messages.add(s.where("stop"), fmt::format("{} \"{}\": stop = {:g} s; must be later than start = {:g} s", s.kind->name, s.name, window.stop, window.start));
   return window;
 }
 
@@ -73,6 +73,8 @@ Damping damping_of(const Section& s, Messages& messages) {
     damping.as = as;
     damping.value = s.number(key);
   }
+  if (s.given("damping_frequency") && (!first || damping.as == Damping::As::viscous))
+    messages.add(s.where("damping_frequency"), fmt::format("{} \"{}\": \"damping_frequency\" belongs to \"damping_ratio\", \"relative_damping\" or \"loss_factor\"; none is given", s.kind->name, s.name));
   damping.frequency = 2 * std::numbers::pi * s.number_or("damping_frequency", 0);
   return damping;
 }
@@ -89,24 +91,25 @@ Curve curve_of(const CurveData& data) { return Curve(data.x, data.y, data.form, 
 void put_curve(Network& net, int node, const Section& s, const CurveData& data, double sign, Account account, Window window,
                Messages& messages) {
   const Curve curve = curve_of(data);
+  const Location where = s.where(s.has("table") ? "table" : "torque");
   if (data.over == "time") {
     net.put(node, s.name, TorqueOverTime{account, curve, sign}, window);
   } else if (data.over == "speed") {
-    if (data.period > 0) messages.add(s.at, fmt::format("{} \"{}\": a table over speed has no period", s.kind->name, s.name));
+    if (data.period > 0) messages.add(where, fmt::format("{} \"{}\": a table over speed has no period", s.kind->name, s.name));
     net.put(node, s.name, TorqueOverSpeed{account, curve, sign}, window);
   } else {
     CurveData closed = data;
     if (closed.period == 0) closed.period = 2 * std::numbers::pi;
     const double span = data.x.back() - data.x.front();
     if (span > closed.period * (1 + 1e-9)) {
-      messages.add(s.at, fmt::format("{} \"{}\": a table over the angle spans {:.6g} deg, more than its period of {:.6g} deg; give period = \"720 deg\" for two turns",
+      messages.add(where, fmt::format("{} \"{}\": a table over the angle spans {:.6g} deg, more than its period of {:.6g} deg; give period = \"720 deg\" for two turns",
                                      s.kind->name, s.name, span * 180 / std::numbers::pi, closed.period * 180 / std::numbers::pi));
       return;
     }
     try {
       net.put(node, s.name, TorqueOverAngle{account, curve_of(closed), sign}, window);
     } catch (const std::invalid_argument& error) {
-      messages.add(s.at, fmt::format("{} \"{}\": {}", s.kind->name, s.name, error.what()));
+      messages.add(where, fmt::format("{} \"{}\": {}", s.kind->name, s.name, error.what()));
     }
   }
 }
@@ -128,7 +131,7 @@ void build_coupling(const Section& s, Network& net, Messages& messages) {
   const int in = net.add_node(s.name, "in", s.number("inertia_in"));
   const int out = net.add_node(s.name, "out", s.number("inertia_out"));
   net.ports[s.name] = {in, out};
-  net.connect(in, out, 1, s.name, Coupling{s.number("stiffness"), 0, damping_of(s, messages)});
+  net.connect(in, out, 1, s.name, CouplingData{s.number("stiffness"), damping_of(s, messages)});
 }
 
 // k = G J_p/L, J = ρ J_p L, J_p = π (D⁴ − d⁴)/32; cut into n equal springs with the inertia between and at the ends.
@@ -138,11 +141,14 @@ void build_shaft(const Section& s, Network& net, Messages& messages) {
   };
   double stiffness = s.number_or("stiffness", 0), inertia = s.number_or("inertia", 0);
   if (s.given("stiffness") == s.given("length"))
-    return refuse("stiffness", s.given("length") ? "\"stiffness\" and \"length\" both given; keep one" : "give \"stiffness\", or \"length\" and \"diameter\"");
+    return refuse("stiffness", s.given("length") ? "\"stiffness\" and \"length\" both given; keep one" : "\"stiffness\" is missing; give it, or \"length\" and \"diameter\"");
+  if (s.given("stiffness"))
+    for (const char* key : {"diameter", "bore"})
+      if (s.given(key)) return refuse(key, fmt::format("\"{}\" belongs to \"length\", which is not given; drop it", key));
   if (s.given("length")) {
     if (!s.given("diameter")) return refuse("length", "\"diameter\" is missing beside \"length\"");
     const double length = s.number("length"), outer = s.number("diameter"), bore = s.number("bore");
-    if (bore >= outer) return refuse("bore", fmt::format("bore = {} m; must be smaller than diameter = {} m", bore, outer));
+    if (bore >= outer) return refuse("bore", fmt::format("bore = {:g} mm; must be < diameter = {:g} mm", bore * 1e3, outer * 1e3));
     const double polar = std::numbers::pi / 32 * (std::pow(outer, 4) - std::pow(bore, 4));
     stiffness = s.number("shear_modulus") * polar / length;
     if (!s.given("inertia")) inertia = s.number("density") * polar * length;
@@ -157,7 +163,7 @@ void build_shaft(const Section& s, Network& net, Messages& messages) {
     const int node = net.add_node(s.name, last ? "out" : fmt::format("{}", i), inertia / segments * (last ? 0.5 : 1));
     Damping part = damping;
     if (part.as == Damping::As::viscous) part.value *= segments;
-    net.connect(before, node, 1, s.name, Coupling{stiffness * segments, 0, part});
+    net.connect(before, node, 1, s.name, CouplingData{stiffness * segments, part});
     before = node;
   }
   net.ports[s.name].out = before;
@@ -179,7 +185,7 @@ const std::vector<Kind>& stage_kinds() {
 // Ideal stages; i = z₂/z₁. Each shaft counts its angle positive in its own direction of drive.
 void build_gearbox(const Section& s, Network& net, Messages& messages) {
   const std::vector<Section>& stages = s["stages"].sections;
-  if (stages.empty()) messages.add(s.where("stages"), fmt::format("gearbox \"{}\": stages is empty; give one or more {{ teeth = [z1, z2] }}", s.name));
+  if (stages.empty()) messages.add(s.where("stages"), fmt::format("gearbox \"{}\": stages = []; give one or more {{ teeth = [z1, z2] }}", s.name));
   int before = -1;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const Section& stage = stages[k];
@@ -187,7 +193,8 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
     const std::vector<double>& teeth = stage["teeth"].numbers;
     const std::vector<double> inertia = stage.has("inertia") ? stage["inertia"].numbers : std::vector<double>{0, 0};
     if (teeth.size() != 2 || inertia.size() != 2) {
-      messages.add(stage.where(teeth.size() != 2 ? "teeth" : "inertia"), fmt::format("gearbox \"{}\", stage {}: {} value(s); must be two, driving wheel first", s.name, k + 1, teeth.size() != 2 ? teeth.size() : inertia.size()));
+      const std::size_t count = teeth.size() != 2 ? teeth.size() : inertia.size();
+      messages.add(stage.where(teeth.size() != 2 ? "teeth" : "inertia"), fmt::format("gearbox \"{}\": stages[{}]: {} has {} value{}; must be two, driving wheel first", s.name, k + 1, teeth.size() != 2 ? "teeth" : "inertia", count, count == 1 ? "" : "s"));
       return;
     }
     if (before < 0) {
@@ -223,7 +230,7 @@ void build_load(const Section& s, Network& net, Messages& messages) {
   } else if (torque > 0) {
     net.put(node, s.name, OpposingLoad{account, torque, viscous, quadratic, 0}, window);
   } else if (torque < 0) {
-    messages.add(s.where("torque"), fmt::format("load \"{}\": torque = {} N·m; a load against the motion must be ≥ 0 (with acts = \"always\" it may be negative)", s.name, torque));
+    messages.add(s.where("torque"), fmt::format("load \"{}\": torque = {:g} N·m; a load against the motion must be ≥ 0 (with acts = \"always\" it may be negative)", s.name, torque));
   } else if (viscous > 0 || quadratic > 0) {
     net.put(node, s.name, SpeedLoad{account, viscous, quadratic}, window);
   }
@@ -239,7 +246,9 @@ void build_torque_source(const Section& s, Network& net, Messages& messages) {
   if (!s.given("torque") && !s.given("amplitude") && !s.has("table"))
     messages.add(s.at, fmt::format("torque source \"{}\": nothing given; allowed: \"torque\", \"amplitude\" with \"frequency\", \"table\"", s.name));
   if (amplitude != 0 && frequency == 0)
-    messages.add(s.where("amplitude"), fmt::format("torque source \"{}\": \"amplitude\" needs \"frequency\"", s.name));
+    messages.add(s.where("amplitude"), fmt::format("torque source \"{}\": \"amplitude\" needs a \"frequency\" > 0, e.g. \"5 Hz\"", s.name));
+  if (s.given("ramp") && !s.given("torque"))
+    messages.add(s.where("ramp"), fmt::format("torque source \"{}\": \"ramp\" needs \"torque\", the value it rises to", s.name));
   if (s.given("ramp")) {
     const double begin = s.given("start") ? window.start : 0;
     net.put(node, s.name, TorqueOverTime{Account::driving, Curve({begin, begin + s.number("ramp")}, {0, torque}, Curve::Form::linear), 1}, window);
@@ -254,9 +263,14 @@ void build_prescribed_speed(const Section& s, Network& net, Messages& messages) 
   const int node = single_shaft(s, net);
   PrescribedSpeed given;
   if (s.has("table") == s.given("speed")) {
-    messages.add(s.at, fmt::format("prescribed speed \"{}\": give either \"speed\" or \"table\"", s.name));
+    if (s.has("table")) messages.add(s.where("table"), fmt::format("prescribed speed \"{}\": \"speed\" and \"table\" both given; keep one", s.name));
+    if (!s.has("table")) messages.add(s.at, fmt::format("prescribed speed \"{}\": \"speed\" is missing; give it, or \"table\"", s.name));
     return;
   }
+  if (s.number("amplitude") != 0 && s.number("frequency") == 0)
+    messages.add(s.where("amplitude"), fmt::format("prescribed speed \"{}\": \"amplitude\" needs a \"frequency\" > 0, e.g. \"5 Hz\"", s.name));
+  if (s.given("ramp") && !s.given("speed"))
+    messages.add(s.where("ramp"), fmt::format("prescribed speed \"{}\": \"ramp\" needs \"speed\", the value it rises to", s.name));
   if (s.has("table")) {
     const CurveData& data = s["table"].curve;
     if (data.form == Curve::Form::smooth || data.period > 0)
@@ -290,7 +304,9 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
     stall = s.number("constant") * s.number("voltage") / s.number("resistance");
     no_load = s.number("voltage") / s.number("constant");
   } else if (!s.given("stall_torque") || !s.given("no_load_speed")) {
-    messages.add(s.at, fmt::format("dc shunt motor \"{}\": give stall_torque and no_load_speed, or voltage, resistance and constant", s.name));
+    const bool one = s.given("stall_torque") || s.given("no_load_speed");
+    messages.add(s.at, one ? fmt::format("dc shunt motor \"{}\": \"{}\" is missing beside \"{}\"", s.name, s.given("stall_torque") ? "no_load_speed" : "stall_torque", s.given("stall_torque") ? "stall_torque" : "no_load_speed")
+                           : fmt::format("dc shunt motor \"{}\": nothing given; give stall_torque and no_load_speed, or voltage, resistance and constant", s.name));
     return;
   }
   net.put(node, s.name, DcShuntMotor{stall, no_load, s.number_or("rated_torque", 0)}, window_of(s, messages));

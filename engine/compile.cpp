@@ -206,8 +206,8 @@ class Compiler {
       std::set<std::string> names;
       for (const int n : shaft.nodes) names.insert(model_.node_label(n));
       messages_.add(location_of(net().nodes[at(shaft.nodes.front())].component),
-                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a half inertia, or switch the elasticity beside it off",
-                                listed({names.begin(), names.end()}, "and")));
+                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a component there an inertia (a coupling: inertia_in, inertia_out){}",
+                                listed({names.begin(), names.end()}, "and"), model_.elastic.empty() ? "" : ", or switch the elasticity beside it off"));
     }
     messages_.throw_if_any();
   }
@@ -280,12 +280,11 @@ class Compiler {
       const Network::Joint& joint = net().joints[at(e.joint)];
       if (joint.component != last || loss < 0) loss = account(joint.component, Account::harmful);
       last = joint.component;
-      joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss, joint.component});
+      joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss});
     }
     for (std::size_t i = 0; i < net().elements.size(); ++i) {
       const Network::ShaftElement& e = net().elements[i];
-      ShaftPorts ports{.id = static_cast<int>(i), .shaft = model_.shaft_of_node[at(e.node)], .gain = model_.gain_of_node[at(e.node)],
-                       .window = e.window, .component = e.component};
+      ShaftPorts ports{.id = static_cast<int>(i), .shaft = model_.shaft_of_node[at(e.node)], .gain = model_.gain_of_node[at(e.node)]};
       if (e.element->uses_angle()) {
         ports.angle = tracked(e.node);
         ports.phase = e.phase;
@@ -294,7 +293,7 @@ class Compiler {
       model_.mode_slots += at(e.element->mode_count());
       ports.account = account(e.component, e.element->account());
       for (const auto& [name, kind] : e.element->further_accounts()) account(name, kind);
-      e.element->place(pools, ports);
+      e.element->place(pools, ports, {e.window, e.component});
     }
     for (const Network::Node& node : net().nodes)
       if (node.prescribed >= 0) account(node.component, Account::driving);

@@ -58,9 +58,9 @@ const DocumentEntry* DocumentValue::find(std::string_view key) const {
 std::string DocumentValue::describe() const {
   switch (type) {
     case Type::flag: return flag ? "true" : "false";
-    case Type::integer: return fmt::format("the bare number {}", integer);
-    case Type::number: return fmt::format("the bare number {}", number);
-    case Type::text: return fmt::format("\"{}\"", text);
+    case Type::integer: return fmt::format("{}", integer);
+    case Type::number: return fmt::format("{}", number);
+    case Type::text: return in_quotes(text);
     case Type::list: return "a list";
     case Type::table: return "a table";
     case Type::other: return "a date or time";
@@ -72,7 +72,7 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
   const auto refuse = [&](const std::string& text) { throw SceneError({{path, {}, text}}); };
   std::error_code status;
   if (!std::filesystem::exists(path, status)) refuse("no such file; check the path, or list the folder with ls");
-  if (std::filesystem::is_directory(path, status)) refuse("is a folder; give the scene file inside it");
+  if (std::filesystem::is_directory(path, status)) refuse("is a folder; give a file inside it");
   // Read no more than the limit: pipes and devices have no size to ask for.
   std::ifstream in(path, std::ios::binary);
   if (!in) refuse("cannot be opened for reading; check its permissions");
@@ -84,13 +84,71 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
   return text;
 }
 
+namespace {
+
+// Keys with thousands of dots nest thousands of tables, and toml++ sets them no limit. Says where the first key with
+// more dots than `limit` stands; line 0 if there is none.
+Location too_many_dots(const std::string& text, int limit) {
+  Location at{1, 0};
+  int dots = 0;
+  std::string quote;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++at.column;
+    if (c == '\n') at = {at.line + 1, 0};
+    if (!quote.empty()) {
+      const bool line_ends = c == '\n' && quote.size() == 1;
+      if (c == '\\' && quote[0] == '"') {
+        ++i, ++at.column;
+        if (i < text.size() && text[i] == '\n') at = {at.line + 1, 0};
+      } else if (line_ends || text.compare(i, quote.size(), quote) == 0) {
+        i += quote.size() - 1, at.column += static_cast<int>(quote.size()) - 1;
+        quote.clear();
+      }
+    } else if (c == '"' || c == '\'') {
+      quote = text.compare(i, 3, std::string(3, c)) == 0 ? std::string(3, c) : std::string(1, c);
+      i += quote.size() - 1, at.column += static_cast<int>(quote.size()) - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '.') {
+      if (++dots > limit) return at;
+    } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+  }
+  return {};
+}
+
+// What toml++ says, in one sentence that is ours where it is common.
+std::string why_not_toml(std::string_view said) {
+  if (said.find("TOML_MAX_NESTED_VALUES") != std::string_view::npos) return "values are nested more than 256 deep";
+  if (const std::size_t name = said.find('\''); said.find("cannot redefine existing") != std::string_view::npos && name != std::string_view::npos)
+    return fmt::format("{} stands twice; keep one", in_quotes(said.substr(name + 1, said.rfind('\'') - name - 1)));
+  constexpr std::string_view while_parsing = "Error while parsing ";
+  if (said.starts_with(while_parsing)) said.remove_prefix(while_parsing.size());
+  const bool bare_text = said.find("could not determine value type") != std::string_view::npos ||
+                         said.find("expected a comment or whitespace") != std::string_view::npos ||
+                         said.find("expected decimal digit") != std::string_view::npos || said.find("expected digit") != std::string_view::npos;
+  return std::string(said) + (bare_text ? "; texts and quantities with units stand in quotes" : "");
+}
+
+}  // namespace
+
 DocumentValue parse_toml(const std::string& text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw SceneError({{file, {}, "is empty; a scene needs at least `line` and the tables of its components"}});
+  if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
+    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n') + 1;
+    const std::size_t begin = nul == 0 ? 0 : text.rfind('\n', nul) + 1;  // npos + 1 = 0
+    throw SceneError({{file, {static_cast<int>(line), static_cast<int>(nul - begin) + 1}, "holds a NUL byte; a scene is a text file in UTF-8"}});
+  }
+  constexpr int most_dots = 8;
+  if (const Location at = too_many_dots(text, most_dots); at.line > 0)
+    throw SceneError({{file, at, fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)}});
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    throw SceneError({{file, location(error.source()), fmt::format("not TOML: {}", error.description())}});
+    throw SceneError({{file, location(error.source()), fmt::format("not TOML: {}", why_not_toml(error.description()))}});
   }
 }
 

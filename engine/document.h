@@ -23,7 +23,7 @@ struct DocumentValue {
   std::vector<DocumentEntry> entries = {};  // of a table, in the order of the file
 
   const DocumentEntry* find(std::string_view key) const;
-  std::string describe() const;  // "the number 12", "the text \"abc\"", "a table"
+  std::string describe() const;  // as in the file: 12, "abc", true; "a list", "a table"
 };
 
 struct DocumentEntry {

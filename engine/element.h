@@ -7,7 +7,6 @@
 //   double twist_at(double torque) const;                    twist that carries this torque at rest [rad]
 //   double energy(double twist) const;                       stored [J]
 //   double stiffness_at_rest() const;                        [N·m/rad]
-//   void settle(double inertia);                             optional: damping given as a ratio becomes viscous
 //
 // A **shaft element** sits on one shaft and exerts a torque M on it, positive in the direction of positive rotation.
 //   template <class T> T torque(const ShaftState<T>&) const;

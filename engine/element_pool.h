@@ -1,6 +1,7 @@
 // element_pool.h — all elements of one type, evaluated in one loop behind one virtual call. No element, no pool, no cost.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -98,7 +99,6 @@ struct ConnectionPorts {
   int shaft_a = 0, shaft_b = 0;
   double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
   int loss_account = 0;
-  std::string component;
 };
 
 struct ShaftPorts {
@@ -110,6 +110,10 @@ struct ShaftPorts {
   int angle_shaft = 0;
   double phase = 0;     // added to the tracked angle [rad]
   int account = 0;
+};
+
+// What a pool needs of an element only now and then.
+struct ShaftElementLabel {
   Window window;
   std::string component;
 };
@@ -117,12 +121,12 @@ struct ShaftPorts {
 template <class E>
 class ConnectionPool final : public ElementPool {
  public:
+  // Long chains are bound by memory: what every step needs stands close together, Jacobian slots apart.
   struct Placed {
     E element;
     ConnectionPorts at;
-    int slot[6] = {};
   };
-  void place(E element, ConnectionPorts at) { placed_.push_back({std::move(element), std::move(at), {}}); }
+  void place(E element, ConnectionPorts at) { placed_.push_back({std::move(element), at}); }
 
   void add(const Instant& now, Sums& sums) const override {
     if (sums.work_rate) return add_with_work(now, sums);
@@ -137,28 +141,26 @@ class ConnectionPool final : public ElementPool {
   }
 
   void register_jacobian(JacobianPattern& pattern) override {
-    for (Placed& p : placed_) {
+    slots_.clear();
+    for (const Placed& p : placed_) {
       const int theta = pattern.twist(p.at.id), a = pattern.speed(p.at.shaft_a), b = pattern.speed(p.at.shaft_b);
-      p.slot[0] = pattern.entry(a, theta);
-      p.slot[1] = pattern.entry(a, a);
-      p.slot[2] = pattern.entry(a, b);
-      p.slot[3] = pattern.entry(b, theta);
-      p.slot[4] = pattern.entry(b, a);
-      p.slot[5] = pattern.entry(b, b);
+      slots_.push_back({pattern.entry(a, theta), pattern.entry(a, a), pattern.entry(a, b), pattern.entry(b, theta), pattern.entry(b, a), pattern.entry(b, b)});
     }
   }
 
   void add_jacobian(const Instant& now, const double*, double* slots) const override {
-    for (const Placed& p : placed_) {
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const Placed& p = placed_[i];
+      const std::array<int, 6>& slot = slots_[i];
       const Twist<double> x = motion(p, now);
       const auto tau = p.element.torque(Twist<Dual<2>>{Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1)});
       const double ga = p.at.gain_a, gb = p.at.gain_b, by_angle = tau.d[0], by_rate = tau.d[1];
-      slots[p.slot[0]] -= ga * by_angle;
-      slots[p.slot[1]] -= ga * by_rate * ga;
-      slots[p.slot[2]] += ga * by_rate * gb;
-      slots[p.slot[3]] += gb * by_angle;
-      slots[p.slot[4]] += gb * by_rate * ga;
-      slots[p.slot[5]] -= gb * by_rate * gb;
+      slots[slot[0]] -= ga * by_angle;
+      slots[slot[1]] -= ga * by_rate * ga;
+      slots[slot[2]] += ga * by_rate * gb;
+      slots[slot[3]] += gb * by_angle;
+      slots[slot[4]] += gb * by_rate * ga;
+      slots[slot[5]] -= gb * by_rate * gb;
     }
   }
 
@@ -186,6 +188,7 @@ class ConnectionPool final : public ElementPool {
   }
 
   std::vector<Placed> placed_;
+  std::vector<std::array<int, 6>> slots_;
 };
 
 template <class E>
@@ -196,7 +199,10 @@ class ShaftPool final : public ElementPool {
     ShaftPorts at;
     int slot_angle = 0, slot_rate = 0;
   };
-  void place(E element, ShaftPorts at) { placed_.push_back({std::move(element), std::move(at), 0, 0}); }
+  void place(E element, const ShaftPorts& at, ShaftElementLabel label) {
+    placed_.push_back({std::move(element), at, 0, 0});
+    label_.push_back(std::move(label));
+  }
 
   void add(const Instant& now, Sums& sums) const override {
     for (const Placed& p : placed_) {
@@ -251,7 +257,7 @@ class ShaftPool final : public ElementPool {
   GuardLabel label(int guard, const int* mode) const override {
     if constexpr (Guarded<E>) {
       const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      return {p.at.component, p.element.mode_name(mode[p.at.mode])};
+      return {label_[static_cast<std::size_t>(guard / E::guards)].component, p.element.mode_name(mode[p.at.mode])};
     }
     return {};
   }
@@ -271,16 +277,17 @@ class ShaftPool final : public ElementPool {
   }
   double next_edge(double t) const override {
     double next = std::numeric_limits<double>::infinity();
-    for (const Placed& p : placed_) {
-      if (p.at.window.start > t) next = std::min(next, p.at.window.start);
-      if (p.at.window.stop > t) next = std::min(next, p.at.window.stop);
-      if constexpr (Timed<E>) next = std::min(next, p.element.next_edge(t));
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      if (label_[i].window.start > t) next = std::min(next, label_[i].window.start);
+      if (label_[i].window.stop > t) next = std::min(next, label_[i].window.stop);
+      if constexpr (Timed<E>) next = std::min(next, placed_[i].element.next_edge(t));
     }
     return next;
   }
   void set_timed_modes(double t, int* mode, char* active) const override {
-    for (const Placed& p : placed_) {
-      active[p.at.id] = t >= p.at.window.start && t < p.at.window.stop;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const Placed& p = placed_[i];
+      active[p.at.id] = t >= label_[i].window.start && t < label_[i].window.stop;
       if constexpr (Timed<E>) mode[p.at.mode] = p.element.mode_at(t);
     }
   }
@@ -293,6 +300,7 @@ class ShaftPool final : public ElementPool {
   }
 
   std::vector<Placed> placed_;
+  std::vector<ShaftElementLabel> label_;
 };
 
 }  // namespace kurbel

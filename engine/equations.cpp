@@ -38,6 +38,7 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   direction_.assign(shafts, 1);
   mode_.assign(m.mode_slots, 0);
   active_.assign(elements, 1);
+  prescribed_piece_.assign(m.network.prescribed.size(), 0);
   turns_.assign(m.angles.size(), 0);
   speed_.assign(shafts, 0);
   torque_.assign(shafts, 0);
@@ -106,12 +107,28 @@ void Equations::list_rigid_trees() {
   std::reverse(rigid_steps_.begin(), rigid_steps_.end());
 }
 
+double Equations::prescribed_speed(std::size_t shaft, double t) const {
+  const int p = model_->shafts[shaft].prescribed;
+  return model_->network.prescribed[at(p)].value(t, prescribed_piece_[at(p)]);
+}
+
+double Equations::prescribed_acceleration(std::size_t shaft, double t) const {
+  const int p = model_->shafts[shaft].prescribed;
+  return model_->network.prescribed[at(p)].slope(t, prescribed_piece_[at(p)]);
+}
+
+// Everything that changes at known times.
+void Equations::set_timed_modes(double t) {
+  for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  for (std::size_t p = 0; p < prescribed_piece_.size(); ++p) prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
+}
+
 Instant Equations::instant(double t, std::span<const double> y) {
   const Model& m = *model_;
   const double* speed = y.data() + speed_index(0);
   if (m.free_shafts < m.shafts.size()) {
     std::copy(speed, speed + m.free_shafts, speed_.begin());
-    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].value(t);
+    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = prescribed_speed(s, t);
     speed = speed_.data();
   }
   return {t, y.data(), y.data() + twists_begin(), speed, mode_.data(), direction_.data(), active_.data()};
@@ -142,7 +159,7 @@ void Equations::flow(double t, std::span<const double> y, std::span<double> ydot
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
-    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].slope(t);
+    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
     find_joint_torques(alpha_.data());
     write_quadratures(ydot.data() + states_);
   }
@@ -321,7 +338,7 @@ std::vector<double> Equations::start(double t) {
   }
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
-  for (const auto& pool : m.pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  set_timed_modes(t);
   for (const int s : directional_) {
     const double w = instant(t, y).speed[s];
     direction_[at(s)] = w > 0 ? 1 : w < 0 ? -1 : 0;
@@ -343,7 +360,7 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   for (std::size_t s = 0; s < m.free_shafts; ++s) y[speed_index(static_cast<int>(s))] = reduction_speed * m.node_ratio[at(m.shafts[s].reference)];
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
-  for (const auto& pool : m.pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  set_timed_modes(t);
   for (const int s : directional_) direction_[at(s)] = reduction_speed > 0 ? 1 : reduction_speed < 0 ? -1 : 0;
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
   return y;
@@ -520,7 +537,7 @@ double Equations::next_edge(double t) const {
 
 void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log) {
   const std::vector<char> before = active_;
-  for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  set_timed_modes(t);
   for (std::size_t e = 0; e < active_.size(); ++e)
     if (active_[e] != before[e]) log.push_back({t, model_->network.elements[e].component, active_[e] ? "on" : "off"});
   std::vector<std::size_t> still;
@@ -560,7 +577,7 @@ double Equations::angle_with_turns(std::size_t tracked, std::span<const double> 
 const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
   const Model& m = *model_;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate_.data());
-  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = m.network.prescribed[at(m.shafts[s].prescribed)].slope(t);
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
   find_joint_torques(alpha_.data());
   const TrackedAngle& reference = m.angles[at(m.reduction_angle)];
   shaft_angle_[at(reference.shaft)] = angle_with_turns(at(m.reduction_angle), y) / reference.gain;

@@ -85,6 +85,9 @@ class Equations final : public OdeSystem {
   };
   std::size_t twists_begin() const { return model_->angle_count(); }
   Instant instant(double t, std::span<const double> y);
+  double prescribed_speed(std::size_t shaft, double t) const;
+  double prescribed_acceleration(std::size_t shaft, double t) const;
+  void set_timed_modes(double t);
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate);
   void find_joint_torques(const double* alpha);
   void write_quadratures(double* rate);
@@ -105,7 +108,7 @@ class Equations final : public OdeSystem {
   std::vector<ElasticStep> elastic_steps_;
 
   // modes, fixed between events
-  std::vector<int> mode_, direction_;
+  std::vector<int> mode_, direction_, prescribed_piece_;
   std::vector<char> active_;
   std::vector<double> turns_;                 // per tracked angle, in units of two turns
 

@@ -15,17 +15,46 @@ std::vector<Message> sorted(std::vector<Message> messages) {
   return messages;
 }
 
+constexpr std::size_t most_shown = 100;
+
+// A user's text may hold anything; a terminal must not obey it.
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool c1 = c == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (c < 0x20 || c == 0x7F) {
+      out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : c == '\r' ? "\\r" : fmt::format("\\x{:02X}", c);
+    } else if (c1) {
+      out += fmt::format("\\x{:02X}", static_cast<unsigned char>(text[++i]));
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
 std::string joined(const std::vector<Message>& messages) {
   std::string text;
-  for (const Message& m : messages) {
+  for (std::size_t i = 0; i < messages.size() && i < most_shown; ++i) {
+    const Message& m = messages[i];
     if (!text.empty()) text += '\n';
-    text += m.at.line > 0 ? fmt::format("{}:{}:{}: {}", m.file, m.at.line, m.at.column, m.text)
-                          : fmt::format("{}: {}", m.file, m.text);
+    text += printable(m.at.line > 0 ? fmt::format("{}:{}:{}: {}", m.file, m.at.line, m.at.column, m.text)
+                                    : fmt::format("{}: {}", m.file, m.text));
   }
+  if (messages.size() > most_shown) text += fmt::format("\n… and {} more messages", messages.size() - most_shown);
   return text;
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  if (text.size() <= longest) return fmt::format("\"{}\"", printable(text));
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  return fmt::format("\"{}…\"", printable(text.substr(0, end)));
+}
 
 SceneError::SceneError(std::vector<Message> list)
     : std::runtime_error(joined(sorted(list))), messages(sorted(std::move(list))) {}

@@ -4,6 +4,7 @@
 #include <compare>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kurbel {
@@ -37,7 +38,11 @@ class Messages {
   std::vector<Message> all_;
 };
 
-// A scene that cannot be read or makes no machine. what() holds one "file:line:col: text" a line.
+// A user's text in quotes: control characters escaped, shortened where it is long.
+std::string in_quotes(std::string_view text);
+
+// A scene that cannot be read or makes no machine. what() holds one "file:line:col: text" a line
+// (the first hundred).
 struct SceneError : std::runtime_error {
   explicit SceneError(std::vector<Message> messages);
   std::vector<Message> messages;

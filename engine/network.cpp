@@ -34,25 +34,26 @@ void Network::prescribe(int node, PrescribedSpeed speed) {
   prescribed.push_back(std::move(speed));
 }
 
-double PrescribedSpeed::value(double t) const {
-  const auto after = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
-  double base;
-  if (after == 0) {
-    base = speed.front();
-  } else if (after == time.size()) {
-    base = speed.back();
-  } else {
-    const double s = (t - time[after - 1]) / (time[after] - time[after - 1]);
-    base = speed[after - 1] + s * (speed[after] - speed[after - 1]);
-  }
+int PrescribedSpeed::piece(double t) const {
+  return static_cast<int>(std::upper_bound(time.begin(), time.end(), t) - time.begin()) - 1;
+}
+
+double PrescribedSpeed::value(double t, int piece) const {
+  const auto last = static_cast<int>(time.size()) - 1;
+  const auto i = static_cast<std::size_t>(std::clamp(piece, 0, last));
+  const double base = piece < 0 || piece >= last
+                          ? speed[i]
+                          : speed[i] + (t - time[i]) * (speed[i + 1] - speed[i]) / (time[i + 1] - time[i]);
   return base + amplitude * std::sin(2 * M_PI * frequency * t + phase);
 }
 
-double PrescribedSpeed::slope(double t) const {
-  const auto after = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
+double PrescribedSpeed::slope(double t, int piece) const {
+  const auto last = static_cast<int>(time.size()) - 1;
   double base = 0;
-  if (after > 0 && after < time.size())
-    base = (speed[after] - speed[after - 1]) / (time[after] - time[after - 1]);
+  if (piece >= 0 && piece < last) {
+    const auto i = static_cast<std::size_t>(piece);
+    base = (speed[i + 1] - speed[i]) / (time[i + 1] - time[i]);
+  }
   return base + amplitude * 2 * M_PI * frequency * std::cos(2 * M_PI * frequency * t + phase);
 }
 

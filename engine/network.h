@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <typeindex>
 #include <vector>
 
@@ -44,12 +45,15 @@ class ConnectionMaker {
   virtual void place(PoolSet& pools, const ConnectionPorts& ports) const = 0;
 };
 
-template <class E>
+// From an element that is final, or from a specification that becomes one when the inertias are known (`settled`).
+template <class E, class Specification = E>
 class ConnectionMakerOf final : public ConnectionMaker {
  public:
-  explicit ConnectionMakerOf(E element) : element_(std::move(element)) {}
+  explicit ConnectionMakerOf(Specification given) : given_(std::move(given)) {
+    if constexpr (std::is_same_v<E, Specification>) element_ = given_;
+  }
   void settle(double inertia) override {
-    if constexpr (requires(E& e) { e.settle(inertia); }) element_.settle(inertia);
+    if constexpr (!std::is_same_v<E, Specification>) element_ = given_.settled(inertia);
   }
   double stiffness() const override { return element_.stiffness_at_rest(); }
   double damping() const override {
@@ -68,6 +72,7 @@ class ConnectionMakerOf final : public ConnectionMaker {
   }
 
  private:
+  Specification given_;
   E element_;
 };
 
@@ -84,7 +89,7 @@ class ShaftElementMaker {
   virtual int mode_count() const { return 1; }
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
   virtual std::vector<std::pair<std::string, Account>> further_accounts() const { return {}; }
-  virtual void place(PoolSet& pools, const ShaftPorts& ports) const = 0;
+  virtual void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const = 0;
 };
 
 template <class E>
@@ -98,7 +103,9 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
     if constexpr (requires { element_.work_account; }) return element_.work_account;
     else return E::account;
   }
-  void place(PoolSet& pools, const ShaftPorts& ports) const override { pools.of<ShaftPool<E>>().place(element_, ports); }
+  void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
+    pools.of<ShaftPool<E>>().place(element_, ports, label);
+  }
 
  private:
   E element_;
@@ -108,8 +115,10 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
 struct PrescribedSpeed {
   std::vector<double> time, speed;  // straight between the points; constant before and after [s, rad/s]
   double amplitude = 0, frequency = 0, phase = 0;  // + amplitude sin(2π f t + phase) [rad/s, Hz, rad]
-  double value(double t) const;
-  double slope(double t) const;  // dω/dt from the right
+  // The piece in force is a mode: within a step the law goes on smoothly beyond its end.
+  int piece(double t) const;
+  double value(double t, int piece) const;
+  double slope(double t, int piece) const;  // dω/dt
   double next_edge(double t) const;
 };
 
@@ -143,7 +152,11 @@ class Network {
   void join(int a, int b, double ratio, const std::string& component);
   template <class E>
   void connect(int a, int b, double ratio, const std::string& component, E element) {
-    joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false});
+    if constexpr (requires { typename E::Element; }) {
+      joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<typename E::Element, E>>(std::move(element)), false});
+    } else {
+      joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false});
+    }
   }
   template <class E>
   void put(int node, const std::string& component, E element, Window window = {}) {

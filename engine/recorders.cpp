@@ -11,6 +11,9 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+// Peaks that differ by less are the same peak come again; the first one counts.
+constexpr double same_peak = 1e-9;
+
 bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
 }
@@ -143,7 +146,7 @@ double ExtremeRecorder::merit(std::size_t i, double value) const {
 
 void ExtremeRecorder::consider(std::size_t i, double t, double value) {
   Found& found = found_[i];
-  if (found.any && merit(i, value) <= merit(i, found.value)) return;
+  if (found.any && merit(i, value) <= merit(i, found.value) + same_peak * std::abs(found.value)) return;
   found = {value, t, true};
 }
 

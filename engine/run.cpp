@@ -2,6 +2,9 @@
 #include "engine/run.h"
 
 #include <fmt/format.h>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +30,21 @@ Method method_named(const std::string& name) {
   throw std::invalid_argument(fmt::format("method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
 }
 
+// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a run
+// they count as zero.
+class FlushDenormals {
+ public:
+#if defined(__SSE2__)
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }  // flush to zero, denormals are zero
+  ~FlushDenormals() { _mm_setcsr(before_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned before_;
+#endif
+};
+
 // A guard that is this far below zero (of a scale of one) has fired.
 constexpr double fired_below = -1e-11;
 constexpr int most_events_at_once = 100;
@@ -38,7 +56,7 @@ constexpr double implicit_step_cost = 8;
 class Loop {
  public:
   Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
-      : equations_(equations), options_(options), observers_(observers), guard_(equations.guard_count()), guard_before_(guard_.size()) {}
+      : equations_(equations), options_(options), observers_(observers), view_(equations), guard_(equations.guard_count()), guard_before_(guard_.size()) {}
 
   RunOutcome run() {
     begin_ = cpu_now();
@@ -74,6 +92,7 @@ class Loop {
     if (stepper_) add_statistics();
     stepper_ = make_stepper(method, equations_, equations_.error_control(options_.tolerance));
     method_ = method;
+    view_.watch(*stepper_);
     restart(t, y);
   }
 
@@ -90,9 +109,8 @@ class Loop {
     stepper_->step(limit());
     equations_.guards(stepper_->t(), stepper_->y(), guard_);
     const std::vector<std::size_t> fired = locate_event();
-    StepView view(equations_, *stepper_);
     if (stepper_->t() > stepper_->t_previous())
-      for (Observer* observer : observers_) observer->step(view);
+      for (Observer* observer : observers_) observer->step(view_);
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
     if (t >= edge_) {
@@ -118,8 +136,8 @@ class Loop {
     double t = std::min(options_.until, edge_);
     const Model& m = equations_.model();
     for (const TrackedAngle& angle : m.angles) {
-      if (!m.shafts[static_cast<std::size_t>(angle.shaft)].variable && equations_.guard_count() == 0) continue;
-      if (static_cast<std::size_t>(angle.shaft) >= m.free_shafts) continue;
+      const auto shaft = static_cast<std::size_t>(angle.shaft);
+      if ((!m.shafts[shaft].variable && equations_.guard_count() == 0) || shaft >= m.free_shafts) continue;
       const double omega = std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
       if (omega > 0) t = std::min(t, stepper_->t() + 0.5 * M_PI / omega);
     }
@@ -272,6 +290,7 @@ class Loop {
   Equations& equations_;
   const RunOptions& options_;
   const std::vector<Observer*>& observers_;
+  StepView view_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
   RunOutcome out_;
@@ -286,9 +305,10 @@ class Loop {
 }  // namespace
 
 std::span<const double> StepView::at(double time) {
-  if (time >= stepper_.t()) return stepper_.y();
-  if (time <= stepper_.t_previous()) return stepper_.y_previous();
-  stepper_.interpolate(time, scratch_);
+  if (time >= stepper_->t()) return stepper_->y();
+  if (time <= stepper_->t_previous()) return stepper_->y_previous();
+  scratch_.resize(equations_.size());
+  stepper_->interpolate(time, scratch_);
   return scratch_;
 }
 
@@ -312,6 +332,7 @@ double find_root(const std::function<double(double)>& f, double a, double fa, do
 }
 
 RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers) {
+  const FlushDenormals flush;
   return Loop(equations, options, observers).run();
 }
 

@@ -32,11 +32,12 @@ struct RunStatistics {
 // The state of a run just after an accepted step, for observers. Between t_previous and t the solution is smooth.
 class StepView {
  public:
-  StepView(Equations& equations, Stepper& stepper) : equations_(equations), stepper_(stepper), scratch_(equations.size()) {}
-  double t_previous() const { return stepper_.t_previous(); }
-  double t() const { return stepper_.t(); }
-  std::span<const double> y() const { return stepper_.y(); }
-  std::span<const double> y_previous() const { return stepper_.y_previous(); }
+  explicit StepView(Equations& equations) : equations_(equations) {}
+  void watch(Stepper& stepper) { stepper_ = &stepper; }
+  double t_previous() const { return stepper_->t_previous(); }
+  double t() const { return stepper_->t(); }
+  std::span<const double> y() const { return stepper_->y(); }
+  std::span<const double> y_previous() const { return stepper_->y_previous(); }
   // The state at a time within the step; valid until the next call.
   std::span<const double> at(double time);
   const Snapshot& snapshot(double time) { return equations_.snapshot(time, at(time)); }
@@ -44,7 +45,7 @@ class StepView {
 
  private:
   Equations& equations_;
-  Stepper& stepper_;
+  Stepper* stepper_ = nullptr;
   std::vector<double> scratch_;
 };
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/document.h"
+#include "engine/network.h"
 #include "engine/section_reader.h"
 #include "engine/units.h"
 
@@ -17,16 +18,37 @@ namespace {
 using Type = DocumentValue::Type;
 
 const std::vector<std::string>& reserved_names() {
-  static const std::vector<std::string> names = {"title", "line", "branch", "effects", "run", "description"};
+  static const std::vector<std::string> names = {"title", "description", "line", "branch", "effects", "run"};
   return names;
 }
 
 // "gearbox.out" → "gearbox".
 std::string component_of(const std::string& port) { return port.substr(0, port.find('.')); }
 
+// A few names of many.
+std::string shortened_list(std::vector<std::string> names, std::string_view conjunction = "or") {
+  constexpr std::size_t most = 30;
+  if (names.size() <= most) return listed(names, conjunction);
+  const std::size_t more = names.size() - most;
+  names.resize(most);
+  return fmt::format("{} … and {} more", listed(names, ","), more);
+}
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const auto near = nearest(word, names);
   return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+}
+
+bool fits(const std::string& method, const std::string& model) {
+  const std::vector<std::string>& methods = methods_of(model);
+  return std::count(methods.begin(), methods.end(), method) > 0;
+}
+
+std::string method_does_not_fit(const std::string& method, const std::string& model) {
+  for (const char* other : {"reduced", "multibody"})
+    if (other != model && fits(method, other))
+      return fmt::format("method \"{}\" belongs to model = \"{}\"; for model = \"{}\" allowed: {}", method, other, model, listed(methods_of(model)));
+  return fmt::format("method {}{}; allowed: {}", in_quotes(method), suggestion(method, methods_of(model)), listed(methods_of(model)));
 }
 
 class SceneReader {
@@ -44,6 +66,7 @@ class SceneReader {
     put_in_canonical_order();
     read_effects();
     read_run();
+    if (!messages_.empty()) check_parameters();
     messages_.throw_if_any();
     return std::move(scene_);
   }
@@ -56,81 +79,146 @@ class SceneReader {
     for (const Section& section : scene_.components) names.push_back(section.name);
     return names;
   }
-  const Section* find(const std::string& name) const { return scene_.find(name); }
+  const Section* find(const std::string& name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? nullptr : &scene_.components[found->second];
+  }
+
+  // What building finds wrong with the parameters of a component is said together with what reading found; a file
+  // without errors is built later, once.
+  void check_parameters() {
+    for (const Section& section : scene_.components) {
+      Network scratch;
+      if (section.sound) section.kind->build(section, scratch, messages_);
+    }
+  }
 
   void read_components() {
     for (const DocumentEntry& entry : document_.entries) {
       if (entry.key == "title" || entry.key == "description") {
-        if (entry.value.type != Type::text) refuse(entry.value.at, fmt::format("{} must be a text in quotes", entry.key));
+        if (entry.value.type != Type::text) refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));
         if (entry.key == "title") scene_.title = entry.value.text;
         continue;
       }
       if (std::count(reserved_names().begin(), reserved_names().end(), entry.key)) continue;
+      const bool good_name = !entry.key.empty() && entry.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
       if (entry.value.type != Type::table) {
-        refuse(entry.at, fmt::format("unknown key \"{}\"{}; at the top of a scene stand {} and one table for each component",
-                                     entry.key, suggestion(entry.key, reserved_names()), listed(reserved_names(), "and")));
+        refuse_top_key(entry);
+      } else if (!good_name) {
+        refuse(entry.at, fmt::format("component name {}: only letters, digits, _ and - are allowed", in_quotes(entry.key)));
+      } else if (read_component(entry)) {
         continue;
       }
-      if (entry.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos) {
-        refuse(entry.at, fmt::format("component name \"{}\": only letters, digits, _ and - are allowed", entry.key));
-        continue;
-      }
-      const std::string name = entry.key;
-      const Kind* kind = read_kind(entry.value, kinds_, fmt::format("component \"{}\"", name), entry.at, messages_);
-      if (!kind) {
-        unreadable_.insert(name);
-        continue;
-      }
-      DocumentValue table = entry.value;
-      table.at = entry.at;
-      Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"on"});
-      if (const DocumentEntry* on = entry.value.find("on")) read_on(section, on->value);
-      scene_.components.push_back(std::move(section));
+      unreadable_.insert(entry.key);
     }
+  }
+  void refuse_top_key(const DocumentEntry& entry) {
+    const auto is = [&](const Key& key) { return key.name == entry.key; };
+    const bool tables = entry.value.type == Type::list && !entry.value.items.empty() && entry.value.items.front().type == Type::table;
+    if (tables) {
+      refuse(entry.at, fmt::format("[[{0}]] is a list of tables; a component is written [{0}], a branch [[branch]]", entry.key));
+    } else if (std::any_of(run_keys().begin(), run_keys().end(), is) || entry.key == "start" || entry.key == "output") {
+      refuse(entry.at, fmt::format("\"{}\" belongs under [run]", entry.key));
+    } else if (entry.key == "elasticity") {
+      refuse(entry.at, "\"elasticity\" belongs under [effects]");
+    } else {
+      refuse(entry.at, fmt::format("unknown key {}{}; allowed at the top of a scene: {}, and a table for each component",
+                                   in_quotes(entry.key), suggestion(entry.key, reserved_names()), listed(reserved_names(), "and")));
+    }
+  }
+  static bool is_top_key(const DocumentEntry& entry) { return entry.key == "line" || entry.key == "title"; }
+  bool read_component(const DocumentEntry& entry) {
+    const std::string& name = entry.key;
+    // A slip of the pen in [effects] or [run], and no component at all.
+    const auto table_meant = entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "run", "branch"});
+    if (table_meant) {
+      refuse(entry.at, fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
+      return false;
+    }
+    const Kind* kind = read_kind(entry.value, kinds_, fmt::format("component \"{}\"", name), entry.at, messages_);
+    if (!kind) return false;
+    DocumentValue table = entry.value;
+    table.at = entry.at;
+    // TOML gives every key to the table header above it: the commonest slip with `line`.
+    for (const DocumentEntry& inner : entry.value.entries)
+      if (is_top_key(inner)) {
+        refuse(inner.at, fmt::format("{} \"{}\": \"{}\" stands in the table [{}]; move it above the first table of the file", kind->name, name, inner.key, name));
+        if (inner.key == "line") misplaced_line_ = &inner;
+      }
+    table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), is_top_key), table.entries.end());
+    Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"kind", "on"});
+    if (const DocumentEntry* on = entry.value.find("on")) read_on(section, on->value);
+    index_[name] = scene_.components.size();
+    scene_.components.push_back(std::move(section));
+    return true;
   }
 
   // `on = "flywheel"` is a branch of one component.
   void read_on(const Section& section, const DocumentValue& value) {
-    if (section.kind->placement == Placement::inline_two)
-      return refuse(value.at, fmt::format("{} \"{}\" has two shafts and stands in a line or branch, not `on` a component",
-                                          section.kind->name, section.name));
-    if (value.type != Type::text) return refuse(value.at, "on must be the name of a component in quotes");
+    if (section.kind->placement == Placement::inline_two) {
+      lines_sound_ = false;
+      return refuse(value.at, fmt::format("{} \"{}\": on = {}; it has two shafts and stands in a `line` or a [[branch]]",
+                                          section.kind->name, section.name, value.describe()));
+    }
+    if (value.type != Type::text || value.text.empty()) {
+      lines_sound_ = false;
+      return refuse(value.at, fmt::format("{} \"{}\": on = {}; must be the name of a component in quotes", section.kind->name, section.name, value.describe()));
+    }
     scene_.lines.push_back({value.text, {section.name}, value.at, {value.at}});
   }
 
   void read_lines() {
     const DocumentEntry* line = document_.find("line");
+    if (!line) line = misplaced_line_;
     if (!line) {
+      lines_sound_ = false;
+      scene_.lines.insert(scene_.lines.begin(), Line{});
       refuse({1, 1}, "\"line\" is missing: the components in the order of the drive, e.g. line = [\"motor\", \"coupling\", \"press\"]");
     } else {
       scene_.lines.insert(scene_.lines.begin(), read_line(line->value, "line", ""));
     }
     const DocumentEntry* branches = document_.find("branch");
     if (!branches) return;
-    if (branches->value.type != Type::list) return refuse(branches->at, "branches are written as [[branch]] with `from` and `line`");
+    if (branches->value.type != Type::list) {
+      lines_sound_ = false;
+      return refuse(branches->at, "branch is no list of tables; each branch is written as [[branch]] with `from` and `line`");
+    }
     for (const DocumentValue& branch : branches->value.items) read_branch(branch);
   }
   void read_branch(const DocumentValue& branch) {
     for (const DocumentEntry& entry : branch.entries)
       if (entry.key != "from" && entry.key != "line")
-        refuse(entry.at, fmt::format("branch: unknown key \"{}\"{}; allowed: \"from\" and \"line\"", entry.key, suggestion(entry.key, {"from", "line"})));
+        refuse(entry.at, fmt::format("branch: unknown key {}{}; allowed: \"from\" and \"line\"", in_quotes(entry.key), suggestion(entry.key, {"from", "line"})));
     const DocumentEntry* from = branch.find("from");
     const DocumentEntry* line = branch.find("line");
-    if (!from || from->value.type != Type::text || !line)
-      return refuse(branch.at, "branch: needs from = \"component\" and line = [\"component\", …]");
-    Line read = read_line(line->value, "branch", from->value.text);
+    const bool has_from = from && from->value.type == Type::text && !from->value.text.empty();
+    const bool mistyped = std::any_of(branch.entries.begin(), branch.entries.end(), [](const DocumentEntry& e) {
+      return e.key != "from" && e.key != "line" && nearest(e.key, {"from", "line"});
+    });
+    if (branch.type != Type::table || ((!from || !line) && !mistyped)) {
+      refuse(branch.at, fmt::format("branch: {}; needs from = \"component\" and line = [\"component\", …]",
+                                    branch.type != Type::table ? branch.describe() + " is no table" : !from && !line ? "\"from\" and \"line\" are missing" : from ? "\"line\" is missing" : "\"from\" is missing"));
+    } else if (from && !has_from) {
+      refuse(from->value.at, fmt::format("branch: from = {}; must be the name of a component in quotes", from->value.describe()));
+    }
+    if (!has_from || !line) lines_sound_ = false;
+    if (!line) return;
+    Line read = read_line(line->value, "branch: line", has_from ? from->value.text : "");
+    if (!has_from) return;
     read.at = from->value.at;
     scene_.lines.push_back(std::move(read));
   }
   Line read_line(const DocumentValue& value, const std::string& what, const std::string& from) {
     Line line{.from = from, .at = value.at};
     if (value.type != Type::list || value.items.empty()) {
-      refuse(value.at, fmt::format("{} = {}; must be a list of component names, e.g. [\"motor\", \"press\"]", what, value.describe()));
+      refuse(value.at, fmt::format("{} = {}; must be a list of component names, e.g. [\"motor\", \"press\"]", what, value.type == Type::list ? "[]" : value.describe()));
+      lines_sound_ = false;
       return line;
     }
     for (const DocumentValue& item : value.items) {
       if (item.type != Type::text) {
         refuse(item.at, fmt::format("{}: {} is no component name in quotes", what, item.describe()));
+        lines_sound_ = false;
         continue;
       }
       line.names.push_back(item.text);
@@ -142,14 +230,15 @@ class SceneReader {
   // Every name exists, every component stands in one place, every branch begins somewhere.
   void check_connections() {
     std::map<std::string, Location> placed;
+    std::set<std::string> meant;  // by a name mistyped elsewhere
     const std::vector<std::string> names = component_names();
     for (const Line& line : scene_.lines)
       for (std::size_t i = 0; i < line.names.size(); ++i) {
         const std::string& name = line.names[i];
         if (!find(name)) {
-          if (!unreadable_.count(name))
-            refuse(line.name_at[i], fmt::format("component \"{}\" has no table [{}]{}; tables here: {}", name, name, suggestion(name, names),
-                                                names.empty() ? "none" : listed(names, "and")));
+          if (unreadable_.count(name)) continue;
+          refuse(line.name_at[i], no_component(name, names));
+          if (const auto near = nearest(name, names)) meant.insert(*near);
           continue;
         }
         if (const auto [first, fresh] = placed.emplace(name, line.name_at[i]); !fresh)
@@ -158,44 +247,61 @@ class SceneReader {
     for (const Line& line : scene_.lines)
       if (!line.from.empty()) check_from(line, names, placed);
     for (const Section& section : scene_.components)
-      if (!placed.count(section.name))
+      if (lines_sound_ && !placed.count(section.name) && !meant.count(section.name))
         refuse(section.at, fmt::format("{} \"{}\" is not connected; put it into `line` or a [[branch]]{}", section.kind->name, section.name,
-                                       section.kind->placement == Placement::inline_two ? "" : ", or say `on = \"component\"`"));
-    check_reachable();
+                                       section.kind->placement == Placement::inline_two ? "" : ", or say on = \"component\" in its table"));
+    check_rings();
+  }
+  std::string no_component(const std::string& name, const std::vector<std::string>& names) const {
+    const bool bare = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+    return fmt::format("component {} has no table{}{}; tables here: {}", in_quotes(name), bare && name.size() < 40 ? fmt::format(" [{}]", name) : "",
+                       suggestion(name, names), names.empty() ? "none" : shortened_list(names, "and"));
   }
   void check_from(const Line& line, const std::vector<std::string>& names, const std::map<std::string, Location>& placed) {
     const std::string component = component_of(line.from);
     const Section* section = find(component);
     if (!section) {
-      if (!unreadable_.count(component))
-        refuse(line.at, fmt::format("\"{}\" is no component{}; allowed: {}", line.from, suggestion(component, names), listed(names)));
+      if (!unreadable_.count(component)) refuse(line.at, no_component(component, names));
       return;
     }
-    if (std::count(line.names.begin(), line.names.end(), component))
-      refuse(line.at, fmt::format("component \"{}\" branches from itself", component));
+    if (std::count(line.names.begin(), line.names.end(), component)) return;  // a ring; said below
     if (!placed.count(component)) return;  // said elsewhere
     const std::string port = line.from.size() > component.size() ? line.from.substr(component.size() + 1) : "";
     const bool two = section->kind->placement == Placement::inline_two;
     if (two && port != "in" && port != "out")
-      refuse(line.at, fmt::format("\"{}\": {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", line.from, section->kind->name, component, component, component));
-    if (!two && !port.empty())
-      refuse(line.at, fmt::format("\"{}\": {} \"{}\" has one shaft; say \"{}\"", line.from, section->kind->name, component, component));
+      refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from), section->kind->name, component, component, component));
+    if (!two && component.size() != line.from.size())
+      refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name, component, component));
   }
-  // Branches that hang on each other in a ring, without the main line.
-  void check_reachable() {
-    if (!messages_.empty()) return;
-    std::set<std::string> reached(scene_.lines.front().names.begin(), scene_.lines.front().names.end());
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Line& line : scene_.lines)
-        if (!line.from.empty() && reached.count(component_of(line.from)) && !reached.count(line.names.front())) {
-          reached.insert(line.names.begin(), line.names.end());
-          grown = true;
-        }
+  // Branches that hang on each other in a ring, apart from the main line: one message a ring.
+  void check_rings() {
+    std::map<std::string, std::size_t> line_of;
+    for (std::size_t i = 0; i < scene_.lines.size(); ++i)
+      for (const std::string& name : scene_.lines[i].names) line_of.emplace(name, i);
+    std::vector<std::size_t> walk(scene_.lines.size(), 0);  // number of the walk that passed here
+    for (std::size_t i = 0; i < scene_.lines.size(); ++i) {
+      std::size_t at = i;
+      while (walk[at] == 0) {
+        walk[at] = i + 1;
+        const auto next = line_of.find(component_of(scene_.lines[at].from));
+        if (scene_.lines[at].from.empty() || next == line_of.end()) break;
+        at = next->second;
+        if (walk[at] == i + 1) report_ring(at, line_of);
+      }
     }
-    for (const Line& line : scene_.lines)
-      if (!line.from.empty() && !reached.count(line.names.front()))
-        refuse(line.at, fmt::format("branch from \"{}\" never reaches the main line", line.from));
+  }
+  void report_ring(std::size_t first, const std::map<std::string, std::size_t>& line_of) {
+    std::vector<std::string> from;
+    Location where = scene_.lines[first].at;
+    std::size_t at = first;
+    do {
+      from.push_back(scene_.lines[at].from);
+      where = std::min(where, scene_.lines[at].at);
+      at = line_of.at(component_of(scene_.lines[at].from));
+    } while (at != first);
+    if (from.size() == 1)
+      return refuse(where, fmt::format("the branch from \"{0}\" holds \"{0}\" itself; begin it at a component of another line", component_of(from.front())));
+    refuse(where, fmt::format("the branches from {} hang on each other in a ring; begin one of them at a component of the main line", shortened_list(from, "and")));
   }
 
   // The order of tables in the file must not change a single bit of a result: components are sorted along the main
@@ -205,38 +311,37 @@ class SceneReader {
     std::sort(scene_.lines.begin() + 1, scene_.lines.end(), [](const Line& a, const Line& b) {
       return a.from != b.from ? a.from < b.from : a.names < b.names;
     });
-    // A branch may begin at a branch: lines follow those they depart from.
-    std::vector<Line> ordered = {scene_.lines.front()};
-    std::vector<Line> rest(scene_.lines.begin() + 1, scene_.lines.end());
-    for (bool grown = true; grown && !rest.empty();) {
-      grown = false;
-      for (std::size_t i = 0; i < rest.size(); ++i) {
-        const bool ready = std::any_of(ordered.begin(), ordered.end(), [&](const Line& l) {
-          return std::count(l.names.begin(), l.names.end(), component_of(rest[i].from)) > 0;
-        });
-        if (!ready) continue;
-        ordered.push_back(rest[i]);
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-        grown = true;
-        break;
+    // A branch may begin at a branch: lines follow those they depart from, otherwise in sorted order.
+    std::multimap<std::string, std::size_t> waiting;
+    for (std::size_t i = 1; i < scene_.lines.size(); ++i) waiting.emplace(component_of(scene_.lines[i].from), i);
+    std::vector<Line> ordered;
+    std::set<std::size_t> ready = {0};
+    while (!ready.empty()) {
+      const Line& next = scene_.lines[*ready.begin()];
+      ready.erase(ready.begin());
+      ordered.push_back(next);
+      for (const std::string& name : next.names) {
+        const auto [first, last] = waiting.equal_range(name);
+        for (auto it = first; it != last; ++it) ready.insert(it->second);
+        waiting.erase(first, last);
       }
     }
-    ordered.insert(ordered.end(), rest.begin(), rest.end());
-    scene_.lines = std::move(ordered);
+    scene_.lines = std::move(ordered);  // what is missing hangs in a ring or on nothing, and was refused
     std::map<std::string, std::size_t> rank;
     for (const Line& line : scene_.lines)
-      for (const std::string& name : line.names) rank.emplace(name, rank.size());
+      for (const std::string& name : line.names) rank.emplace(name, rank.size() + 1);
     std::stable_sort(scene_.components.begin(), scene_.components.end(),
                      [&](const Section& a, const Section& b) { return rank[a.name] < rank[b.name]; });
+    for (std::size_t i = 0; i < scene_.components.size(); ++i) index_[scene_.components[i].name] = i;
   }
 
   void read_effects() {
     const DocumentEntry* effects = document_.find("effects");
     if (!effects) return;
-    if (effects->value.type != Type::table) return refuse(effects->at, "[effects] must be a table");
+    if (effects->value.type != Type::table) return refuse(effects->at, fmt::format("effects = {}; must be a table, e.g. effects = {{ elasticity = true }}", effects->value.describe()));
     for (const DocumentEntry& entry : effects->value.entries) {
       if (entry.key != "elasticity") {
-        refuse(entry.at, fmt::format("[effects]: unknown effect \"{}\"{}; allowed: \"elasticity\"", entry.key, suggestion(entry.key, {"elasticity"})));
+        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\"", in_quotes(entry.key), suggestion(entry.key, {"elasticity"})));
         continue;
       }
       if (entry.value.type == Type::flag) {
@@ -244,46 +349,55 @@ class SceneReader {
       } else if (entry.value.type == Type::list) {
         for (const DocumentValue& item : entry.value.items) add_elastic(item);
       } else {
-        refuse(entry.value.at, fmt::format("elasticity = {}; must be true, false or a list of components", entry.value.describe()));
+        refuse(entry.value.at, fmt::format("[effects]: elasticity = {}; must be true, false or a list of components{}", entry.value.describe(),
+                                           entry.value.type == Type::text ? fmt::format(", e.g. [{}]", entry.value.describe()) : ""));
       }
     }
   }
-  void add_elastic(const DocumentValue& item) {
-    std::vector<std::string> allowed;
+  std::vector<std::string> elastic_names() const {
+    std::vector<std::string> names;
     for (const Section& section : scene_.components)
-      if (section.kind->elastic) allowed.push_back(section.name);
-    if (std::count(allowed.begin(), allowed.end(), item.text)) {
+      if (section.kind->elastic) names.push_back(section.name);
+    return names;
+  }
+  void add_elastic(const DocumentValue& item) {
+    const Section* section = item.type == Type::text ? find(item.text) : nullptr;
+    if (section && section->kind->elastic) {
       scene_.effects.elastic.push_back(item.text);
       return;
     }
     if (unreadable_.count(item.text)) return;
-    refuse(item.at, fmt::format("elasticity: {} is no elastic component{}; allowed: {}", item.describe(), suggestion(item.text, allowed),
-                                allowed.empty() ? "none in this scene" : listed(allowed)));
+    const std::vector<std::string> allowed = elastic_names();
+    const std::string why = section ? fmt::format("{} is a {}, which is always rigid", item.describe(), section->kind->name)
+                                    : fmt::format("{} is no component{}", item.describe(), suggestion(item.text, allowed));
+    refuse(item.at, fmt::format("[effects]: elasticity: {}; allowed: {}", why, allowed.empty() ? "none in this scene" : shortened_list(allowed)));
   }
 
   void read_run() {
     static const Kind run_kind{.name = "run", .keys = run_keys()};
     DocumentValue empty{.at = {1, 1}};
     const DocumentEntry* run = document_.find("run");
-    if (run && run->value.type != Type::table) return refuse(run->at, "[run] must be a table");
+    if (run && run->value.type != Type::table) return refuse(run->at, fmt::format("run = {}; must be a table, e.g. run = {{ until = \"3 s\" }}", run->value.describe()));
     DocumentValue table = run ? run->value : empty;
     if (run) table.at = run->at;
     const Section section = read_section(table, run_kind, "run", "[run]", messages_, {"start", "output"});
-    if (!section.sound) return;
     scene_.run.until = section.number("until");
     scene_.run.accuracy = section.number("accuracy");
     scene_.run.method = section.text("method");
     scene_.run.model = section.text("model");
     scene_.run.samples = static_cast<int>(section.number("samples"));
     scene_.run.budget = section.number("budget");
+    if (section.sound && !fits(scene_.run.method, scene_.run.model))
+      refuse(section.where("method"), fmt::format("[run]: {}", method_does_not_fit(scene_.run.method, scene_.run.model)));
     if (const DocumentEntry* start = table.find("start")) read_start(start->value);
     if (const DocumentEntry* output = table.find("output")) read_output(output->value);
   }
   void read_output(const DocumentValue& value) {
-    if (value.type != Type::list) return refuse(value.at, "output must be a list of component names");
+    if (value.type != Type::list) return refuse(value.at, fmt::format("[run]: output = {}; must be a list of component names, e.g. [\"motor\"]", value.describe()));
     for (const DocumentValue& item : value.items) {
+      if (unreadable_.count(item.text)) continue;
       if (!find(item.text)) {
-        refuse(item.at, fmt::format("output: {} is no component{}; allowed: {}", item.describe(), suggestion(item.text, component_names()), listed(component_names())));
+        refuse(item.at, fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(), suggestion(item.text, component_names()), shortened_list(component_names())));
         continue;
       }
       scene_.run.output.push_back(item.text);
@@ -296,33 +410,38 @@ class SceneReader {
     if (value.type == Type::text) {
       start.equilibrium = value.text == "equilibrium";
       if (!start.equilibrium && value.text != "rest")
-        refuse(value.at, fmt::format("start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}", value.describe()));
+        refuse(value.at, fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}", value.describe()));
       return;
     }
-    if (value.type != Type::table) return refuse(value.at, "start must be \"rest\", \"equilibrium\" or a table such as { speed = \"300 rpm\" }");
+    if (value.type != Type::table) return refuse(value.at, fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}", value.describe()));
     for (const DocumentEntry& entry : value.entries) {
       if (entry.key == "speed") {
         read_quantity(entry.value, "rad/s", any_number, "start: speed", messages_, start.speed);
       } else if (entry.key == "angle") {
         read_quantity(entry.value, "rad", any_number, "start: angle", messages_, start.angle);
       } else if (entry.key == "equilibrium") {
-        if (entry.value.type != Type::flag) refuse(entry.value.at, "start: equilibrium must be true or false");
+        if (entry.value.type != Type::flag) refuse(entry.value.at, fmt::format("start: equilibrium = {}; must be true or false", entry.value.describe()));
         start.equilibrium = entry.value.flag;
       } else if (entry.key == "on") {
         start.on = entry.value.text;
-        if (!find(start.on)) refuse(entry.value.at, fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(), suggestion(start.on, component_names()), listed(component_names())));
+        if (!find(start.on) && !unreadable_.count(start.on))
+          refuse(entry.value.at, fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(), suggestion(start.on, component_names()), shortened_list(component_names())));
       } else if (find(entry.key) && entry.value.type == Type::table) {
         read_component_start(entry);
-      } else {
+      } else if (find(entry.key)) {
+        refuse(entry.value.at, fmt::format("start: {} = {}; must be a table such as {}", entry.key, entry.value.describe(),
+                                           find(entry.key)->kind->elastic ? "{ twist = \"0.5 deg\" }" : "{ speed = \"300 rpm\" }"));
+      } else if (!unreadable_.count(entry.key)) {
         std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on"};
         for (const std::string& name : component_names()) allowed.push_back(name);
-        refuse(entry.at, fmt::format("start: unknown key \"{}\"{}; allowed: {}", entry.key, suggestion(entry.key, allowed), listed(allowed, "and")));
+        refuse(entry.at, fmt::format("start: unknown key {}{}; allowed: {}", in_quotes(entry.key), suggestion(entry.key, allowed), shortened_list(allowed, "and")));
       }
     }
   }
   void read_component_start(const DocumentEntry& entry) {
     ComponentStart start{.at = entry.at};
-    const bool elastic = find(entry.key)->kind->elastic;
+    const Kind& kind = *find(entry.key)->kind;
+    const bool elastic = kind.elastic;
     for (const DocumentEntry& e : entry.value.entries) {
       double number = 0;
       const std::string what = fmt::format("start: {}.{}", entry.key, e.key);
@@ -333,7 +452,7 @@ class SceneReader {
       } else if (e.key == "twist" && elastic) {
         if (read_quantity(e.value, "rad", any_number, what, messages_, number)) start.twist = number;
       } else {
-        refuse(e.at, fmt::format("{}: allowed here: {}", what, elastic ? "\"twist\"" : "\"angle\" and \"speed\""));
+        refuse(e.at, fmt::format("start: {}: unknown key {}; a {} has {}", entry.key, in_quotes(e.key), kind.name, elastic ? "a \"twist\" alone" : "\"angle\" and \"speed\""));
       }
     }
     scene_.run.start.components[entry.key] = start;
@@ -343,7 +462,10 @@ class SceneReader {
   Messages messages_;
   DocumentValue document_;
   Scene scene_;
-  std::set<std::string> unreadable_;  // components whose table was refused as a whole
+  std::map<std::string, std::size_t> index_;  // of each component in scene_.components
+  std::set<std::string> unreadable_;          // keys and tables that were refused as a whole
+  const DocumentEntry* misplaced_line_ = nullptr;
+  bool lines_sound_ = true;  // false: what is not connected follows from an error that was named
 };
 
 }  // namespace
@@ -365,13 +487,25 @@ const Section* Scene::find(const std::string& name) const {
   return found == components.end() ? nullptr : &*found;
 }
 
+const std::vector<std::string>& methods_of(const std::string& model) {
+  static const std::vector<std::string> reduced = {"auto", "dop853", "dopri5", "esdirk", "bdf", "adams"};
+  static const std::vector<std::string> multibody = {"auto", "RungeKuttaMerson", "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
+                                                     "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"};
+  return model == "multibody" ? multibody : reduced;
+}
+
+void check_method(const std::string& method, const std::string& model) {
+  if (!fits(method, model)) throw std::invalid_argument(method_does_not_fit(method, model));
+}
+
 const std::vector<Key>& run_keys() {
   static const std::vector<Key> keys = {
       {.name = "until", .unit = "s", .fallback = "\"1 s\"", .domain = positive, .doc = "end of the simulated time"},
       {.name = "accuracy", .fallback = "1e-6", .domain = {.low = 1e-12, .high = 0.1},
        .doc = "measured error of every figure over its scale (rated speed, rated torque, 1 rad)"},
       {.name = "method", .type = KeyType::text, .fallback = "\"auto\"", .doc = "integrator",
-       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg", "Verlet", "CPodes"}},
+       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
+                   "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
       {.name = "model", .type = KeyType::text, .fallback = "\"reduced\"",
        .doc = "reduced: tables extracted from Simbody; multibody: Simbody's closed loop at every step (rigid, one mechanism)",
        .choices = {"reduced", "multibody"}},
@@ -398,7 +532,7 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
   }
   const std::string prefix = "elasticity:";
   if (!text.starts_with(prefix))
-    throw std::invalid_argument(fmt::format("--effects {}: allowed: none, elasticity, elasticity:COUPLING,COUPLING", text));
+    throw std::invalid_argument(fmt::format("effects {}{}; allowed: none, elasticity, or elasticity:COUPLING,…", in_quotes(text), suggestion(text, {"none", "elasticity"})));
   for (std::size_t begin = prefix.size(); begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
@@ -407,8 +541,8 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
       std::vector<std::string> allowed;
       for (const Section& s : scene.components)
         if (s.kind->elastic) allowed.push_back(s.name);
-      throw std::invalid_argument(fmt::format("--effects: \"{}\" is no elastic component{}; allowed: {}", name,
-                                              suggestion(name, allowed), allowed.empty() ? "none in this scene" : listed(allowed)));
+      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name) : "is no component" + suggestion(name, allowed);
+      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why, allowed.empty() ? "none in this scene" : shortened_list(allowed)));
     }
     effects.elastic.push_back(name);
     begin = end + 1;

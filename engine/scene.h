@@ -70,6 +70,10 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
 // "none", "elasticity", or "elasticity:motor_coupling,main_coupling". Throws std::invalid_argument.
 Effects parse_effects(const std::string& text, const Scene& scene);
 
+// Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.
+const std::vector<std::string>& methods_of(const std::string& model);
+void check_method(const std::string& method, const std::string& model);
+
 // Keys of [run], for the docs.
 const std::vector<Key>& run_keys();
 

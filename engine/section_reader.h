@@ -10,7 +10,7 @@
 namespace kurbel {
 
 // Reads a table's values into a section of the given kind; whatever is wrong goes into `messages`.
-// `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` are read by somebody else.
+// `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are read by somebody else.
 Section read_section(const DocumentValue& table, const Kind& kind, const std::string& name, const std::string& what,
                      Messages& messages, const std::vector<std::string>& passed_over = {});
 

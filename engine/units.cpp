@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cctype>
 #include <cmath>
 #include <numbers>
+
+#include "engine/messages.h"
 
 namespace kurbel {
 namespace {
@@ -37,11 +40,12 @@ constexpr UnitEntry unit_table[] = {
     {"bar",  1e5,          {1, -1, -2, 0, 0}, true},{"psi",  6894.757293168361, {1, -1, -2, 0, 0}, false},
     {"A",    1,            {0, 0, 0, 0, 1}, true},  {"V",    1,           {1, 2, -3, 0, -1}, true},
     {"Ohm",  1,            {1, 2, -3, 0, -2}, true},{"Ω",    1,           {1, 2, -3, 0, -2}, true},
+    {"Ω",    1,            {1, 2, -3, 0, -2}, true},  // the ohm sign; above the Greek letter
     {"H",    1,            {1, 2, -2, 0, -2}, true},{"l",    1e-3,        {0, 3, 0, 0, 0}, false},
     {"%",    0.01,         {0, 0, 0, 0, 0}, false}, {"1",    1,           {0, 0, 0, 0, 0}, false},
 };
 constexpr std::pair<std::string_view, double> prefix_table[] = {
-    {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"d", 1e-1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9},
+    {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"μ", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"d", 1e-1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9},
 };
 // clang-format on
 
@@ -87,7 +91,7 @@ class UnitParser {
       } else if (take("*") || take("·") || take("⋅") || blank) {
         sign = 1;
       } else {
-        return fail(fmt::format("unexpected \"{}\" in a unit", text_.substr(at_)));
+        return fail_unexpected();
       }
       skip_blanks();
       if (at_ >= text_.size()) return fail("the unit ends in an operator");
@@ -100,6 +104,10 @@ class UnitParser {
     error_ = {std::move(text), at_};
     return std::nullopt;
   }
+  std::optional<Unit> fail_unexpected() {
+    if (text_[at_] == ',') return fail("unexpected comma; decimals are written with a point");
+    return fail(fmt::format("unexpected {} in a unit", in_quotes(text_.substr(at_))));
+  }
   bool take(std::string_view token) {
     if (!text_.substr(at_).starts_with(token)) return false;
     at_ += token.size();
@@ -107,7 +115,8 @@ class UnitParser {
   }
   bool skip_blanks() {
     const std::size_t before = at_;
-    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+    while (take(" ") || take("\t") || take("\u00a0") || take("\u202f")) {
+    }
     return at_ > before;
   }
 
@@ -119,35 +128,66 @@ class UnitParser {
     std::optional<Unit> unit = look_up(symbol);
     if (!unit) {
       at_ = begin;
-      if (symbol.empty()) return fail(fmt::format("unexpected \"{}\" in a unit", text_.substr(at_)));
-      const auto near = nearest(symbol, all_symbols());
-      return fail(fmt::format("unknown unit \"{}\"{}", symbol, near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
+      if (symbol.empty() || symbol[0] == ',') return fail_unexpected();
+      const auto near = suggest(symbol);
+      return fail(fmt::format("unknown unit {}{}", in_quotes(symbol), near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
     }
-    const int power = read_exponent();
-    unit->factor = std::pow(unit->factor, power);
-    for (int& e : unit->dimension.exponent) e *= power;
+    const std::optional<int> power = read_exponent();
+    if (!power) return fail("an exponent must be a whole number from -9 to 9");
+    unit->factor = std::pow(unit->factor, *power);
+    for (int& e : unit->dimension.exponent) e *= *power;
     return unit;
   }
   bool is_end_of_symbol() const {
     const std::string_view rest = text_.substr(at_);
     const char c = rest[0];
-    return c == ' ' || c == '*' || c == '/' || c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') ||
+    return c == ' ' || c == '\t' || rest.starts_with("\u00a0") || rest.starts_with("\u202f") || c == '*' || c == '/' || c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') ||
            rest.starts_with("·") || rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
   }
-  int read_exponent() {
+  std::optional<int> read_exponent() {
     if (take("²")) return 2;
     if (take("³")) return 3;
-    take("^");
+    const bool caret = take("^");
     int power = 1;
     const auto [end, status] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), power);
-    if (status == std::errc{} && std::abs(power) <= 9) at_ = static_cast<std::size_t>(end - text_.data());
-    return std::abs(power) <= 9 ? power : 1;
+    if (status == std::errc::invalid_argument) return caret ? std::nullopt : std::optional<int>(1);
+    if (status != std::errc{} || std::abs(power) > 9) return std::nullopt;
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return power;
+  }
+
+  // "kgm" is "kg*m" with its product sign forgotten; else the nearest symbol.
+  static std::optional<std::string> suggest(std::string_view symbol) {
+    for (std::size_t i = symbol.size() - 1; i > 0 && symbol.size() < 8; --i)
+      if (look_up(symbol.substr(0, i)) && look_up(symbol.substr(i)))
+        return fmt::format("{}*{}", symbol.substr(0, i), symbol.substr(i));
+    return symbol.size() < 20 ? nearest(symbol, all_symbols()) : std::nullopt;
   }
 
   std::string_view text_;
   UnitError& error_;
   std::size_t at_ = 0;
 };
+
+struct NamedDimension {
+  std::string_view unit, name;
+};
+constexpr NamedDimension named_dimensions[] = {
+    {"rad/s", "an angular velocity"},     {"rad", "an angle"},         {"N*m/rad", "a torsional stiffness"},
+    {"N*m*s/rad", "a torsional damping"}, {"kg*m2", "an inertia"},     {"m", "a length"},
+    {"kg", "a mass"},                     {"s", "a time"},             {"N*m", "a torque or energy"},
+    {"N", "a force"},                     {"W", "a power"},            {"Pa", "a pressure"},
+    {"1/s", "a frequency"},               {"m/s", "a velocity"},       {"m/s2", "an acceleration"},
+    {"kg/m3", "a density"},               {"N/m", "a linear stiffness"}, {"N*s/m", "a linear damping"},
+    {"A", "a current"},                   {"V", "a voltage"},          {"Ohm", "a resistance"},
+    {"rad/s2", "an angular acceleration"}, {"m2", "an area"},          {"m3", "a volume"},
+};
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  });
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Levenshtein, with a swap of neighbours counted as one slip.
@@ -170,11 +210,19 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
   std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) begin = text.size();
   std::size_t digits = begin;
-  if (digits < text.size() && text[digits] == '+') ++digits;  // from_chars takes no leading plus
+  if (text.substr(begin).starts_with("\u2212")) {
+    error = {"the minus sign must be the plain \"-\"", begin};
+    return std::nullopt;
+  }
+  if (text.substr(begin).starts_with('+') && !text.substr(begin).starts_with("+-")) ++digits;  // unknown to from_chars
   double number = 0;
   const auto [end, status] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
   if (status != std::errc{}) {
-    error = {status == std::errc::result_out_of_range ? "the number is out of range" : "a number must come first", begin};
+    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)" : "a number must come first", begin};
+    return std::nullopt;
+  }
+  if (!std::isfinite(number)) {
+    error = {"the number must be finite", begin};
     return std::nullopt;
   }
   const auto after = static_cast<std::size_t>(end - text.data());
@@ -183,7 +231,12 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
     error.column += after;
     return std::nullopt;
   }
-  return Quantity{number * unit->factor, unit->dimension};
+  const double value = number * unit->factor;
+  if (!std::isfinite(value)) {
+    error = {"the number is out of range (1e-308 … 1e308)", begin};
+    return std::nullopt;
+  }
+  return Quantity{value, unit->dimension};
 }
 
 std::string examples_of(std::string_view si_unit) {
@@ -209,11 +262,28 @@ std::string examples_of(std::string_view si_unit) {
   return fmt::format("\"1 {}\"", si_unit);
 }
 
+std::string name_of(const Dimension& dimension) {
+  if (dimension == Dimension{}) return "a plain number";
+  UnitError error;
+  for (const NamedDimension& named : named_dimensions)
+    if (parse_unit(named.unit, error)->dimension == dimension)
+      return fmt::format("{} ({})", named.name, pretty_unit(named.unit));
+  static constexpr std::string_view base[] = {"kg", "m", "s", "rad", "A"};
+  std::string text;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const int e = dimension.exponent[i];
+    if (e != 0) text += fmt::format("{}{}{}", text.empty() ? "" : "·", base[i], e == 1 ? "" : fmt::format("^{}", e));
+  }
+  return "a quantity in " + text;
+}
+
 std::string pretty_unit(std::string_view unit) {
   std::string pretty;
   for (const char c : unit) {
     if (c == '*') {
       pretty += "·";
+    } else if (c == '^') {
+      continue;
     } else if (c == '2') {
       pretty += "²";
     } else if (c == '3') {
@@ -231,6 +301,9 @@ std::string with_unit(double value, std::string_view unit, int digits) {
 }
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.empty() || word.size() > 60) return std::nullopt;
+  for (const std::string& candidate : candidates)
+    if (equal_but_for_case(word, candidate)) return candidate;
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

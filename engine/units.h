@@ -34,7 +34,7 @@ struct UnitError {
 };
 
 // "kN*m/rad", "kg m2", "kg·m²", "N*m*s/rad", "1/s", "°", "". Factors are joined by *, · or a blank; / divides by the
-// next factor; exponents as ^2, 2, ², ^-1.
+// next factor alone; exponents as ^2, 2, ², ^-1.
 std::optional<Unit> parse_unit(std::string_view text, UnitError& error);
 
 // "1500 rpm" → 157.08 rad/s. The number comes first; a missing unit is a dimensionless quantity.
@@ -42,6 +42,9 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error);
 
 // A unit in which values of this dimension are commonly written, for messages: "rad/s" → "rpm, rad/s, deg/s".
 std::string examples_of(std::string_view si_unit);
+
+// What a dimension is, for messages: "a torque (N·m)", "a plain number".
+std::string name_of(const Dimension& dimension);
 
 // 1234.5, "N*m" → "1234.5 N·m"; six significant digits unless told.
 std::string with_unit(double value, std::string_view unit, int digits = 6);

@@ -38,8 +38,8 @@ bool read_press(const Section& s, const SliderCrank& crank, const std::string& w
   if (travel > crank.stroke())
     messages.add(s.where("nominal_travel"), fmt::format("{}: nominal_travel = {}; must be ≤ the stroke of {}", what, mm(travel), mm(crank.stroke())));
   if (rise > travel) messages.add(s.where("rise"), fmt::format("{}: rise = {}; must be ≤ nominal_travel = {}", what, mm(rise), mm(travel)));
-  if (through >= travel - rise && through > 0)
-    messages.add(s.where("breakthrough"), fmt::format("{}: breakthrough = {}; must lie nearer to the working end than the full force, {}", what, mm(through), mm(travel - rise)));
+  if (through >= travel - rise && through > 0 && rise <= travel)
+    messages.add(s.where("breakthrough"), fmt::format("{}: breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands", what, mm(through), mm(travel - rise)));
   if (drop > through) messages.add(s.where("drop"), fmt::format("{}: drop = {}; must be ≤ breakthrough = {}", what, mm(drop), mm(through)));
   if (messages.all().size() > before) return false;
   load.law = PressForce::make(working_end(s, crank), crank.stroke(), s.number("nominal_force"), travel, rise, through, drop);

@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, Account>> SliderCrankMaker::further_accounts(
   return accounts;
 }
 
-void SliderCrankMaker::place(PoolSet& pools, const ShaftPorts& ports) const { pools.of<SliderCrankPool>().place(crank_, ports); }
+void SliderCrankMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const { pools.of<SliderCrankPool>().place(crank_, ports); }
 
 void SliderCrankPool::place(SliderCrank crank, ShaftPorts at) {
   Placed placed{std::move(crank), std::move(at)};

@@ -39,7 +39,7 @@ class SliderCrankMaker final : public ShaftElementMaker {
   double cycle() const override;
   int mode_count() const override { return 1 + static_cast<int>(crank_.loads.size()); }
   std::vector<std::pair<std::string, Account>> further_accounts() const override;
-  void place(PoolSet& pools, const ShaftPorts& ports) const override;
+  void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
 
  private:
   SliderCrank crank_;
