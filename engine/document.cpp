@@ -119,8 +119,17 @@ Location too_many_dots(const std::string& text, int limit) {
   return {};
 }
 
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1; --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find_first_of("\r\n"));
+}
+
 // What toml++ says, in one sentence that is ours where it is common.
-std::string why_not_toml(std::string_view said) {
+std::string why_not_toml(std::string_view said, std::string_view line, int column) {
+  const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  if (said.find("unescaped control characters") != std::string_view::npos && column > characters)
+    return "a text does not end on this line; its closing quote is missing";
+  if (said.find("whitespace, saw ','") != std::string_view::npos) return "unexpected comma; decimals are written with a point";
   if (said.find("TOML_MAX_NESTED_VALUES") != std::string_view::npos) return "values are nested more than 256 deep";
   if (const std::size_t name = said.find('\''); said.find("cannot redefine existing") != std::string_view::npos && name != std::string_view::npos)
     return fmt::format("{} stands twice; keep one", in_quotes(said.substr(name + 1, said.rfind('\'') - name - 1)));
@@ -148,7 +157,7 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    throw SceneError({{file, location(error.source()), fmt::format("not TOML: {}", why_not_toml(error.description()))}});
+    throw SceneError({{file, location(error.source()), fmt::format("not TOML: {}", why_not_toml(error.description(), line_of(text, error.source().begin.line), static_cast<int>(error.source().begin.column)))}});
   }
 }
 

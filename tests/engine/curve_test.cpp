@@ -1,0 +1,111 @@
+// curve_test.cpp — characteristics by points: linear, smooth, periodic.
+#include "engine/curve.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+namespace kurbel {
+namespace {
+
+using Form = Curve::Form;
+
+double slope_in(const Curve& c, int piece, double x) {
+  const double h = 1e-6;
+  return (c.value_in(piece, x + h) - c.value_in(piece, x - h)) / (2 * h);
+}
+
+TEST(Curve, LinearRunsStraightBetweenPointsAndConstantOutside) {
+  const Curve c({0, 1, 3}, {0, 2, -2}, Form::linear);
+  EXPECT_DOUBLE_EQ(c.value(0.25), 0.5);
+  EXPECT_DOUBLE_EQ(c.value(2.0), 0);
+  EXPECT_DOUBLE_EQ(c.value(-5.0), 0);
+  EXPECT_DOUBLE_EQ(c.value(5.0), -2);
+  EXPECT_DOUBLE_EQ(c.max_abs(), 2);
+}
+
+TEST(Curve, PiecesAreNumberedFromMinusOneToTheLastPoint) {
+  const Curve c({0, 1, 3}, {0, 2, -2}, Form::linear);
+  EXPECT_EQ(c.piece(-0.1), -1);
+  EXPECT_EQ(c.piece(0), 0);
+  EXPECT_EQ(c.piece(0.999), 0);
+  EXPECT_EQ(c.piece(1), 1);
+  EXPECT_EQ(c.piece(3), 2);
+  EXPECT_EQ(c.piece_begin(-1), -HUGE_VAL);
+  EXPECT_EQ(c.piece_end(-1), 0);
+  EXPECT_EQ(c.piece_begin(1), 1);
+  EXPECT_EQ(c.piece_end(2), HUGE_VAL);
+}
+
+TEST(Curve, SmoothPassesThroughItsPointsWithContinuousSlope) {
+  const Curve c({0, 1, 3, 4}, {0, 2, 3, 3.5}, Form::smooth);
+  for (std::size_t i = 1; i + 1 < 4; ++i) {
+    const double x = c.x()[i];
+    const int right = c.piece(x);
+    EXPECT_NEAR(c.value_in(right - 1, x), c.y()[i], 1e-14);
+    EXPECT_NEAR(c.value_in(right, x), c.y()[i], 1e-14);
+    EXPECT_NEAR(slope_in(c, right - 1, x), slope_in(c, right, x), 1e-8);
+  }
+}
+
+// Monotone data make a monotone curve, and no curve overshoots the points on either side.
+TEST(Curve, SmoothNeverOvershootsItsPoints) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> step(0.01, 1), height(-5, 5);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> x = {0}, y = {height(random)};
+    for (int i = 0; i < 8; ++i) {
+      x.push_back(x.back() + step(random));
+      y.push_back(trial % 2 ? y.back() + step(random) * step(random) : height(random));
+    }
+    const Curve c(x, y, Form::smooth);
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      double last = y[i];
+      const double sign = y[i + 1] >= y[i] ? 1 : -1;
+      for (int k = 1; k <= 50; ++k) {
+        const double value = c.value_in(static_cast<int>(i), x[i] + (x[i + 1] - x[i]) * k / 50);
+        EXPECT_GE(sign * (value - last), -1e-12);
+        last = value;
+      }
+    }
+  }
+}
+
+TEST(Curve, PeriodicRepeatsAndClosesItself) {
+  for (const Form form : {Form::linear, Form::smooth}) {
+    const Curve c({0, 1, 2}, {0, 3, 1}, form, 4);  // the point (4, 0) is added
+    EXPECT_EQ(c.x().size(), 4u);
+    for (const double x : {-7.3, -0.1, 0.4, 3.9})
+      for (const int turns : {-3, 1, 10}) EXPECT_NEAR(c.value(x + 4.0 * turns), c.value(x), 1e-12);
+    EXPECT_NEAR(c.value(4 - 1e-12), c.value(0.0), 1e-11);
+    EXPECT_EQ(c.offset(9.0), 8);
+    EXPECT_EQ(c.offset(-0.5), -4);
+  }
+}
+
+TEST(Curve, SmoothPeriodicHasTheSameSlopeAtBothEnds) {
+  const Curve c({0, 1, 2, 3}, {0, 1, 3, 2}, Form::smooth, 3.5);
+  const int last = static_cast<int>(c.x().size()) - 2;
+  EXPECT_NEAR(slope_in(c, 0, 0), slope_in(c, last, 3.5), 1e-8);
+}
+
+TEST(Curve, ClosingPointOfEqualValueIsTheFirstPoint) {
+  const Curve c({0, 1, 4}, {2, 3, 2}, Form::linear, 4);
+  EXPECT_EQ(c.x().size(), 3u);
+  EXPECT_NEAR(c.value(5.0), 3, 1e-14);
+}
+
+TEST(Curve, UnfitPointsAreRefused) {
+  EXPECT_THROW(Curve({0}, {1}, Form::linear), std::invalid_argument);
+  EXPECT_THROW(Curve({}, {}, Form::smooth), std::invalid_argument);
+  EXPECT_THROW(Curve({0, 1}, {1}, Form::linear), std::invalid_argument);
+  EXPECT_THROW(Curve({0, 0}, {1, 2}, Form::linear), std::invalid_argument);
+  EXPECT_THROW(Curve({0, 2, 1}, {1, 2, 3}, Form::linear), std::invalid_argument);
+  EXPECT_THROW(Curve({0, std::nan("")}, {1, 2}, Form::linear), std::invalid_argument);
+  EXPECT_THROW(Curve({0, 5}, {1, 2}, Form::linear, 4), std::invalid_argument);
+  EXPECT_THROW(Curve({0, 4}, {1, 2}, Form::linear, 4), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kurbel
