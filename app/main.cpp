@@ -19,7 +19,10 @@ namespace {
 constexpr int exit_user_error = 2, exit_run_failed = 3, exit_interrupted = 130;
 
 std::atomic<bool> interrupted{false};
-extern "C" void on_interrupt(int) { interrupted = true; }
+// The second time, at once.
+extern "C" void on_interrupt(int) {
+  if (interrupted.exchange(true)) _exit(exit_interrupted);
+}
 
 struct Arguments {
   std::string scene, effects, against, out, method;
@@ -61,8 +64,9 @@ kurbel::SimulateOptions simulate_options(const Arguments& arguments, Progress& p
     kurbel::UnitError error;
     const auto until = kurbel::parse_quantity(arguments.until, error);
     const auto second = kurbel::parse_unit("s", error);
-    if (!until || until->dimension != second->dimension || !(until->value > 0))
-      throw std::invalid_argument(fmt::format("--until {}: must be a time > 0 with its unit, e.g. \"3 s\"", arguments.until));
+    if (!until) throw std::invalid_argument(fmt::format("--until {}: {}; write e.g. \"3 s\"", kurbel::in_quotes(arguments.until), error.text));
+    if (until->dimension != second->dimension || !(until->value > 0))
+      throw std::invalid_argument(fmt::format("--until {}: must be a time > 0 with its unit, e.g. \"3 s\"", kurbel::in_quotes(arguments.until)));
     options.until = until->value;
   }
   return options;
@@ -72,6 +76,20 @@ kurbel::SimulateOptions simulate_options(const Arguments& arguments, Progress& p
 std::string folder_of(const Arguments& arguments) {
   if (!arguments.out.empty()) return arguments.out;
   return (std::filesystem::path("results") / std::filesystem::path(arguments.scene).stem()).string();
+}
+
+// Before anything runs: hours of work must not end at a folder that cannot be written, or at a method's name.
+void check_arguments(const Arguments& arguments, const kurbel::Scene& scene) {
+  if (!arguments.method.empty()) kurbel::check_method(arguments.method, scene.run.model);
+  if (arguments.no_files) return;
+  const std::string folder = folder_of(arguments);
+  std::error_code status;
+  std::filesystem::path existing = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(existing, status) && existing.has_relative_path()) existing = existing.parent_path();
+  if (!std::filesystem::is_directory(existing, status))
+    throw std::invalid_argument(fmt::format("--out {}: {} is a file; give a folder", folder, existing.string()));
+  if (access(existing.c_str(), W_OK) != 0)
+    throw std::invalid_argument(fmt::format("--out {}: no permission to write in {}; give another folder, or --no-files", folder, existing.string()));
 }
 
 template <class AnyResult>
@@ -87,8 +105,8 @@ void show(const AnyResult& result, const Arguments& arguments) {
 }
 
 int end_of_run(bool complete, const std::string& diagnosis) {
-  if (complete) return 0;
-  fmt::print(stderr, "kurbel: {}\n", diagnosis);
+  if (complete && !interrupted) return 0;
+  fmt::print(stderr, "kurbel: {}\n", complete ? "interrupted" : diagnosis);
   return interrupted ? exit_interrupted : exit_run_failed;
 }
 
@@ -100,6 +118,7 @@ int run(const Arguments& arguments) {
     fmt::print("{}", model->explain());
     return 0;
   }
+  check_arguments(arguments, scene);
   Progress progress(arguments.quiet);
   const auto options = simulate_options(arguments, progress);
   const kurbel::Result result = kurbel::simulate(model, model->elastic.empty() ? "rigid" : "elastic", options);
@@ -111,6 +130,7 @@ int run(const Arguments& arguments) {
 int compare(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
   kurbel::Effects full = arguments.effects.empty() ? scene.effects : kurbel::parse_effects(arguments.effects, scene);
+  check_arguments(arguments, scene);
   if (arguments.effects.empty() && full.describe() == "none") full.all_elastic = true;
   kurbel::Effects simple;
   if (!arguments.against.empty()) simple = kurbel::parse_effects(arguments.against, scene);

@@ -368,6 +368,8 @@ std::string Model::explain() const {
     text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component, with_unit(joint.element->stiffness(), "N*m/rad"),
                         with_unit(joint.element->damping(), "N*m*s/rad"));
   }
+  for (const Network::ShaftElement& e : network.elements)
+    if (const std::string words = e.element->describe(); !words.empty()) text += "  " + words + "\n";
   for (const std::string& line : merged) text += "  merged: " + line + "\n";
   for (const Network::Joint& joint : network.joints)
     if (!joint.element && joint.ratio != 1)

@@ -87,6 +87,7 @@ class ShaftElementMaker {
   virtual double mean_inertia() const { return 0; }  // of a mechanism, on its own shaft
   virtual double cycle() const { return 0; }         // angle of one cycle of a mechanism [rad]
   virtual int mode_count() const { return 1; }
+  virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
   virtual std::vector<std::pair<std::string, Account>> further_accounts() const { return {}; }
   virtual void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const = 0;

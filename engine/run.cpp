@@ -261,11 +261,11 @@ class Loop {
   }
 
   bool out_of_budget() {
-    if (++checks_ % 64 != 0) return false;
     if (options_.interrupted && options_.interrupted->load()) {
       fail(stepper_->t(), "interrupted");
       return true;
     }
+    if (++checks_ % 64 != 0) return false;
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
     if (cpu_now() - begin_ < options_.budget) return false;
     const double h = stepper_->t() - stepper_->t_previous();

@@ -1,6 +1,8 @@
 // slider_crank.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
 #include "mechanisms/slider_crank.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,6 +32,14 @@ double SliderCrankMaker::cycle() const {
   double cycle = 2 * std::numbers::pi;
   for (const SliderLoad& load : crank_.loads) cycle = std::max(cycle, load.period());
   return cycle;
+}
+
+std::string SliderCrankMaker::describe() const {
+  const TableReport& report = crank_.reduced->report();
+  std::string text = fmt::format("table of {}: {} pieces from {} samples of Simbody, errors", crank_.name, report.pieces, report.samples);
+  for (const TableReport::Channel& channel : report.channels) text += fmt::format(" {} {:.0e},", channel.name, channel.error);
+  text.back() = report.converged ? ' ' : ';';
+  return text + (report.converged ? "(relative)" : " the tolerance was not reached");
 }
 
 std::vector<std::pair<std::string, Account>> SliderCrankMaker::further_accounts() const {

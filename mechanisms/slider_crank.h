@@ -37,6 +37,7 @@ class SliderCrankMaker final : public ShaftElementMaker {
   Account account() const override { return Account::weight; }
   double mean_inertia() const override { return crank_.mean_inertia; }
   double cycle() const override;
+  std::string describe() const override;
   int mode_count() const override { return 1 + static_cast<int>(crank_.loads.size()); }
   std::vector<std::pair<std::string, Account>> further_accounts() const override;
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;

@@ -14,12 +14,12 @@ namespace {
 std::string type_of(const Key& key) {
   switch (key.type) {
     case KeyType::quantity: return key.unit.empty() ? "number" : pretty_unit(key.unit);
-    case KeyType::quantities: return "list of " + pretty_unit(key.unit);
+    case KeyType::quantities: return fmt::format("list of {}", pretty_unit(key.unit));
     case KeyType::integers: return "list of whole numbers";
     case KeyType::integer: return "whole number";
     case KeyType::flag: return "true or false";
     case KeyType::text: return key.choices.empty() ? "text" : listed(key.choices);
-    case KeyType::curve: return "table over " + listed(key.choices) + " → " + pretty_unit(key.unit);
+    case KeyType::curve: return fmt::format("table over {} → {}", listed(key.choices), pretty_unit(key.unit));
     case KeyType::sections: return "table(s)";
   }
   return "";
@@ -34,7 +34,7 @@ std::string rows(const std::vector<Key>& keys) {
   std::string text = "| key | unit or values | default | domain | meaning |\n|---|---|---|---|---|\n";
   for (const Key& key : keys)
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, type_of(key),
-                        key.required ? "**required**" : key.fallback.empty() ? "—" : "`" + key.fallback + "`", domain_of(key), key.doc);
+                        key.required ? "**required**" : key.fallback.empty() ? "—" : fmt::format("`{}`", key.fallback), domain_of(key), key.doc);
   return text;
 }
 
@@ -42,7 +42,7 @@ std::string chapter(const Kind& kind, const char* level) {
   std::string text = fmt::format("{} `{}`\n\n{}.", level, kind.name, kind.doc);
   if (kind.elastic) text += " Its elasticity is an effect.";
   if (kind.placement == Placement::inline_two) text += " Two shafts: `.in` and `.out`.";
-  text += "\n\n" + rows(kind.keys) + "\n";
+  text += fmt::format("\n\n{}\n", rows(kind.keys));
   for (const Key& key : kind.keys)
     if (key.nested)
       for (const Kind& nested : *key.nested) text += chapter(nested, "####");
@@ -75,8 +75,9 @@ std::string keys_in_markdown() {
       "| `line` | names of the components in the order of the drive |\n"
       "| `[[branch]]` | `from = \"component\"` (`\"gearbox.out\"`) and `line = [...]` |\n"
       "| `[effects]` | `elasticity = true`, `false` or a list of components |\n\n"
-      "## `[run]`\n\n" +
-      rows(run_keys()) +
+      "## `[run]`\n\n";
+  text += rows(run_keys());
+  text +=
       "| `output` | list of names | all | | components in trajectory.csv |\n"
       "| `start` | \"rest\", \"equilibrium\" or a table | `\"rest\"` | | see below |\n\n"
       "`start = { speed = \"300 rpm\", angle = \"0 deg\", on = \"motor\", equilibrium = true, press = { speed = \"3 rad/s\" }, "

@@ -71,7 +71,7 @@ std::string footing(const Result& r) {
     text += "  errors were not measured (--no-error)\n";
   const Periods& p = r.periods;
   if (p.run_up_end) text += fmt::format("  run-up to {}", with_unit(*p.run_up_end, "s", 5)) + (p.run_down_begin ? fmt::format(", steady to {}, then run-down{}", with_unit(*p.run_down_begin, "s", 5), p.standstill ? fmt::format(" to standstill at {}", with_unit(*p.standstill, "s", 5)) : "") : ", then steady motion") + "\n";
-  else if (!p.steady && r.complete) text += "  no steady motion within the time simulated\n";
+  else if (!p.steady && r.complete && r.trajectory) text += "  no steady motion within the time simulated\n";
   for (const std::string& note : r.notes) text += "  note: " + note + "\n";
   return text;
 }

@@ -136,6 +136,10 @@ class Simulation {
       if (!fine->outcome.complete) {
         result_.notes.push_back(fmt::format("the confirming run failed ({}); figures are those of the looser run, without errors", fine->outcome.diagnosis));
         fine = std::move(coarse);
+        if (options_.interrupted && options_.interrupted->load()) {
+          fine->outcome.complete = false;
+          fine->outcome.diagnosis = "interrupted in the run that measures the errors; the figures are whole, but without errors";
+        }
         break;
       }
       result_.measured_accuracy = measure_errors(*coarse, *fine);

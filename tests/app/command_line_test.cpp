@@ -1,0 +1,197 @@
+// command_line_test.cpp — the program as its users meet it: exit codes, messages, files, Ctrl-C.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Ended {
+  int code = -1;
+  std::string out, err;
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("kurbel_cli_" + name + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  ~CommandLine() override { fs::remove_all(folder_); }
+
+  // Starts the program in the test's folder.
+  pid_t start(const std::vector<std::string>& arguments) {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    dup2(open("stdout", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
+    dup2(open("stderr", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDERR_FILENO);
+    std::vector<char*> argv = {const_cast<char*>("kurbel")};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    execv(KURBEL_EXECUTABLE, argv.data());
+    _exit(98);
+  }
+  Ended wait(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
+  }
+  Ended kurbel(const std::vector<std::string>& arguments) { return wait(start(arguments)); }
+
+  std::string scene(const std::string& run, const std::string& inertia = "\"1 kg*m2\"") {
+    std::ofstream(folder_ / "scene.toml") << "line = [\"motor\", \"coupling\", \"fan\"]\n"
+                                             "[motor]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = \"40 rad/s\"\ninertia = "
+                                          << inertia
+                                          << "\n[coupling]\nkind = \"coupling\"\nstiffness = \"4 kN*m/rad\"\ndamping = \"2 N*m*s/rad\"\n"
+                                             "[fan]\nkind = \"load\"\nquadratic = \"0.02 N*m*s2/rad2\"\ninertia = \"0.6 kg*m2\"\n"
+                                             "[effects]\nelasticity = true\n[run]\n"
+                                          << run;
+    return "scene.toml";
+  }
+  bool file(const std::string& name) const { return fs::exists(folder_ / name); }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
+  const Ended r = kurbel({"run", scene("until = \"1 s\"\n"), "--out", "out"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.err.empty()) << r.err;
+  EXPECT_TRUE(file("out/summary.json"));
+  EXPECT_TRUE(file("out/trajectory.csv"));
+}
+
+TEST_F(CommandLine, BadSceneEndsWithTwoAndWritesNothing) {
+  const Ended r = kurbel({"run", scene("until = \"1 s\"\n", "\"-1 kg*m2\""), "--out", "out"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.err, "scene.toml:6:11: dc shunt motor \"motor\": inertia = -1 kg·m²; must be ≥ 0\n");
+  EXPECT_TRUE(r.out.empty());
+  EXPECT_FALSE(file("out"));
+}
+
+TEST_F(CommandLine, MissingSceneEndsWithTwo) {
+  const Ended r = kurbel({"check", "absent.toml"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(r.err, "absent.toml: no such file; check the path, or list the folder with ls\n");
+}
+
+TEST_F(CommandLine, UnknownCommandIsAnsweredWithTheNearest) {
+  const Ended r = kurbel({"comapre", "scene.toml"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("unknown command \"comapre\" — did you mean \"compare\"?"), std::string::npos) << r.err;
+}
+
+TEST_F(CommandLine, UnknownOptionIsRefused) {
+  const Ended r = kurbel({"run", scene(""), "--acuracy", "1e-3"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("--acuracy"), std::string::npos) << r.err;
+}
+
+TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
+  // The run itself would take hours.
+  const std::string path = scene("until = \"1000000 s\"\n");
+  const struct {
+    std::string option, value, said;
+  } cases[] = {
+      {"--effects", "elastic", "allowed: none, elasticity, or elasticity:COUPLING"},
+      {"--effects", "elasticity:copling", "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
+      {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},
+      {"--effects", "elasticity:", "\"\" is no component"},
+      {"--until", "3", "must be a time > 0 with its unit, e.g. \"3 s\""},
+      {"--until", "3 m", "must be a time > 0"},
+      {"--until", "-3 s", "must be a time > 0"},
+      {"--until", "nan s", "the number must be finite"},
+      {"--until", "3 sec", "unknown unit \"sec\""},
+      {"--accuracy", "2", "--accuracy"},
+      {"--accuracy", "fine", "--accuracy"},
+      {"--accuracy", "nan", "--accuracy"},
+      {"--accuracy", "0", "--accuracy"},
+      {"--method", "euler", "allowed: \"auto\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
+      {"--method", "dop835", "did you mean \"dop853\"?"},
+      {"--method", "CPodes", "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
+  };
+  for (const auto& c : cases) {
+    const auto begin = Clock::now();
+    const Ended r = kurbel({"run", path, c.option, c.value, "--out", "out"});
+    EXPECT_EQ(r.code, 2) << c.option << " " << c.value;
+    EXPECT_NE(r.err.find(c.said), std::string::npos) << r.err;
+    EXPECT_TRUE(r.out.empty());
+    EXPECT_FALSE(file("out"));
+    EXPECT_LT(Clock::now() - begin, std::chrono::seconds(5));
+  }
+}
+
+TEST_F(CommandLine, MultibodyModelRefusesMethodsOfTheReducedOne) {
+  std::ofstream(folder_ / "crank.toml") << "line = [\"crank\"]\n[crank]\nkind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\n"
+                                           "crank_inertia = \"0.5 kg*m2\"\nslider_mass = \"3 kg\"\n[run]\nmodel = \"multibody\"\nuntil = \"0.1 s\"\nstart = { speed = \"30 rad/s\" }\n";
+  const Ended r = kurbel({"run", "crank.toml", "--method", "dop853", "--no-files"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("method \"dop853\" belongs to model = \"reduced\"; for model = \"multibody\" allowed: \"auto\", \"RungeKuttaMerson\""), std::string::npos) << r.err;
+  EXPECT_EQ(kurbel({"run", "crank.toml", "--method", "RungeKuttaMerson", "--no-files"}).code, 0);
+}
+
+TEST_F(CommandLine, FileInPlaceOfTheFolderIsRefusedBeforeAnythingRuns) {
+  std::ofstream(folder_ / "taken") << "mine";
+  for (const char* out : {"taken", "taken/deeper"}) {
+    const Ended r = kurbel({"run", scene("until = \"1000000 s\"\n"), "--out", out});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_NE(r.err.find("taken is a file; give a folder"), std::string::npos) << r.err;
+  }
+  EXPECT_EQ(text_of(folder_ / "taken"), "mine");
+}
+
+TEST_F(CommandLine, UnwritableFolderIsNamed) {
+  const Ended r = kurbel({"run", scene("until = \"0.1 s\"\n"), "--out", "/proc/kurbel"});
+  EXPECT_TRUE(r.code == 2 || r.code == 3) << r.code;
+  EXPECT_NE(r.err.find("/proc/kurbel"), std::string::npos) << r.err;
+}
+
+TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
+  const Ended r = kurbel({"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"});
+  EXPECT_EQ(r.code, 3);
+  for (const char* part : {"stopped at t = ", "the budget of 0.01 s of processor time is spent", "Raise `budget`, loosen `accuracy`"})
+    EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
+  EXPECT_NE(r.out.find("INCOMPLETE"), std::string::npos);
+  const auto summary = nlohmann::json::parse(text_of(folder_ / "out/summary.json"));
+  EXPECT_FALSE(summary["complete"]);
+  EXPECT_FALSE(summary["diagnosis"].get<std::string>().empty());
+  EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: stopped at t = "));
+}
+
+TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
+  const pid_t child = start({"run", scene("until = \"10000000 s\"\n"), "--out", "out"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const auto begin = Clock::now();
+  kill(child, SIGINT);
+  const Ended r = wait(child);
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_EQ(r.code, 130);
+  EXPECT_NE(r.err.find("interrupted"), std::string::npos) << r.err;
+  EXPECT_FALSE(nlohmann::json::parse(text_of(folder_ / "out/summary.json"))["complete"]);
+  EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: "));
+  for (const auto& entry : fs::directory_iterator(folder_ / "out")) EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv") << entry.path();
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,202 @@
+// closed_forms_test.cpp — starts and run-downs in closed form (tests/cases/mo02_closed_forms.toml).
+#include <fmt/format.h>
+
+#include "tests/published/published.h"
+
+namespace kurbel {
+namespace {
+
+using test::figure;
+using test::run;
+
+// --- run-down: J = 2 kg·m² from 100 rad/s ---
+
+struct RunDown {
+  const char* name;
+  double viscous, quadratic, time, angle;
+};
+class RunDownOfAFlywheel : public ::testing::TestWithParam<RunDown> {};
+
+TEST_P(RunDownOfAFlywheel, StopsAtTheTimeAndAngleOfTheClosedForm) {
+  const RunDown& given = GetParam();
+  const Result r = run(fmt::format(R"(
+line = ["wheel"]
+[wheel]
+kind = "load"
+torque = "5 N*m"
+damping = "{} N*m*s/rad"
+quadratic = "{} N*m*s2/rad2"
+inertia = "2 kg*m2"
+[run]
+start = {{ speed = "100 rad/s" }}
+until = "60 s"
+accuracy = 1e-10
+)", given.viscous, given.quadratic));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  ASSERT_EQ(r.events.size(), 1u);
+  EXPECT_EQ(r.events[0].what, "comes to rest and is held");
+  EXPECT_NEAR(r.events[0].t, given.time, 1e-10 * given.time);
+  EXPECT_NEAR(figure(r, "final_angle.wheel"), given.angle, 1e-11 * given.angle);
+  EXPECT_EQ(figure(r, "final_speed.wheel"), 0);
+  EXPECT_NEAR(r.energy.by_line.at("useful"), -0.5 * 2 * 100 * 100, 1e-5);  // all of ½ J ω₀²
+}
+
+INSTANTIATE_TEST_SUITE_P(Against, RunDownOfAFlywheel,
+                         ::testing::Values(RunDown{"DryFriction", 0, 0, 40.0, 2000.0},                             // t = J ω₀/M
+                                           RunDown{"DryAndViscous", 0.05, 0, 27.725887222398, 1227.4112777602},    // t = J/b ln(1 + b ω₀/M)
+                                           RunDown{"DryAndFan", 0, 0.002, 22.142974355882, 804.7189562171}),      // t = J/√(M k) atan(ω₀ √(k/M))
+                         [](const auto& info) { return info.param.name; });
+
+// --- starts ---
+
+// Armature at 100 V, k = 0.6366 V·s, R = 0.05 Ω against 30 N·m: ω = ω∞ (1 − e^{−t/τ}), τ = J R/k².
+TEST(MotorStart, ShuntMotorApproachesItsSpeedExponentially) {
+  const double tau = 0.03701101650408509, w_inf = 153.37853102908, w_at_tau = 96.953722746406;
+  const Result r = run(fmt::format(R"(
+line = ["motor", "hoist"]
+[motor]
+kind = "dc shunt motor"
+voltage = "100 V"
+resistance = "0.05 Ohm"
+constant = "0.6366197723675814 N*m/A"
+inertia = "0.3 kg*m2"
+[hoist]
+kind = "load"
+torque = "30 N*m"
+acts = "always"
+[run]
+until = "{} s"
+samples = 101
+accuracy = 1e-10
+)", 10 * tau));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto omega = test::series(r, "speed.motor");
+  EXPECT_NEAR(omega[10], w_at_tau, 1e-8);
+  for (std::size_t row = 0; row < omega.size(); ++row) EXPECT_NEAR(omega[row], w_inf * (1 - std::exp(-r.trajectory->time()[row] / tau)), 1e-8);
+}
+
+// Constant torque against a fan: ω = ω∞ tanh(t √(M k)/J).
+TEST(MotorStart, FanApproachesItsSpeedAsAHyperbolicTangent) {
+  const double w_inf = 35.35533905932738, t_95 = 2.5905292832732227;
+  const Result r = run(fmt::format(R"(
+line = ["source", "fan"]
+[source]
+kind = "torque source"
+torque = "50 N*m"
+[fan]
+kind = "load"
+quadratic = "0.04 N*m*s2/rad2"
+inertia = "2 kg*m2"
+[run]
+until = "{} s"
+samples = 101
+accuracy = 1e-10
+)", 2 * t_95));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto omega = test::series(r, "speed.fan");
+  EXPECT_NEAR(omega[50], 0.95 * w_inf, 1e-8);
+  for (std::size_t row = 0; row < omega.size(); ++row) EXPECT_NEAR(omega[row], w_inf * std::tanh(r.trajectory->time()[row] * std::sqrt(50 * 0.04) / 2), 1e-8);
+}
+
+// A DC series motor, M = c V²/(R + c ω)², by table (the characteristic "given graphically"): a smooth curve through 101
+// points stands for the law to 1e-6; ω = ((R³ + 3 c² V² t/J)^⅓ − R)/c.
+TEST(MotorStart, SeriesMotorByTableFollowsItsClosedForm) {
+  const double c = 0.006366197723675813, resistance = 1.06, voltage = 100, j = 0.3;
+  std::string points;
+  for (int i = 0; i <= 100; ++i) {
+    const double w = 3.0 * i;
+    points += fmt::format("{}[{}, {}]", i ? ", " : "", w, c * voltage * voltage / std::pow(resistance + c * w, 2));
+  }
+  const Result r = run(fmt::format(R"(
+line = ["motor"]
+[motor]
+kind = "motor"
+torque = {{ over = "speed", unit = ["rad/s", "N*m"], interpolation = "smooth", points = [{}] }}
+inertia = "0.3 kg*m2"
+[run]
+until = "5 s"
+samples = 11
+accuracy = 1e-8
+)", points));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto omega = test::series(r, "speed.motor");
+  const struct { std::size_t row; double omega; } expected[] = {{1, 65.38985776}, {2, 106.39567097}, {4, 163.78626679}, {10, 269.97566298}};
+  for (const auto& e : expected) {
+    const double t = 0.5 * static_cast<double>(e.row);
+    EXPECT_NEAR((std::cbrt(std::pow(resistance, 3) + 3 * c * c * voltage * voltage * t / j) - resistance) / c, e.omega, 1e-7);
+    EXPECT_NEAR(omega[e.row], e.omega, 1e-4);
+  }
+}
+
+// Dubey, Fundamentals of Electrical Drives, ex. 2.2: reversal. M = −100 − 0.1 N [N·m, rpm] against 0.05 N; J = 10 kg·m².
+// N = −100/0.15 + (N₀ + 100/0.15) e^{−t/T}; to 95 % of the final speed with N₀ = 666.67 rpm.
+TEST(MotorStart, ReversalOfALinearMotorTakesTheTimeOfTheClosedForm) {
+  const Result r = run(R"(
+line = ["motor", "load"]
+[motor]
+kind = "motor"
+torque = { over = "speed", unit = ["rpm", "N*m"], points = [[-1000, 0], [1000, -200]] }
+inertia = "10 kg*m2"
+[load]
+kind = "load"
+damping = "0.47746482927568600731 N*m*s/rad"    # 0.05 N·m/rpm
+[run]
+start = { speed = "666.66666666666667 rpm" }
+until = "25.75323687 s"
+accuracy = 1e-10
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_NEAR(figure(r, "final_speed.motor") * 60 / test::two_pi, -0.95 * 666.66666666666667, 1e-6);
+}
+
+// --- gears ---
+
+// Khurmi & Gupta, Theory of Machines, ex. 3.14: T = 100 N·m on I_A = 2 through G = 4 to I_B = 32: α_B = 6.25, α_A = 25.
+TEST(GearedAcceleration, OfBothShaftsMatchesKhurmi) {
+  const Result r = run(R"(
+line = ["a", "gear", "b"]
+[a]
+kind = "torque source"
+torque = "100 N*m"
+inertia = "2 kg*m2"
+[gear]
+kind = "gearbox"
+stages = [{ teeth = [20, 80] }]
+[b]
+kind = "inertia"
+inertia = "32 kg*m2"
+[run]
+until = "2 s"
+accuracy = 1e-10
+)");
+  EXPECT_NEAR(figure(r, "final_speed.b"), 6.25 * 2, 1e-11);
+  EXPECT_NEAR(figure(r, "final_speed.a"), 25.0 * 2, 1e-11);
+  EXPECT_NEAR(figure(r, "final_angle.b"), 0.5 * 6.25 * 4, 1e-11);
+}
+
+// Ex. 3.17: motor I_A = 0.6, T_A = 30; load I_B = 45, T_B = 100; G = 9, η = 0.95. A steady efficiency lets η of torque and
+// of inertia torque pass, so motor torque and rotor inertia count η times: I = 91.17, α = 1.716573, 60 rpm at 3.660307 s.
+TEST(GearedAcceleration, TimeToSixtyRpmMatchesKhurmi) {
+  const Result r = run(R"(
+line = ["motor", "gear", "machine"]
+[motor]
+kind = "torque source"
+torque = "28.5 N*m"          # 0.95 · 30
+inertia = "0.57 kg*m2"       # 0.95 · 0.6
+[gear]
+kind = "gearbox"
+stages = [{ teeth = [20, 180] }]
+[machine]
+kind = "load"
+torque = "100 N*m"
+inertia = "45 kg*m2"
+[run]
+until = "3.660306738 s"
+accuracy = 1e-10
+)");
+  EXPECT_NEAR(figure(r, "final_speed.machine"), test::two_pi, 1e-8);
+  EXPECT_NEAR(figure(r, "final_speed.machine") / r.until, 1.716573434, 1e-8);
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,138 @@
+// published.h — what the tests of published cases share: scenes with another value, trajectories, natural frequencies.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/csv.h"
+#include "engine/equations.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel::test {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+// A number with all its digits, for scene texts.
+inline std::string digits(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+inline std::string text_of(const std::string& relative) {
+  std::ifstream file(source_path(relative));
+  if (!file) throw std::runtime_error("cannot read " + relative);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The text with one passage replaced; the passage must stand there exactly once.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos || text.find(from, at + 1) != std::string::npos)
+    throw std::runtime_error("not exactly once in the scene: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+// A column of the trajectory.
+inline std::vector<double> series(const Result& result, const std::string& channel) {
+  const TrajectoryRecorder& t = *result.trajectory;
+  for (std::size_t k = 0; k < t.channels().size(); ++k) {
+    if (t.channels()[k].name != channel) continue;
+    std::vector<double> values;
+    for (std::size_t row = 0; row < t.time().size(); ++row) values.push_back(t.value(row, k));
+    return values;
+  }
+  throw std::runtime_error("no channel " + channel);
+}
+
+// |x̂| of the harmonic e^{iωt} over the trajectory, which must span whole periods (its last row repeats the first).
+inline double harmonic_amplitude(const Result& result, const std::string& channel, double omega) {
+  const std::vector<double> x = series(result, channel);
+  std::complex<double> sum = 0;
+  for (std::size_t row = 0; row + 1 < x.size(); ++row)
+    sum += x[row] * std::polar(1.0, -omega * result.trajectory->time()[row]);
+  return std::abs(sum) * 2 / static_cast<double>(x.size() - 1);
+}
+
+// The state matrix of a compiled model at its start, from the exact Jacobian.
+inline Eigen::MatrixXd state_matrix(const std::string& text) {
+  const Scene scene = scene_from(text);
+  Equations equations(compile(scene, scene.effects), false);
+  const std::vector<double> y = equations.start(0);
+  const SparsityPattern& pattern = equations.jacobian_pattern();
+  std::vector<double> values(pattern.row.size());
+  equations.jacobian(0, y, values);
+  const auto n = static_cast<Eigen::Index>(pattern.size);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t column = 0; column < pattern.size; ++column)
+    for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
+      a(pattern.row[static_cast<std::size_t>(k)], static_cast<Eigen::Index>(column)) = values[static_cast<std::size_t>(k)];
+  return a;
+}
+
+// Frequencies |Im λ| of the oscillating modes [rad/s], ascending; rigid-body motion and the angle have λ = 0.
+inline std::vector<double> natural_frequencies(const std::string& text) {
+  const Eigen::VectorXcd eigenvalues = state_matrix(text).eigenvalues();
+  const double largest = eigenvalues.cwiseAbs().maxCoeff();
+  std::vector<double> frequencies;
+  for (const std::complex<double>& lambda : eigenvalues)
+    if (lambda.imag() > 1e-6 * largest) frequencies.push_back(lambda.imag());
+  std::sort(frequencies.begin(), frequencies.end());
+  return frequencies;
+}
+
+inline void expect_frequencies(const std::string& text, const std::vector<double>& expected, double unit, double relative) {
+  const std::vector<double> found = natural_frequencies(text);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / unit, expected[i], relative * expected[i]) << "mode " << i + 1;
+}
+
+// Two columns of a published series.
+inline Columns published_series(const std::string& file, int x_column, int y_column) {
+  Messages messages(file);
+  const Columns columns = read_csv(source_path("tests/cases/" + file), x_column, y_column, messages);
+  messages.throw_if_any();
+  return columns;
+}
+
+// Largest difference of a trajectory to a published series whose times are the trajectory's rows.
+inline double largest_difference(const Result& result, const std::string& channel, const Columns& published) {
+  const std::vector<double> x = series(result, channel);
+  EXPECT_EQ(x.size(), published.x.size());
+  double largest = 0;
+  for (std::size_t row = 0; row < std::min(x.size(), published.x.size()); ++row) {
+    EXPECT_NEAR(result.trajectory->time()[row], published.x[row], 1e-9);
+    largest = std::max(largest, std::abs(x[row] - published.y[row]));
+  }
+  return largest;
+}
+
+// In-line slider-crank by hand, for checks: the rod turns by β with r sin φ = l sin β.
+struct InlineSliderCrank {
+  double r, l, crank_inertia, rod_mass, rod_com, rod_inertia, slider_mass;
+
+  double position(double phi) const { return r * std::cos(phi) + std::sqrt(l * l - r * r * std::sin(phi) * std::sin(phi)); }
+  // Reduced inertia (THEORY 2.1) from the velocities at ω = 1.
+  double inertia(double phi) const {
+    const double s = std::sin(phi), c = std::cos(phi);
+    const double sin_b = r / l * s, cos_b = std::sqrt(1 - sin_b * sin_b);
+    const double beta_rate = r * c / (l * cos_b);          // of the rod, against the crank
+    const double slider = -r * s - l * sin_b * beta_rate;  // dx/dφ
+    // Centre of mass of the rod: pin + rod_com (cos β, −sin β).
+    const double vx = -r * s - rod_com * sin_b * beta_rate, vy = r * c - rod_com * cos_b * beta_rate;
+    return crank_inertia + rod_mass * (vx * vx + vy * vy) + rod_inertia * beta_rate * beta_rate + slider_mass * slider * slider;
+  }
+};
+
+}  // namespace kurbel::test

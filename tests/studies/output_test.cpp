@@ -1,0 +1,163 @@
+// output_test.cpp — results as files: the JSON that programs read, the CSV, and a run against the full multibody.
+#include "studies/output.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+using test::figure;
+using test::run;
+
+Comparison press_comparison() {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 2.5;
+  return compare(scene, Effects{}, "rigid", scene.effects, "elastic", SimulateOptions{});
+}
+
+TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 2.5;
+  const auto j = nlohmann::json::parse(json_of(run(scene)));
+  EXPECT_EQ(j.at("title"), "Crank press, 630 kN");
+  EXPECT_EQ(j.at("model").at("coordinates"), 5);
+  EXPECT_TRUE(j.at("model").at("effects").is_string());
+  bool found = false;
+  for (const auto& f : j.at("figures")) {
+    for (const char* key : {"name", "value", "unit", "error", "at"}) ASSERT_TRUE(f.contains(key)) << key;
+    if (f.at("name") == "peak_torque.main_coupling") {
+      found = true;
+      EXPECT_EQ(f.at("unit"), "N*m");
+      EXPECT_GT(f.at("error").get<double>(), 0);
+      EXPECT_LT(f.at("error").get<double>(), 1e-3);
+    }
+  }
+  EXPECT_TRUE(found);
+  for (const char* component : {"motor", "motor_coupling", "gearbox", "main_coupling", "flywheel", "press"}) {
+    EXPECT_TRUE(j.at("final").at(component).at("angle").is_number());
+    EXPECT_TRUE(j.at("final").at(component).at("speed").is_number());
+  }
+  // From 90° on in 2.5 s: two working strokes with four knees of the force each, two extended, three folded dead centres.
+  EXPECT_EQ(j.at("events").size(), 13u);
+  EXPECT_LE(j.at("energy_balance").at("relative").get<double>(), 1e-5);
+  EXPECT_GT(j.at("statistics").at("steps").get<int>(), 0);
+}
+
+TEST(Summary, OfAComparisonHoldsBothModels) {
+  const Comparison c = press_comparison();
+  const auto j = nlohmann::json::parse(json_of(c));
+  EXPECT_EQ(j.at("models").at("rigid").at("model").at("coordinates"), 1);
+  EXPECT_EQ(j.at("models").at("elastic").at("model").at("coordinates"), 5);
+  for (const auto& factor : j.at("amplification")) EXPECT_GT(factor.at("value").get<double>(), 0);
+  EXPECT_NE(c.conclusion.find("peak torque in"), std::string::npos);
+}
+
+TEST(Figures, AreListedBeforeTheyAreRun) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 2.5;
+  std::vector<std::string> listed;
+  for (const Figure& f : figure_list(*compile(scene, scene.effects))) listed.push_back(f.name);
+  for (const Figure& f : run(scene).figures) EXPECT_NE(std::find(listed.begin(), listed.end(), f.name), listed.end()) << f.name;
+}
+
+TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
+  Scene scene = test::scene_file("scenes/driven_slider_crank.toml");
+  scene.run.samples = 11;
+  const std::string folder = (std::filesystem::path(::testing::TempDir()) / "kurbel_trajectory").string();
+  write_results(run(scene, false), folder);
+  std::ifstream in(folder + "/trajectory.csv");
+  std::string header, line, last;
+  std::getline(in, header);
+  EXPECT_TRUE(header.starts_with("time [s],angle.motor [rad],speed.motor [rad/s],torque.motor [N*m]")) << header;
+  EXPECT_NE(header.find("force.crank [N]"), std::string::npos);
+  int rows = 0;
+  while (std::getline(in, line)) {
+    ++rows;
+    last = line;
+  }
+  EXPECT_EQ(rows, 11);
+  EXPECT_TRUE(last.starts_with("10,"));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/trajectory.csv.part"));
+}
+
+// The work of one press stroke is the area under its force: rise 0.5 mm, 2.5 mm full, drop 0.2 mm.
+TEST(Press, UsefulWorkPerCycleIsTheAreaOfItsProfile) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 2.5;
+  const Result r = run(scene);
+  EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -630e3 * (0.5e-3 / 2 + 2.5e-3 + 0.2e-3 / 2), 1e-6);
+}
+
+// The reduced machine against Simbody's closed loop, weight and slider load included.
+TEST(ReducedMachine, RunsAsTheFullMultibody) {
+  Scene scene = test::scene_from(R"(
+line = ["motor", "gearbox", "pump"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "20 N*m"
+no_load_speed = "80 rad/s"
+inertia = "0.02 kg*m2"
+[gearbox]
+kind = "gearbox"
+stages = [{ teeth = [20, 50], inertia = ["0.001 kg*m2", "0.01 kg*m2"] }]
+[pump]
+kind = "slider-crank"
+radius = "50 mm"
+rod = "180 mm"
+offset = "10 mm"
+crank_mass = "4 kg"
+crank_com = "12 mm"
+crank_inertia = "0.05 kg*m2"
+rod_mass = "1.5 kg"
+rod_com = "60 mm"
+rod_inertia = "0.006 kg*m2"
+slider_mass = "2.5 kg"
+gravity = "9.81 m/s2"
+stroke_angle = "60 deg"
+load = { kind = "medium", viscous = "120 N*s/m", quadratic = "30 N*s2/m2" }
+[run]
+start = { speed = "15 rad/s", angle = "30 deg" }
+until = "0.6 s"
+accuracy = 1e-7
+)");
+  const Result reduced = run(scene);
+  scene.run.model = "multibody";
+  const Result multibody = run(scene);
+  ASSERT_TRUE(multibody.complete) << multibody.diagnosis;
+  const double error = *multibody.find("final_angle.pump")->error + 2e-8;
+  EXPECT_LT(error, 1e-6);
+  EXPECT_NEAR(figure(reduced, "final_angle.pump"), figure(multibody, "final_angle.pump"), error);
+  EXPECT_NEAR(figure(reduced, "final_speed.pump"), figure(multibody, "final_speed.pump"), 100 * error);
+}
+
+TEST(Periods, RunUpSteadyRunDownAndStandstillAreRecognised) {
+  const Result r = run(R"(
+line = ["motor", "rotor"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "100 N*m"
+no_load_speed = "100 rad/s"
+inertia = "1 kg*m2"
+stop = "20 s"
+[rotor]
+kind = "load"
+torque = "20 N*m"
+inertia = "1 kg*m2"
+[run]
+until = "30 s"
+accuracy = 1e-7
+)");
+  // ω = 80 (1 − e^(−t/2)): within 1 % at t = 2 ln 100; then 2 ω̇ = −20 from 80 rad/s: stops 8 s after the motor.
+  ASSERT_TRUE(r.periods.run_up_end && r.periods.run_down_begin && r.periods.standstill);
+  EXPECT_NEAR(*r.periods.run_up_end, 2 * std::log(100.0), 0.05);
+  EXPECT_EQ(*r.periods.run_down_begin, 20);
+  EXPECT_NEAR(*r.periods.standstill, 20 + 80 * (1 - std::exp(-10.0)) / 10, 1e-6);
+}
+
+}  // namespace
+}  // namespace kurbel
