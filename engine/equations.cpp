@@ -265,6 +265,11 @@ ErrorControl Equations::error_control(double tolerance) const {
   for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
   control.scale.resize(size(), 0.0);
+  if (!audit() || m.free_shafts == m.shafts.size()) return control;
+  // Beside a prescribed motion the states may be smoother than the torques: only the quadratures keep the steps short.
+  for (std::size_t k = 0; k < m.accounts.size(); ++k) control.scale[work_index(k)] = m.torque_scale;  // per radian
+  for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
+    for (const bool spring : {false, true}) control.scale[square_index(i, spring)] = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
   return control;
 }
 

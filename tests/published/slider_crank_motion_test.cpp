@@ -92,17 +92,10 @@ accuracy = 1e-10
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.crank"), 53.4150446, 1e-7);
   EXPECT_NEAR(figure(r, "final_speed.crank"), 11.64032783, 1e-7);
-  // Ten digits, but at t = 4.5 s and 5 s only.
-  const Columns angle = test::published_series("sc02_Engine1a.csv", 1, 4), speed = test::published_series("sc02_Engine1a.csv", 1, 5);
-  const Columns modelica = test::published_series("sc02_Engine1a.csv", 1, 2);
-  const auto phi = test::series(r, "angle.crank"), omega = test::series(r, "speed.crank");
-  for (std::size_t k = 0; k < angle.x.size(); ++k) {
-    const auto row = static_cast<std::size_t>(std::lround(angle.x[k] / 0.05));
-    ASSERT_NEAR(r.trajectory->time()[row], angle.x[k], 1e-12);
-    EXPECT_NEAR(phi[row], angle.y[k], 1e-8) << "t = " << angle.x[k];
-    EXPECT_NEAR(omega[row], speed.y[k], 1e-8) << "t = " << angle.x[k];
-    EXPECT_NEAR(phi[row], modelica.y[k], 2e-4) << "t = " << angle.x[k];
-  }
+  // The case's own series has ten digits; Modelica's holds to its own tolerance, 1.5e-4 rad.
+  EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc02_Engine1a.csv", 1, 4)), 1e-8);
+  EXPECT_LT(test::largest_difference(r, "speed.crank", test::published_series("sc02_Engine1a.csv", 1, 5)), 1e-8);
+  EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc02_Engine1a.csv", 1, 2)), 1.6e-4);
 }
 
 // --- MB04 (tests/cases/mb04_ivp_slidercrank.toml): the crank turns at 150 rad/s; here with a rigid rod ---
