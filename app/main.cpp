@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "engine/units.h"
 #include "studies/compare.h"
@@ -26,7 +27,7 @@ extern "C" void on_interrupt(int) {
 
 struct Arguments {
   std::string scene, effects, against, out, method;
-  double accuracy = 0;
+  std::optional<double> accuracy;
   std::string until;
   bool json = false, no_error = false, explain = false, quiet = false, no_files = false;
 };
@@ -59,7 +60,11 @@ kurbel::SimulateOptions simulate_options(const Arguments& arguments, Progress& p
   options.interrupted = &interrupted;
   options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
   if (!arguments.method.empty()) options.method = arguments.method;
-  if (arguments.accuracy > 0) options.accuracy = arguments.accuracy;
+  if (arguments.accuracy) {
+    if (!(*arguments.accuracy >= 1e-12 && *arguments.accuracy <= 0.1))
+      throw std::invalid_argument(fmt::format("--accuracy {}: must be 1e-12 … 0.1", *arguments.accuracy));
+    options.accuracy = arguments.accuracy;
+  }
   if (!arguments.until.empty()) {
     kurbel::UnitError error;
     const auto until = kurbel::parse_quantity(arguments.until, error);
@@ -162,7 +167,7 @@ void add_scene(CLI::App* command, Arguments& arguments) { command->add_option("s
 void add_run_options(CLI::App* command, Arguments& arguments) {
   add_scene(command, arguments);
   command->add_option("--effects", arguments.effects, "none, elasticity, or elasticity:COUPLING,… (overrides the scene)");
-  command->add_option("--accuracy", arguments.accuracy, "measured error of every figure over its scale (overrides the scene)")->check(CLI::Range(1e-12, 0.1));
+  command->add_option("--accuracy", arguments.accuracy, "measured error of every figure over its scale (overrides the scene)");
   command->add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
   command->add_option("--method", arguments.method, "auto, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
   command->add_option("--out", arguments.out, "folder for summary.json and trajectory.csv (default: results/SCENE)");

@@ -39,16 +39,13 @@ struct TorqueOverTime {
     const double t = x.t - shift(x.t, x.mode);
     return T(sign * curve.value_in(x.mode, t));
   }
-  int mode_at(double t) const { return curve.piece(t - curve.offset(t)); }
-  double next_edge(double t) const {
-    const double base = curve.offset(t);
-    double next = base + curve.piece_end(curve.piece(t - base));
-    if (next <= t) next = base + curve.piece_end(curve.piece(t - base) + 1);  // round-off at an edge
-    return next;
-  }
+  int mode_at(double t) const { return curve.piece(t + slack() - curve.offset(t + slack())); }
+  double next_edge(double t) const { return curve.offset(t + slack()) + curve.piece_end(mode_at(t)); }
   Rated rated() const { return {curve.max_abs(), 0}; }
 
  private:
+  // A time this close before a knot is on it: k · period rounds to either side.
+  double slack() const { return 1e-12 * (curve.x().back() - curve.x().front()); }
   // Brings t near the piece in force, so that a period's end does not jump within a step.
   double shift(double t, int piece) const {
     if (curve.period() == 0) return 0;

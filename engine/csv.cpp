@@ -78,8 +78,11 @@ Columns read_csv(const std::string& path, int x_column, int y_column, Messages& 
     const auto cell_at = [&](int column) { return cells[static_cast<std::size_t>(column - 1)]; };
     const int last_column = std::max(x_column, y_column);
     if (last_column > static_cast<int>(cells.size())) {
-      messages.add_in(path, {line_number, 1}, fmt::format("column {} is wanted, but this line has {} cell{}; cells are separated by comma, semicolon or tab",
-                                                          last_column, cells.size(), cells.size() == 1 ? "" : "s"));
+      messages.add_in(
+          path, {line_number, 1},
+          fmt::format(
+              "column {} is wanted, but this line has {} cell{}; cells are separated by comma, semicolon or tab",
+              last_column, cells.size(), cells.size() == 1 ? "" : "s"));
       ++bad;
       if (std::exchange(header_allowed, false)) break;  // so will all the others
       continue;
@@ -92,8 +95,10 @@ Columns read_csv(const std::string& path, int x_column, int y_column, Messages& 
       if (!value[k]) {
         good = false;
         const auto at = static_cast<int>(cell.data() - line.data()) + 1;
-        messages.add_in(path, {line_number, cell.data() ? at : 1},
-                        fmt::format("{} is not a finite number{}", in_quotes(cell), cell.find(',') == std::string_view::npos ? "" : "; decimals are written with a point"));
+        messages.add_in(
+            path, {line_number, cell.data() ? at : 1},
+            fmt::format("{} is not a finite number{}", in_quotes(cell),
+                        cell.find(',') == std::string_view::npos ? "" : "; decimals are written with a point"));
         ++bad;
         break;
       }

@@ -57,13 +57,20 @@ const DocumentEntry* DocumentValue::find(std::string_view key) const {
 
 std::string DocumentValue::describe() const {
   switch (type) {
-    case Type::flag: return flag ? "true" : "false";
-    case Type::integer: return fmt::format("{}", integer);
-    case Type::number: return fmt::format("{}", number);
-    case Type::text: return in_quotes(text);
-    case Type::list: return "a list";
-    case Type::table: return "a table";
-    case Type::other: return "a date or time";
+    case Type::flag:
+      return flag ? "true" : "false";
+    case Type::integer:
+      return fmt::format("{}", integer);
+    case Type::number:
+      return fmt::format("{}", number);
+    case Type::text:
+      return in_quotes(text);
+    case Type::list:
+      return "a list";
+    case Type::table:
+      return "a table";
+    case Type::other:
+      return "a date or time";
   }
   return "";
 }
@@ -80,7 +87,8 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) refuse("cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > limit) refuse(fmt::format("is larger than {} MB; put long tables into CSV files", limit / 1'000'000));
+  if (text.size() > limit)
+    refuse(fmt::format("is larger than {} MB; put long tables into CSV files", limit / 1'000'000));
   return text;
 }
 
@@ -126,18 +134,22 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 
 // What toml++ says, in one sentence that is ours where it is common.
 std::string why_not_toml(std::string_view said, std::string_view line, int column) {
-  const auto characters = std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  const auto characters =
+      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
   if (said.find("unescaped control characters") != std::string_view::npos && column > characters)
     return "a text does not end on this line; its closing quote is missing";
-  if (said.find("whitespace, saw ','") != std::string_view::npos) return "unexpected comma; decimals are written with a point";
+  if (said.find("whitespace, saw ','") != std::string_view::npos)
+    return "unexpected comma; decimals are written with a point";
   if (said.find("TOML_MAX_NESTED_VALUES") != std::string_view::npos) return "values are nested more than 256 deep";
-  if (const std::size_t name = said.find('\''); said.find("cannot redefine existing") != std::string_view::npos && name != std::string_view::npos)
+  if (const std::size_t name = said.find('\'');
+      said.find("cannot redefine existing") != std::string_view::npos && name != std::string_view::npos)
     return fmt::format("{} stands twice; keep one", in_quotes(said.substr(name + 1, said.rfind('\'') - name - 1)));
   constexpr std::string_view while_parsing = "Error while parsing ";
   if (said.starts_with(while_parsing)) said.remove_prefix(while_parsing.size());
   const bool bare_text = said.find("could not determine value type") != std::string_view::npos ||
                          said.find("expected a comment or whitespace") != std::string_view::npos ||
-                         said.find("expected decimal digit") != std::string_view::npos || said.find("expected digit") != std::string_view::npos;
+                         said.find("expected decimal digit") != std::string_view::npos ||
+                         said.find("expected digit") != std::string_view::npos;
   return std::string(said) + (bare_text ? "; texts and quantities with units stand in quotes" : "");
 }
 
@@ -149,15 +161,21 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n') + 1;
     const std::size_t begin = nul == 0 ? 0 : text.rfind('\n', nul) + 1;  // npos + 1 = 0
-    throw SceneError({{file, {static_cast<int>(line), static_cast<int>(nul - begin) + 1}, "holds a NUL byte; a scene is a text file in UTF-8"}});
+    throw SceneError({{file,
+                       {static_cast<int>(line), static_cast<int>(nul - begin) + 1},
+                       "holds a NUL byte; a scene is a text file in UTF-8"}});
   }
   constexpr int most_dots = 8;
   if (const Location at = too_many_dots(text, most_dots); at.line > 0)
-    throw SceneError({{file, at, fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)}});
+    throw SceneError(
+        {{file, at, fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)}});
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    throw SceneError({{file, location(error.source()), fmt::format("not TOML: {}", why_not_toml(error.description(), line_of(text, error.source().begin.line), static_cast<int>(error.source().begin.column)))}});
+    throw SceneError(
+        {{file, location(error.source()),
+          fmt::format("not TOML: {}", why_not_toml(error.description(), line_of(text, error.source().begin.line),
+                                                   static_cast<int>(error.source().begin.column)))}});
   }
 }
 

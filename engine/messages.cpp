@@ -9,9 +9,8 @@ namespace kurbel {
 namespace {
 
 std::vector<Message> sorted(std::vector<Message> messages) {
-  std::stable_sort(messages.begin(), messages.end(), [](const Message& a, const Message& b) {
-    return a.file != b.file ? a.file < b.file : a.at < b.at;
-  });
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const Message& a, const Message& b) { return a.file != b.file ? a.file < b.file : a.at < b.at; });
   return messages;
 }
 

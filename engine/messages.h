@@ -26,7 +26,9 @@ class Messages {
  public:
   explicit Messages(std::string file) : file_(std::move(file)) {}
   void add(Location at, std::string text) { all_.push_back({file_, at, std::move(text)}); }
-  void add_in(std::string file, Location at, std::string text) { all_.push_back({std::move(file), at, std::move(text)}); }
+  void add_in(std::string file, Location at, std::string text) {
+    all_.push_back({std::move(file), at, std::move(text)});
+  }
   bool empty() const { return all_.empty(); }
   const std::string& file() const { return file_; }
   const std::vector<Message>& all() const { return all_; }

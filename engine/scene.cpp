@@ -47,8 +47,10 @@ bool fits(const std::string& method, const std::string& model) {
 std::string method_does_not_fit(const std::string& method, const std::string& model) {
   for (const char* other : {"reduced", "multibody"})
     if (other != model && fits(method, other))
-      return fmt::format("method \"{}\" belongs to model = \"{}\"; for model = \"{}\" allowed: {}", method, other, model, listed(methods_of(model)));
-  return fmt::format("method {}{}; allowed: {}", in_quotes(method), suggestion(method, methods_of(model)), listed(methods_of(model)));
+      return fmt::format("method \"{}\" belongs to model = \"{}\"; for model = \"{}\" allowed: {}", method, other,
+                         model, listed(methods_of(model)));
+  return fmt::format("method {}{}; allowed: {}", in_quotes(method), suggestion(method, methods_of(model)),
+                     listed(methods_of(model)));
 }
 
 class SceneReader {
@@ -96,16 +98,21 @@ class SceneReader {
   void read_components() {
     for (const DocumentEntry& entry : document_.entries) {
       if (entry.key == "title" || entry.key == "description") {
-        if (entry.value.type != Type::text) refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));
+        if (entry.value.type != Type::text)
+          refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));
         if (entry.key == "title") scene_.title = entry.value.text;
         continue;
       }
       if (std::count(reserved_names().begin(), reserved_names().end(), entry.key)) continue;
-      const bool good_name = !entry.key.empty() && entry.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+      const bool good_name =
+          !entry.key.empty() &&
+          entry.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+              std::string::npos;
       if (entry.value.type != Type::table) {
         refuse_top_key(entry);
       } else if (!good_name) {
-        refuse(entry.at, fmt::format("component name {}: only letters, digits, _ and - are allowed", in_quotes(entry.key)));
+        refuse(entry.at,
+               fmt::format("component name {}: only letters, digits, _ and - are allowed", in_quotes(entry.key)));
       } else if (read_component(entry)) {
         continue;
       }
@@ -114,16 +121,20 @@ class SceneReader {
   }
   void refuse_top_key(const DocumentEntry& entry) {
     const auto is = [&](const Key& key) { return key.name == entry.key; };
-    const bool tables = entry.value.type == Type::list && !entry.value.items.empty() && entry.value.items.front().type == Type::table;
+    const bool tables =
+        entry.value.type == Type::list && !entry.value.items.empty() && entry.value.items.front().type == Type::table;
     if (tables) {
-      refuse(entry.at, fmt::format("[[{0}]] is a list of tables; a component is written [{0}], a branch [[branch]]", entry.key));
+      refuse(entry.at,
+             fmt::format("[[{0}]] is a list of tables; a component is written [{0}], a branch [[branch]]", entry.key));
     } else if (std::any_of(run_keys().begin(), run_keys().end(), is) || entry.key == "start" || entry.key == "output") {
       refuse(entry.at, fmt::format("\"{}\" belongs under [run]", entry.key));
     } else if (entry.key == "elasticity") {
       refuse(entry.at, "\"elasticity\" belongs under [effects]");
     } else {
-      refuse(entry.at, fmt::format("unknown key {}{}; allowed at the top of a scene: {}, and a table for each component",
-                                   in_quotes(entry.key), suggestion(entry.key, reserved_names()), listed(reserved_names(), "and")));
+      refuse(
+          entry.at,
+          fmt::format("unknown key {}{}; allowed at the top of a scene: {}, and a table for each component",
+                      in_quotes(entry.key), suggestion(entry.key, reserved_names()), listed(reserved_names(), "and")));
     }
   }
   static bool is_top_key(const DocumentEntry& entry) { return entry.key == "line" || entry.key == "title"; }
@@ -132,7 +143,8 @@ class SceneReader {
     // A slip of the pen in [effects] or [run], and no component at all.
     const auto table_meant = entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "run", "branch"});
     if (table_meant) {
-      refuse(entry.at, fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
+      refuse(entry.at,
+             fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
       return false;
     }
     const Kind* kind = read_kind(entry.value, kinds_, fmt::format("component \"{}\"", name), entry.at, messages_);
@@ -142,11 +154,14 @@ class SceneReader {
     // TOML gives every key to the table header above it: the commonest slip with `line`.
     for (const DocumentEntry& inner : entry.value.entries)
       if (is_top_key(inner)) {
-        refuse(inner.at, fmt::format("{} \"{}\": \"{}\" stands in the table [{}]; move it above the first table of the file", kind->name, name, inner.key, name));
+        refuse(inner.at,
+               fmt::format("{} \"{}\": \"{}\" stands in the table [{}]; move it above the first table of the file",
+                           kind->name, name, inner.key, name));
         if (inner.key == "line") misplaced_line_ = &inner;
       }
     table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), is_top_key), table.entries.end());
-    Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"kind", "on"});
+    Section section =
+        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"kind", "on"});
     if (const DocumentEntry* on = entry.value.find("on")) read_on(section, on->value);
     index_[name] = scene_.components.size();
     scene_.components.push_back(std::move(section));
@@ -157,12 +172,14 @@ class SceneReader {
   void read_on(const Section& section, const DocumentValue& value) {
     if (section.kind->placement == Placement::inline_two) {
       lines_sound_ = false;
-      return refuse(value.at, fmt::format("{} \"{}\": on = {}; it has two shafts and stands in a `line` or a [[branch]]",
-                                          section.kind->name, section.name, value.describe()));
+      return refuse(value.at,
+                    fmt::format("{} \"{}\": on = {}; it has two shafts and stands in a `line` or a [[branch]]",
+                                section.kind->name, section.name, value.describe()));
     }
     if (value.type != Type::text || value.text.empty()) {
       lines_sound_ = false;
-      return refuse(value.at, fmt::format("{} \"{}\": on = {}; must be the name of a component in quotes", section.kind->name, section.name, value.describe()));
+      return refuse(value.at, fmt::format("{} \"{}\": on = {}; must be the name of a component in quotes",
+                                          section.kind->name, section.name, value.describe()));
     }
     scene_.lines.push_back({value.text, {section.name}, value.at, {value.at}});
   }
@@ -173,7 +190,9 @@ class SceneReader {
     if (!line) {
       lines_sound_ = false;
       scene_.lines.insert(scene_.lines.begin(), Line{});
-      refuse({1, 1}, "\"line\" is missing: the components in the order of the drive, e.g. line = [\"motor\", \"coupling\", \"press\"]");
+      refuse({1, 1},
+             "\"line\" is missing: the components in the order of the drive, e.g. line = [\"motor\", \"coupling\", "
+             "\"press\"]");
     } else {
       scene_.lines.insert(scene_.lines.begin(), read_line(line->value, "line", ""));
     }
@@ -181,14 +200,16 @@ class SceneReader {
     if (!branches) return;
     if (branches->value.type != Type::list) {
       lines_sound_ = false;
-      return refuse(branches->at, "branch is no list of tables; each branch is written as [[branch]] with `from` and `line`");
+      return refuse(branches->at,
+                    "branch is no list of tables; each branch is written as [[branch]] with `from` and `line`");
     }
     for (const DocumentValue& branch : branches->value.items) read_branch(branch);
   }
   void read_branch(const DocumentValue& branch) {
     for (const DocumentEntry& entry : branch.entries)
       if (entry.key != "from" && entry.key != "line")
-        refuse(entry.at, fmt::format("branch: unknown key {}{}; allowed: \"from\" and \"line\"", in_quotes(entry.key), suggestion(entry.key, {"from", "line"})));
+        refuse(entry.at, fmt::format("branch: unknown key {}{}; allowed: \"from\" and \"line\"", in_quotes(entry.key),
+                                     suggestion(entry.key, {"from", "line"})));
     const DocumentEntry* from = branch.find("from");
     const DocumentEntry* line = branch.find("line");
     const bool has_from = from && from->value.type == Type::text && !from->value.text.empty();
@@ -197,9 +218,13 @@ class SceneReader {
     });
     if (branch.type != Type::table || ((!from || !line) && !mistyped)) {
       refuse(branch.at, fmt::format("branch: {}; needs from = \"component\" and line = [\"component\", …]",
-                                    branch.type != Type::table ? branch.describe() + " is no table" : !from && !line ? "\"from\" and \"line\" are missing" : from ? "\"line\" is missing" : "\"from\" is missing"));
+                                    branch.type != Type::table ? branch.describe() + " is no table"
+                                    : !from && !line           ? "\"from\" and \"line\" are missing"
+                                    : from                     ? "\"line\" is missing"
+                                                               : "\"from\" is missing"));
     } else if (from && !has_from) {
-      refuse(from->value.at, fmt::format("branch: from = {}; must be the name of a component in quotes", from->value.describe()));
+      refuse(from->value.at,
+             fmt::format("branch: from = {}; must be the name of a component in quotes", from->value.describe()));
     }
     if (!has_from || !line) lines_sound_ = false;
     if (!line) return;
@@ -211,7 +236,8 @@ class SceneReader {
   Line read_line(const DocumentValue& value, const std::string& what, const std::string& from) {
     Line line{.from = from, .at = value.at};
     if (value.type != Type::list || value.items.empty()) {
-      refuse(value.at, fmt::format("{} = {}; must be a list of component names, e.g. [\"motor\", \"press\"]", what, value.type == Type::list ? "[]" : value.describe()));
+      refuse(value.at, fmt::format("{} = {}; must be a list of component names, e.g. [\"motor\", \"press\"]", what,
+                                   value.type == Type::list ? "[]" : value.describe()));
       lines_sound_ = false;
       return line;
     }
@@ -242,22 +268,29 @@ class SceneReader {
           continue;
         }
         if (const auto [first, fresh] = placed.emplace(name, line.name_at[i]); !fresh)
-          refuse(line.name_at[i], fmt::format("component \"{}\" is used twice (first at line {}); one component stands in one place", name, first->second.line));
+          refuse(line.name_at[i],
+                 fmt::format("component \"{}\" is used twice (first at line {}); one component stands in one place",
+                             name, first->second.line));
       }
     for (const Line& line : scene_.lines)
       if (!line.from.empty()) check_from(line, names, placed);
     for (const Section& section : scene_.components)
       if (lines_sound_ && !placed.count(section.name) && !meant.count(section.name))
-        refuse(section.at, fmt::format("{} \"{}\" is not connected; put it into `line` or a [[branch]]{}", section.kind->name, section.name,
-                                       section.kind->placement == Placement::inline_two ? "" : ", or say on = \"component\" in its table"));
+        refuse(section.at,
+               fmt::format(
+                   "{} \"{}\" is not connected; put it into `line` or a [[branch]]{}", section.kind->name, section.name,
+                   section.kind->placement == Placement::inline_two ? "" : ", or say on = \"component\" in its table"));
     check_rings();
   }
   std::string no_component(const std::string& name, const std::vector<std::string>& names) const {
-    const bool bare = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
-    return fmt::format("component {} has no table{}{}; tables here: {}", in_quotes(name), bare && name.size() < 40 ? fmt::format(" [{}]", name) : "",
-                       suggestion(name, names), names.empty() ? "none" : shortened_list(names, "and"));
+    const bool bare =
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+    return fmt::format("component {} has no table{}{}; tables here: {}", in_quotes(name),
+                       bare && name.size() < 40 ? fmt::format(" [{}]", name) : "", suggestion(name, names),
+                       names.empty() ? "none" : shortened_list(names, "and"));
   }
-  void check_from(const Line& line, const std::vector<std::string>& names, const std::map<std::string, Location>& placed) {
+  void check_from(const Line& line, const std::vector<std::string>& names,
+                  const std::map<std::string, Location>& placed) {
     const std::string component = component_of(line.from);
     const Section* section = find(component);
     if (!section) {
@@ -265,13 +298,15 @@ class SceneReader {
       return;
     }
     if (std::count(line.names.begin(), line.names.end(), component)) return;  // a ring; said below
-    if (!placed.count(component)) return;  // said elsewhere
+    if (!placed.count(component)) return;                                     // said elsewhere
     const std::string port = line.from.size() > component.size() ? line.from.substr(component.size() + 1) : "";
     const bool two = section->kind->placement == Placement::inline_two;
     if (two && port != "in" && port != "out")
-      refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from), section->kind->name, component, component, component));
+      refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from),
+                                  section->kind->name, component, component, component));
     if (!two && component.size() != line.from.size())
-      refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name, component, component));
+      refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name,
+                                  component, component));
   }
   // Branches that hang on each other in a ring, apart from the main line: one message a ring.
   void check_rings() {
@@ -300,17 +335,21 @@ class SceneReader {
       at = line_of.at(component_of(scene_.lines[at].from));
     } while (at != first);
     if (from.size() == 1)
-      return refuse(where, fmt::format("the branch from \"{0}\" holds \"{0}\" itself; begin it at a component of another line", component_of(from.front())));
-    refuse(where, fmt::format("the branches from {} hang on each other in a ring; begin one of them at a component of the main line", shortened_list(from, "and")));
+      return refuse(where,
+                    fmt::format("the branch from \"{0}\" holds \"{0}\" itself; begin it at a component of another line",
+                                component_of(from.front())));
+    refuse(where,
+           fmt::format(
+               "the branches from {} hang on each other in a ring; begin one of them at a component of the main line",
+               shortened_list(from, "and")));
   }
 
   // The order of tables in the file must not change a single bit of a result: components are sorted along the main
   // line, then along the branches by their places of departure and names.
   void put_in_canonical_order() {
     if (scene_.lines.empty()) return;
-    std::sort(scene_.lines.begin() + 1, scene_.lines.end(), [](const Line& a, const Line& b) {
-      return a.from != b.from ? a.from < b.from : a.names < b.names;
-    });
+    std::sort(scene_.lines.begin() + 1, scene_.lines.end(),
+              [](const Line& a, const Line& b) { return a.from != b.from ? a.from < b.from : a.names < b.names; });
     // A branch may begin at a branch: lines follow those they depart from, otherwise in sorted order.
     std::multimap<std::string, std::size_t> waiting;
     for (std::size_t i = 1; i < scene_.lines.size(); ++i) waiting.emplace(component_of(scene_.lines[i].from), i);
@@ -338,10 +377,13 @@ class SceneReader {
   void read_effects() {
     const DocumentEntry* effects = document_.find("effects");
     if (!effects) return;
-    if (effects->value.type != Type::table) return refuse(effects->at, fmt::format("effects = {}; must be a table, e.g. effects = {{ elasticity = true }}", effects->value.describe()));
+    if (effects->value.type != Type::table)
+      return refuse(effects->at, fmt::format("effects = {}; must be a table, e.g. effects = {{ elasticity = true }}",
+                                             effects->value.describe()));
     for (const DocumentEntry& entry : effects->value.entries) {
       if (entry.key != "elasticity") {
-        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\"", in_quotes(entry.key), suggestion(entry.key, {"elasticity"})));
+        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\"", in_quotes(entry.key),
+                                     suggestion(entry.key, {"elasticity"})));
         continue;
       }
       if (entry.value.type == Type::flag) {
@@ -349,8 +391,10 @@ class SceneReader {
       } else if (entry.value.type == Type::list) {
         for (const DocumentValue& item : entry.value.items) add_elastic(item);
       } else {
-        refuse(entry.value.at, fmt::format("[effects]: elasticity = {}; must be true, false or a list of components{}", entry.value.describe(),
-                                           entry.value.type == Type::text ? fmt::format(", e.g. [{}]", entry.value.describe()) : ""));
+        refuse(entry.value.at,
+               fmt::format("[effects]: elasticity = {}; must be true, false or a list of components{}",
+                           entry.value.describe(),
+                           entry.value.type == Type::text ? fmt::format(", e.g. [{}]", entry.value.describe()) : ""));
       }
     }
   }
@@ -368,16 +412,20 @@ class SceneReader {
     }
     if (unreadable_.count(item.text)) return;
     const std::vector<std::string> allowed = elastic_names();
-    const std::string why = section ? fmt::format("{} is a {}, which is always rigid", item.describe(), section->kind->name)
-                                    : fmt::format("{} is no component{}", item.describe(), suggestion(item.text, allowed));
-    refuse(item.at, fmt::format("[effects]: elasticity: {}; allowed: {}", why, allowed.empty() ? "none in this scene" : shortened_list(allowed)));
+    const std::string why = section
+                                ? fmt::format("{} is a {}, which is always rigid", item.describe(), section->kind->name)
+                                : fmt::format("{} is no component{}", item.describe(), suggestion(item.text, allowed));
+    refuse(item.at, fmt::format("[effects]: elasticity: {}; allowed: {}", why,
+                                allowed.empty() ? "none in this scene" : shortened_list(allowed)));
   }
 
   void read_run() {
     static const Kind run_kind{.name = "run", .keys = run_keys()};
     DocumentValue empty{.at = {1, 1}};
     const DocumentEntry* run = document_.find("run");
-    if (run && run->value.type != Type::table) return refuse(run->at, fmt::format("run = {}; must be a table, e.g. run = {{ until = \"3 s\" }}", run->value.describe()));
+    if (run && run->value.type != Type::table)
+      return refuse(run->at,
+                    fmt::format("run = {}; must be a table, e.g. run = {{ until = \"3 s\" }}", run->value.describe()));
     DocumentValue table = run ? run->value : empty;
     if (run) table.at = run->at;
     const Section section = read_section(table, run_kind, "run", "[run]", messages_, {"start", "output"});
@@ -388,16 +436,20 @@ class SceneReader {
     scene_.run.samples = static_cast<int>(section.number("samples"));
     scene_.run.budget = section.number("budget");
     if (section.sound && !fits(scene_.run.method, scene_.run.model))
-      refuse(section.where("method"), fmt::format("[run]: {}", method_does_not_fit(scene_.run.method, scene_.run.model)));
+      refuse(section.where("method"),
+             fmt::format("[run]: {}", method_does_not_fit(scene_.run.method, scene_.run.model)));
     if (const DocumentEntry* start = table.find("start")) read_start(start->value);
     if (const DocumentEntry* output = table.find("output")) read_output(output->value);
   }
   void read_output(const DocumentValue& value) {
-    if (value.type != Type::list) return refuse(value.at, fmt::format("[run]: output = {}; must be a list of component names, e.g. [\"motor\"]", value.describe()));
+    if (value.type != Type::list)
+      return refuse(value.at, fmt::format("[run]: output = {}; must be a list of component names, e.g. [\"motor\"]",
+                                          value.describe()));
     for (const DocumentValue& item : value.items) {
       if (unreadable_.count(item.text)) continue;
       if (!find(item.text)) {
-        refuse(item.at, fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(), suggestion(item.text, component_names()), shortened_list(component_names())));
+        refuse(item.at, fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(),
+                                    suggestion(item.text, component_names()), shortened_list(component_names())));
         continue;
       }
       scene_.run.output.push_back(item.text);
@@ -410,31 +462,44 @@ class SceneReader {
     if (value.type == Type::text) {
       start.equilibrium = value.text == "equilibrium";
       if (!start.equilibrium && value.text != "rest")
-        refuse(value.at, fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}", value.describe()));
+        refuse(value.at,
+               fmt::format(
+                   "[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}",
+                   value.describe()));
       return;
     }
-    if (value.type != Type::table) return refuse(value.at, fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}", value.describe()));
+    if (value.type != Type::table)
+      return refuse(
+          value.at,
+          fmt::format(
+              "[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}",
+              value.describe()));
     for (const DocumentEntry& entry : value.entries) {
       if (entry.key == "speed") {
         read_quantity(entry.value, "rad/s", any_number, "start: speed", messages_, start.speed);
       } else if (entry.key == "angle") {
         read_quantity(entry.value, "rad", any_number, "start: angle", messages_, start.angle);
       } else if (entry.key == "equilibrium") {
-        if (entry.value.type != Type::flag) refuse(entry.value.at, fmt::format("start: equilibrium = {}; must be true or false", entry.value.describe()));
+        if (entry.value.type != Type::flag)
+          refuse(entry.value.at, fmt::format("start: equilibrium = {}; must be true or false", entry.value.describe()));
         start.equilibrium = entry.value.flag;
       } else if (entry.key == "on") {
         start.on = entry.value.text;
         if (!find(start.on) && !unreadable_.count(start.on))
-          refuse(entry.value.at, fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(), suggestion(start.on, component_names()), shortened_list(component_names())));
+          refuse(entry.value.at,
+                 fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(),
+                             suggestion(start.on, component_names()), shortened_list(component_names())));
       } else if (find(entry.key) && entry.value.type == Type::table) {
         read_component_start(entry);
       } else if (find(entry.key)) {
-        refuse(entry.value.at, fmt::format("start: {} = {}; must be a table such as {}", entry.key, entry.value.describe(),
-                                           find(entry.key)->kind->elastic ? "{ twist = \"0.5 deg\" }" : "{ speed = \"300 rpm\" }"));
+        refuse(entry.value.at,
+               fmt::format("start: {} = {}; must be a table such as {}", entry.key, entry.value.describe(),
+                           find(entry.key)->kind->elastic ? "{ twist = \"0.5 deg\" }" : "{ speed = \"300 rpm\" }"));
       } else if (!unreadable_.count(entry.key)) {
         std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on"};
         for (const std::string& name : component_names()) allowed.push_back(name);
-        refuse(entry.at, fmt::format("start: unknown key {}{}; allowed: {}", in_quotes(entry.key), suggestion(entry.key, allowed), shortened_list(allowed, "and")));
+        refuse(entry.at, fmt::format("start: unknown key {}{}; allowed: {}", in_quotes(entry.key),
+                                     suggestion(entry.key, allowed), shortened_list(allowed, "and")));
       }
     }
   }
@@ -452,7 +517,8 @@ class SceneReader {
       } else if (e.key == "twist" && elastic) {
         if (read_quantity(e.value, "rad", any_number, what, messages_, number)) start.twist = number;
       } else {
-        refuse(e.at, fmt::format("start: {}: unknown key {}; a {} has {}", entry.key, in_quotes(e.key), kind.name, elastic ? "a \"twist\" alone" : "\"angle\" and \"speed\""));
+        refuse(e.at, fmt::format("start: {}: unknown key {}; a {} has {}", entry.key, in_quotes(e.key), kind.name,
+                                 elastic ? "a \"twist\" alone" : "\"angle\" and \"speed\""));
       }
     }
     scene_.run.start.components[entry.key] = start;
@@ -483,14 +549,16 @@ std::string Effects::describe() const {
 }
 
 const Section* Scene::find(const std::string& name) const {
-  const auto found = std::find_if(components.begin(), components.end(), [&](const Section& s) { return s.name == name; });
+  const auto found =
+      std::find_if(components.begin(), components.end(), [&](const Section& s) { return s.name == name; });
   return found == components.end() ? nullptr : &*found;
 }
 
 const std::vector<std::string>& methods_of(const std::string& model) {
   static const std::vector<std::string> reduced = {"auto", "dop853", "dopri5", "esdirk", "bdf", "adams"};
-  static const std::vector<std::string> multibody = {"auto", "RungeKuttaMerson", "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
-                                                     "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"};
+  static const std::vector<std::string> multibody = {
+      "auto",   "RungeKuttaMerson",   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
+      "Verlet", "SemiExplicitEuler2", "ExplicitEuler",      "CPodes"};
   return model == "multibody" ? multibody : reduced;
 }
 
@@ -501,16 +569,32 @@ void check_method(const std::string& method, const std::string& model) {
 const std::vector<Key>& run_keys() {
   static const std::vector<Key> keys = {
       {.name = "until", .unit = "s", .fallback = "\"1 s\"", .domain = positive, .doc = "end of the simulated time"},
-      {.name = "accuracy", .fallback = "1e-6", .domain = {.low = 1e-12, .high = 0.1},
+      {.name = "accuracy",
+       .fallback = "1e-6",
+       .domain = {.low = 1e-12, .high = 0.1},
        .doc = "measured error of every figure over its scale (rated speed, rated torque, 1 rad)"},
-      {.name = "method", .type = KeyType::text, .fallback = "\"auto\"", .doc = "integrator",
-       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
-                   "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
-      {.name = "model", .type = KeyType::text, .fallback = "\"reduced\"",
-       .doc = "reduced: tables extracted from Simbody; multibody: Simbody's closed loop at every step (rigid, one mechanism)",
+      {.name = "method",
+       .type = KeyType::text,
+       .fallback = "\"auto\"",
+       .doc = "integrator",
+       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg",
+                   "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
+      {.name = "model",
+       .type = KeyType::text,
+       .fallback = "\"reduced\"",
+       .doc = "reduced: tables extracted from Simbody; multibody: Simbody's closed loop at every step (rigid, one "
+              "mechanism)",
        .choices = {"reduced", "multibody"}},
-      {.name = "samples", .type = KeyType::integer, .fallback = "1000", .domain = {.low = 2, .high = 1e6}, .doc = "rows of trajectory.csv"},
-      {.name = "budget", .unit = "s", .fallback = "\"300 s\"", .domain = positive, .doc = "processor time after which an integration is stopped with a diagnosis"},
+      {.name = "samples",
+       .type = KeyType::integer,
+       .fallback = "1000",
+       .domain = {.low = 2, .high = 1e6},
+       .doc = "rows of trajectory.csv"},
+      {.name = "budget",
+       .unit = "s",
+       .fallback = "\"300 s\"",
+       .domain = positive,
+       .doc = "processor time after which an integration is stopped with a diagnosis"},
   };
   return keys;
 }
@@ -532,7 +616,8 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
   }
   const std::string prefix = "elasticity:";
   if (!text.starts_with(prefix))
-    throw std::invalid_argument(fmt::format("effects {}{}; allowed: none, elasticity, or elasticity:COUPLING,…", in_quotes(text), suggestion(text, {"none", "elasticity"})));
+    throw std::invalid_argument(fmt::format("effects {}{}; allowed: none, elasticity, or elasticity:COUPLING,…",
+                                            in_quotes(text), suggestion(text, {"none", "elasticity"})));
   for (std::size_t begin = prefix.size(); begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
@@ -541,8 +626,10 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
       std::vector<std::string> allowed;
       for (const Section& s : scene.components)
         if (s.kind->elastic) allowed.push_back(s.name);
-      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name) : "is no component" + suggestion(name, allowed);
-      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why, allowed.empty() ? "none in this scene" : shortened_list(allowed)));
+      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name)
+                                      : "is no component" + suggestion(name, allowed);
+      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why,
+                                              allowed.empty() ? "none in this scene" : shortened_list(allowed)));
     }
     effects.elastic.push_back(name);
     begin = end + 1;

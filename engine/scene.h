@@ -36,13 +36,13 @@ struct StartSettings {
 
 struct RunSettings {
   StartSettings start;
-  double until = 1;            // s
-  double accuracy = 1e-6;      // measured error of every figure over its scale
+  double until = 1;        // s
+  double accuracy = 1e-6;  // measured error of every figure over its scale
   std::string method = "auto";
   std::string model = "reduced";
-  int samples = 1000;          // rows of the trajectory
+  int samples = 1000;               // rows of the trajectory
   std::vector<std::string> output;  // components in the trajectory; empty: all (both ends of long chains)
-  double budget = 300;         // s of CPU time for one integration
+  double budget = 300;              // s of CPU time for one integration
 };
 
 // A row of components along a shaft, beginning at a component of another line ("" for the main line).
@@ -55,8 +55,8 @@ struct Line {
 
 struct Scene {
   std::string file, title, text;
-  std::vector<Line> lines;           // main line first, branches in canonical order
-  std::vector<Section> components;   // canonical order: along the lines, then by name
+  std::vector<Line> lines;          // main line first, branches in canonical order
+  std::vector<Section> components;  // canonical order: along the lines, then by name
   Effects effects;
   RunSettings run;
 

@@ -15,9 +15,9 @@ namespace kurbel {
 std::string Domain::describe(const std::string& unit) const {
   const bool bounded_low = std::isfinite(low), bounded_high = std::isfinite(high);
   if (bounded_low && bounded_high)
-    return low_open || high_open
-               ? fmt::format("{} {} and {} {}", low_open ? ">" : "≥", low, high_open ? "<" : "≤", with_unit(high, unit, 9))
-               : fmt::format("{} … {}", low, with_unit(high, unit, 9));
+    return low_open || high_open ? fmt::format("{} {} and {} {}", low_open ? ">" : "≥", low, high_open ? "<" : "≤",
+                                               with_unit(high, unit, 9))
+                                 : fmt::format("{} … {}", low, with_unit(high, unit, 9));
   if (bounded_low) return fmt::format("{} {}", low_open ? ">" : "≥", with_unit(low, low == 0 ? "" : unit));
   if (bounded_high) return fmt::format("{} {}", high_open ? "<" : "≤", with_unit(high, unit));
   return "finite";
@@ -54,7 +54,8 @@ std::string pretty_quantity(const DocumentValue& value) {
 }
 
 std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 // What may stand in place of a value that was refused: "4 kN*m/rad", 0.05.
@@ -77,15 +78,20 @@ class CurveReader {
 
   bool read(CurveData& curve) {
     if (table_.type != Type::table)
-      return messages_.add(table_.at, fmt::format("{} = {}; must be a table such as {{ over = \"{}\", unit = [\"{}\", \"{}\"], {} }}", what_,
-                                                  table_.describe(), key_.choices.front(), unit_over(key_.choices.front()), key_.unit,
-                                                  table_.type == Type::text ? "file = " + table_.describe() : "points = [[0, 0], [1, 1]]")), false;
+      return messages_.add(
+                 table_.at,
+                 fmt::format("{} = {}; must be a table such as {{ over = \"{}\", unit = [\"{}\", \"{}\"], {} }}", what_,
+                             table_.describe(), key_.choices.front(), unit_over(key_.choices.front()), key_.unit,
+                             table_.type == Type::text ? "file = " + table_.describe() : "points = [[0, 0], [1, 1]]")),
+             false;
     for (const DocumentEntry& e : table_.entries) {
-      static const std::vector<std::string> known = {"over", "unit", "points", "file", "return_points", "return_file", "columns", "interpolation", "period"};
+      static const std::vector<std::string> known = {
+          "over", "unit", "points", "file", "return_points", "return_file", "columns", "interpolation", "period"};
       if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
       const auto near = nearest(e.key, known);
       if (near) meant_.push_back(*near);
-      refuse(e.at, fmt::format("unknown key {}{}; allowed: {}", in_quotes(e.key), near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
+      refuse(e.at, fmt::format("unknown key {}{}; allowed: {}", in_quotes(e.key),
+                               near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
     }
     const std::size_t before = messages_.all().size();
     if (!read_over(curve)) return false;
@@ -108,21 +114,32 @@ class CurveReader {
     const DocumentEntry* over = table_.find("over");
     curve.over = key_.choices.front();
     if (!over && key_.choices.size() == 1) return true;
-    if (!over) return !is_meant("over") && refuse(table_.at, fmt::format("\"over\" is missing: what the first column is; allowed: {}", listed(key_.choices)));
+    if (!over)
+      return !is_meant("over") &&
+             refuse(table_.at,
+                    fmt::format("\"over\" is missing: what the first column is; allowed: {}", listed(key_.choices)));
     curve.over = over->value.text;
     if (std::find(key_.choices.begin(), key_.choices.end(), curve.over) != key_.choices.end()) return true;
     const auto near = nearest(curve.over, key_.choices);
-    return refuse(over->value.at, fmt::format("over = {}{}; allowed: {}", over->value.describe(), near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(key_.choices)));
+    return refuse(over->value.at,
+                  fmt::format("over = {}{}; allowed: {}", over->value.describe(),
+                              near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(key_.choices)));
   }
 
   bool read_units(const std::string& over) {
     const DocumentEntry* units = table_.find("unit");
     const std::string x_unit = unit_over(over);
-    if (!units) return !is_meant("unit") && refuse(table_.at, fmt::format("\"unit\" is missing; say the units of both columns, e.g. unit = [\"{}\", \"{}\"]", x_unit, key_.unit));
+    if (!units)
+      return !is_meant("unit") &&
+             refuse(table_.at,
+                    fmt::format("\"unit\" is missing; say the units of both columns, e.g. unit = [\"{}\", \"{}\"]",
+                                x_unit, key_.unit));
     const DocumentValue& list = units->value;
     if (list.type != Type::list || list.items.size() != 2)
-      return refuse(list.at, fmt::format("unit = {}; must be a list of two units, e.g. [\"{}\", \"{}\"]", list.describe(), x_unit, key_.unit));
-    const bool first = read_unit(list.items[0], x_unit, x_factor_), second = read_unit(list.items[1], key_.unit, y_factor_);
+      return refuse(list.at, fmt::format("unit = {}; must be a list of two units, e.g. [\"{}\", \"{}\"]",
+                                         list.describe(), x_unit, key_.unit));
+    const bool first = read_unit(list.items[0], x_unit, x_factor_),
+               second = read_unit(list.items[1], key_.unit, y_factor_);
     if (first) x_unit_ = list.items[0].text;
     if (second) y_unit_ = list.items[1].text;
     return first && second;
@@ -130,14 +147,19 @@ class CurveReader {
   bool read_unit(const DocumentValue& value, const std::string& wanted, double& factor) {
     UnitError error;
     const auto target = parse_unit(wanted, error);
-    if (value.type != Type::text) return refuse(value.at, fmt::format("unit = {}; must be a unit in quotes, e.g. \"{}\"", value.describe(), wanted));
+    if (value.type != Type::text)
+      return refuse(value.at,
+                    fmt::format("unit = {}; must be a unit in quotes, e.g. \"{}\"", value.describe(), wanted));
     const auto unit = parse_unit(value.text, error);
     if (!unit)
-      return refuse({value.at.line, value.at.column + 1 + static_cast<int>(characters(value.text.substr(0, error.column)))},
-                    fmt::format("unit = {}: {}", value.describe(), error.text));
+      return refuse(
+          {value.at.line, value.at.column + 1 + static_cast<int>(characters(value.text.substr(0, error.column)))},
+          fmt::format("unit = {}: {}", value.describe(), error.text));
     if (unit->dimension != target->dimension)
-      return refuse(value.at, fmt::format("unit = {} is the unit of {}; must be one of {}", value.describe(), name_of(unit->dimension), name_of(target->dimension)));
-    if (!std::isfinite(unit->factor) || unit->factor == 0) return refuse(value.at, fmt::format("unit = {} is out of range", value.describe()));
+      return refuse(value.at, fmt::format("unit = {} is the unit of {}; must be one of {}", value.describe(),
+                                          name_of(unit->dimension), name_of(target->dimension)));
+    if (!std::isfinite(unit->factor) || unit->factor == 0)
+      return refuse(value.at, fmt::format("unit = {} is out of range", value.describe()));
     factor = unit->factor;
     return true;
   }
@@ -145,7 +167,8 @@ class CurveReader {
   bool read_form(CurveData& curve) {
     if (const DocumentEntry* form = table_.find("interpolation")) {
       if (form->value.text != "linear" && form->value.text != "smooth")
-        return refuse(form->value.at, fmt::format("interpolation = {}; allowed: \"linear\" or \"smooth\"", form->value.describe()));
+        return refuse(form->value.at,
+                      fmt::format("interpolation = {}; allowed: \"linear\" or \"smooth\"", form->value.describe()));
       curve.form = form->value.text == "smooth" ? Curve::Form::smooth : Curve::Form::linear;
     }
     const DocumentEntry* period = table_.find("period");
@@ -153,26 +176,33 @@ class CurveReader {
     return read_quantity(period->value, unit_over(curve.over), positive, what_ + ": period", messages_, curve.period);
   }
 
-  bool read_points(const char* inline_key, const char* file_key, bool required, std::vector<double>& x, std::vector<double>& y) {
+  bool read_points(const char* inline_key, const char* file_key, bool required, std::vector<double>& x,
+                   std::vector<double>& y) {
     const DocumentEntry* points = table_.find(inline_key);
     const DocumentEntry* file = table_.find(file_key);
-    if (points && file) return refuse(file->at, fmt::format("\"{}\" and \"{}\" both given; keep one", inline_key, file_key));
+    if (points && file)
+      return refuse(file->at, fmt::format("\"{}\" and \"{}\" both given; keep one", inline_key, file_key));
     if (points) return read_inline(points->value, inline_key, x, y);
     if (file) return read_file(file->value, x, y);
     if (is_meant(inline_key) || is_meant(file_key)) return false;
     return required ? refuse(table_.at, "no data; give points = [[x, y], …] or file = \"data.csv\"") : true;
   }
   bool read_inline(const DocumentValue& list, const char* name, std::vector<double>& x, std::vector<double>& y) {
-    if (list.type != Type::list) return refuse(list.at, fmt::format("{} = {}; must be a list of pairs [[x, y], …]", name, list.describe()));
-    if (list.items.size() < 2) return refuse(list.at, fmt::format("{} has {} point{}; must be two or more", name, list.items.size(), list.items.size() == 1 ? "" : "s"));
+    if (list.type != Type::list)
+      return refuse(list.at, fmt::format("{} = {}; must be a list of pairs [[x, y], …]", name, list.describe()));
+    if (list.items.size() < 2)
+      return refuse(list.at, fmt::format("{} has {} point{}; must be two or more", name, list.items.size(),
+                                         list.items.size() == 1 ? "" : "s"));
     double last = -HUGE_VAL;
     int number = 0;
     for (const DocumentValue& pair : list.items) {
       ++number;
       if (pair.type != Type::list || pair.items.size() != 2 || !is_number(pair.items[0]) || !is_number(pair.items[1]))
-        return refuse(pair.at, fmt::format("{}[{}] is no pair of plain numbers [x, y]; their units stand in `unit`", name, number));
+        return refuse(pair.at, fmt::format("{}[{}] is no pair of plain numbers [x, y]; their units stand in `unit`",
+                                           name, number));
       if (!std::isfinite(pair.items[0].number) || !std::isfinite(pair.items[1].number))
-        return refuse(pair.at, fmt::format("the point [{}, {}] is not finite", pair.items[0].number, pair.items[1].number));
+        return refuse(pair.at,
+                      fmt::format("the point [{}, {}] is not finite", pair.items[0].number, pair.items[1].number));
       if (!(pair.items[0].number > last)) return refuse(pair.items[0].at, not_ascending(pair.items[0].number, last));
       last = pair.items[0].number;
       x.push_back(pair.items[0].number * x_factor_);
@@ -185,12 +215,16 @@ class CurveReader {
                      : fmt::format("x = {} follows {}; the first column must ascend", x, last);
   }
   bool read_file(const DocumentValue& value, std::vector<double>& x, std::vector<double>& y) {
-    if (value.type != Type::text) return refuse(value.at, fmt::format("file = {}; must be the path of a CSV file in quotes", value.describe()));
+    if (value.type != Type::text)
+      return refuse(value.at, fmt::format("file = {}; must be the path of a CSV file in quotes", value.describe()));
     int column[2] = {1, 2};
     if (const DocumentEntry* columns = table_.find("columns")) {
       const auto& items = columns->value.items;
-      if (columns->value.type != Type::list || items.size() != 2 || items[0].integer < 1 || items[1].integer < 1 || items[0].integer > 1000 || items[1].integer > 1000)
-        return refuse(columns->value.at, fmt::format("columns = {}; must be two column numbers counted from 1, e.g. [1, 2]", columns->value.describe()));
+      if (columns->value.type != Type::list || items.size() != 2 || items[0].integer < 1 || items[1].integer < 1 ||
+          items[0].integer > 1000 || items[1].integer > 1000)
+        return refuse(columns->value.at,
+                      fmt::format("columns = {}; must be two column numbers counted from 1, e.g. [1, 2]",
+                                  columns->value.describe()));
       column[0] = static_cast<int>(items[0].integer);
       column[1] = static_cast<int>(items[1].integer);
     }
@@ -200,7 +234,8 @@ class CurveReader {
       const Columns data = read_csv(path.string(), column[0], column[1], messages_);
       if (messages_.all().size() > before) return false;
       if (data.x.size() < 2)
-        return refuse(value.at, fmt::format("file {} has {} row{} of numbers; must be two or more", value.describe(), data.x.size(), data.x.size() == 1 ? "" : "s"));
+        return refuse(value.at, fmt::format("file {} has {} row{} of numbers; must be two or more", value.describe(),
+                                            data.x.size(), data.x.size() == 1 ? "" : "s"));
       for (std::size_t i = 1; i < data.x.size(); ++i)
         if (!(data.x[i] > data.x[i - 1])) {
           messages_.add_in(path.string(), {data.line[i], 1}, not_ascending(data.x[i], data.x[i - 1]));
@@ -222,15 +257,20 @@ class CurveReader {
     if (curve.over == "angle") {
       const double turns = 4 * M_PI / curve.period;
       if (std::abs(turns - std::round(turns)) > 1e-9)
-        return refuse(at, fmt::format("period = {:g} deg; must divide two turns (720 deg) without remainder", curve.period * 180 / M_PI));
+        return refuse(at, fmt::format("period = {:g} deg; must divide two turns (720 deg) without remainder",
+                                      curve.period * 180 / M_PI));
     }
     for (const auto* x : {&curve.x, &curve.x_back})
       if (!x->empty() && x->back() - x->front() > curve.period * (1 + 1e-9))
-        return refuse(at, fmt::format("period = {}; must be at least the span of the points, {}", in_user_unit(curve.period), in_user_unit(x->back() - x->front())));
+        return refuse(at, fmt::format("period = {}; must be at least the span of the points, {}",
+                                      in_user_unit(curve.period), in_user_unit(x->back() - x->front())));
     const bool closing_point = std::abs(curve.x.back() - curve.x.front() - curve.period) <= 1e-9 * curve.period;
-    if (closing_point && std::abs(curve.y.back() - curve.y.front()) > 1e-9 * std::max(std::abs(curve.y.back()), std::abs(curve.y.front())))
-      return refuse(at, fmt::format("the last point lies one period after the first, but {} is not {}; make them equal, or drop the last point",
-                                    with_unit(curve.y.back() / y_factor_, y_unit_), with_unit(curve.y.front() / y_factor_, y_unit_)));
+    if (closing_point && std::abs(curve.y.back() - curve.y.front()) >
+                             1e-9 * std::max(std::abs(curve.y.back()), std::abs(curve.y.front())))
+      return refuse(at, fmt::format("the last point lies one period after the first, but {} is not {}; make them "
+                                    "equal, or drop the last point",
+                                    with_unit(curve.y.back() / y_factor_, y_unit_),
+                                    with_unit(curve.y.front() / y_factor_, y_unit_)));
     try {
       Curve(curve.x, curve.y, curve.form, curve.period);
       if (!curve.x_back.empty()) Curve(curve.x_back, curve.y_back, curve.form, curve.period);
@@ -253,29 +293,38 @@ class CurveReader {
 std::string example_of(const Key& key) {
   const std::string examples = examples_of(key.unit);
   switch (key.type) {
-    case KeyType::quantity: return examples.substr(0, examples.find(", "));
-    case KeyType::integers: return "[19, 95]";
-    case KeyType::curve: return fmt::format("{{ over = \"{}\", unit = [\"{}\", \"{}\"], points = [[0, 0], [1, 1]] }}", key.choices.front(), unit_over(key.choices.front()), key.unit);
+    case KeyType::quantity:
+      return examples.substr(0, examples.find(", "));
+    case KeyType::integers:
+      return "[19, 95]";
+    case KeyType::curve:
+      return fmt::format("{{ over = \"{}\", unit = [\"{}\", \"{}\"], points = [[0, 0], [1, 1]] }}", key.choices.front(),
+                         unit_over(key.choices.front()), key.unit);
     case KeyType::sections: {
       std::string text = key.nested->size() == 1 ? "" : fmt::format("kind = \"{}\"", key.nested->front().name);
       for (const Key& nested : key.nested->front().keys)
-        if (nested.required) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", nested.name, example_of(nested));
+        if (nested.required)
+          text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", nested.name, example_of(nested));
       return fmt::format("[{{ {} }}]", text);
     }
-    default: return "…";
+    default:
+      return "…";
   }
 }
 
-bool read_list(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages, Setting& setting) {
+bool read_list(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
+               Setting& setting) {
   if (value.type != Type::list) {
-    messages.add(value.at, fmt::format("{} = {}; must be a list in brackets{}", what, value.describe(), key.type == KeyType::integers ? ", e.g. [19, 95]" : ""));
+    messages.add(value.at, fmt::format("{} = {}; must be a list in brackets{}", what, value.describe(),
+                                       key.type == KeyType::integers ? ", e.g. [19, 95]" : ""));
     return false;
   }
   for (const DocumentValue& item : value.items) {
     double number = 0;
     if (key.type == KeyType::integers) {
       if (item.type != Type::integer || !key.domain.contains(item.number)) {
-        messages.add(item.at, fmt::format("{} = {}; must be a whole number, {}", what, item.describe(), key.domain.describe("")));
+        messages.add(item.at, fmt::format("{} = {}; must be a whole number, {}", what, item.describe(),
+                                          key.domain.describe("")));
         return false;
       }
       number = item.number;
@@ -287,14 +336,16 @@ bool read_list(const DocumentValue& value, const Key& key, const std::string& wh
   return true;
 }
 
-bool read_nested(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages, Setting& setting) {
+bool read_nested(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
+                 Setting& setting) {
   std::vector<const DocumentValue*> tables;
   if (value.type == Type::table) tables.push_back(&value);
   for (const DocumentValue& item : value.items) tables.push_back(&item);
   bool good = !tables.empty() || value.type == Type::list;
   for (const DocumentValue* table : tables) good = good && table->type == Type::table;
   if (!good) {
-    messages.add(value.at, fmt::format("{} = {}; must be a table or a list of tables, e.g. {}", what, value.describe(), example_of(key)));
+    messages.add(value.at, fmt::format("{} = {}; must be a table or a list of tables, e.g. {}", what, value.describe(),
+                                       example_of(key)));
     return false;
   }
   bool kinds_known = true;
@@ -304,7 +355,9 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
     const bool one_kind = key.nested->size() == 1;
     const Kind* kind = one_kind ? &key.nested->front() : read_kind(table, *key.nested, name, table.at, messages);
     if (kind) {
-      setting.sections.push_back(read_section(table, *kind, key.name, name, messages, one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"}));
+      setting.sections.push_back(
+          read_section(table, *kind, key.name, name, messages,
+                       one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"}));
     } else {
       kinds_known = false;
     }
@@ -312,13 +365,15 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
   return kinds_known;
 }
 
-bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages, Setting& setting) {
+bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
+                  Setting& setting) {
   const auto refuse = [&](const std::string& allowed) {
     messages.add(value.at, fmt::format("{} = {}; must be {}", what, value.describe(), allowed));
     return false;
   };
   switch (key.type) {
-    case KeyType::quantity: return read_quantity(value, key.unit, key.domain, what, messages, setting.number);
+    case KeyType::quantity:
+      return read_quantity(value, key.unit, key.domain, what, messages, setting.number);
     case KeyType::integer:
       if (value.type != Type::integer || !key.domain.contains(value.number))
         return refuse(fmt::format("a whole number, {}", key.domain.describe("")));
@@ -337,21 +392,27 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
         const auto near = nearest(value.text, key.choices);
         return refuse(listed(key.choices) + (near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
       }
-    case KeyType::curve: return CurveReader(value, key, what, messages).read(setting.curve);
+    case KeyType::curve:
+      return CurveReader(value, key, what, messages).read(setting.curve);
     case KeyType::quantities:
-    case KeyType::integers: return read_list(value, key, what, messages, setting);
-    case KeyType::sections: return read_nested(value, key, what, messages, setting);
+    case KeyType::integers:
+      return read_list(value, key, what, messages, setting);
+    case KeyType::sections:
+      return read_nested(value, key, what, messages, setting);
   }
   return false;
 }
 
 // "4 kN*m" for a stiffness: says what it is, what it must be, and where only the angle is missing or too many.
-std::string wrong_dimension(const DocumentValue& value, const Quantity& got, const Unit& wanted, const std::string& unit) {
+std::string wrong_dimension(const DocumentValue& value, const Quantity& got, const Unit& wanted,
+                            const std::string& unit) {
   if (got.dimension == Dimension{}) return fmt::format("{} has no unit; {}", value.describe(), write_instead(unit));
   Dimension without_angle = got.dimension, wanted_without = wanted.dimension;
   without_angle.exponent[3] = wanted_without.exponent[3] = 0;
-  return fmt::format("{} is {}; must be {}, e.g. {}{}", value.describe(), name_of(got.dimension), name_of(wanted.dimension),
-                     examples_of(unit), without_angle == wanted_without && !unit.empty() ? " (the angle counts as a dimension: rad, deg, rev)" : "");
+  return fmt::format(
+      "{} is {}; must be {}, e.g. {}{}", value.describe(), name_of(got.dimension), name_of(wanted.dimension),
+      examples_of(unit),
+      without_angle == wanted_without && !unit.empty() ? " (the angle counts as a dimension: rad, deg, rev)" : "");
 }
 
 // A fallback is written as in a file; it is read by the same code.
@@ -373,7 +434,8 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
   if (is_number(value)) {
     if (!std::isfinite(value.number)) return refuse(value.at, fmt::format("{}; must be finite", value.describe()));
     if (!unit.empty())
-      return refuse(value.at, fmt::format("{} has no unit; write it with one, e.g. {}", value.describe(), examples_of(unit)));
+      return refuse(value.at,
+                    fmt::format("{} has no unit; write it with one, e.g. {}", value.describe(), examples_of(unit)));
     result = value.number;
   } else if (value.type == Type::text) {
     UnitError error;
@@ -381,15 +443,20 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
     const auto quantity = parse_quantity(value.text, error);
     if (!quantity) {
       const bool suggests = error.text.ends_with('?');
-      return refuse({value.at.line, value.at.column + 1 + static_cast<int>(characters(value.text.substr(0, error.column)))},
-                    fmt::format("{}: {}{}", value.describe(), error.text, suggests ? "" : "; " + write_instead(unit)));
+      return refuse(
+          {value.at.line, value.at.column + 1 + static_cast<int>(characters(value.text.substr(0, error.column)))},
+          fmt::format("{}: {}{}", value.describe(), error.text, suggests ? "" : "; " + write_instead(unit)));
     }
-    if (quantity->dimension != wanted->dimension) return refuse(value.at, wrong_dimension(value, *quantity, *wanted, unit));
+    if (quantity->dimension != wanted->dimension)
+      return refuse(value.at, wrong_dimension(value, *quantity, *wanted, unit));
     result = quantity->value;
   } else {
-    return refuse(value.at, fmt::format("{}; must be {}, e.g. {}", value.describe(), unit.empty() ? "a number" : "a number with its unit in quotes", examples_of(unit)));
+    return refuse(value.at,
+                  fmt::format("{}; must be {}, e.g. {}", value.describe(),
+                              unit.empty() ? "a number" : "a number with its unit in quotes", examples_of(unit)));
   }
-  if (!domain.contains(result)) return refuse(value.at, fmt::format("{}; must be {}", pretty_quantity(value), domain.describe(unit)));
+  if (!domain.contains(result))
+    return refuse(value.at, fmt::format("{}; must be {}", pretty_quantity(value), domain.describe(unit)));
   return true;
 }
 
@@ -419,12 +486,14 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
   known.insert(known.end(), passed_over.begin(), passed_over.end());
   for (const DocumentEntry& entry : table.entries) {
     if (std::find(passed_over.begin(), passed_over.end(), entry.key) != passed_over.end()) continue;
-    const auto key = std::find_if(kind.keys.begin(), kind.keys.end(), [&](const Key& k) { return k.name == entry.key; });
+    const auto key =
+        std::find_if(kind.keys.begin(), kind.keys.end(), [&](const Key& k) { return k.name == entry.key; });
     if (key == kind.keys.end()) {
       const auto near = nearest(entry.key, known);
       if (near) meant.push_back(*near);
-      messages.add(entry.at, fmt::format("{}: unknown key {}{}; allowed: {}", what, in_quotes(entry.key),
-                                         near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
+      messages.add(entry.at,
+                   fmt::format("{}: unknown key {}{}; allowed: {}", what, in_quotes(entry.key),
+                               near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
       continue;
     }
     Setting setting{.key = key->name, .at = entry.value.at, .given = true};
@@ -442,7 +511,8 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
     if (!key.fallback.empty()) {
       section.settings.push_back(fallback_setting(key, section.at, messages));
     } else if (key.required && std::find(meant.begin(), meant.end(), key.name) == meant.end()) {
-      messages.add(section.at, fmt::format("{}: \"{}\" is missing ({}); write e.g. {} = {}", what, key.name, key.doc, key.name, example_of(key)));
+      messages.add(section.at, fmt::format("{}: \"{}\" is missing ({}); write e.g. {} = {}", what, key.name, key.doc,
+                                           key.name, example_of(key)));
     }
   }
   section.sound = messages.all().size() == errors_before;

@@ -10,13 +10,14 @@
 namespace kurbel {
 
 // Reads a table's values into a section of the given kind; whatever is wrong goes into `messages`.
-// `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are read by somebody else.
+// `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are read by
+// somebody else.
 Section read_section(const DocumentValue& table, const Kind& kind, const std::string& name, const std::string& what,
                      Messages& messages, const std::vector<std::string>& passed_over = {});
 
 // The kind named by the table's `kind` key, or null with a message.
-const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what,
-                      Location at, Messages& messages);
+const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what, Location at,
+                      Messages& messages);
 
 // Value in SI of a text such as "4 kN*m"; false with a message if it is none or has another dimension than `unit`.
 bool read_quantity(const DocumentValue& value, const std::string& unit, const Domain& domain, const std::string& what,

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -130,7 +130,8 @@ class UnitParser {
       at_ = begin;
       if (symbol.empty() || symbol[0] == ',') return fail_unexpected();
       const auto near = suggest(symbol);
-      return fail(fmt::format("unknown unit {}{}", in_quotes(symbol), near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
+      return fail(fmt::format("unknown unit {}{}", in_quotes(symbol),
+                              near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
     }
     const std::optional<int> power = read_exponent();
     if (!power) return fail("an exponent must be a whole number from -9 to 9");
@@ -141,8 +142,9 @@ class UnitParser {
   bool is_end_of_symbol() const {
     const std::string_view rest = text_.substr(at_);
     const char c = rest[0];
-    return c == ' ' || c == '\t' || rest.starts_with("\u00a0") || rest.starts_with("\u202f") || c == '*' || c == '/' || c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') ||
-           rest.starts_with("·") || rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
+    return c == ' ' || c == '\t' || rest.starts_with("\u00a0") || rest.starts_with("\u202f") || c == '*' || c == '/' ||
+           c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') || rest.starts_with("·") ||
+           rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
   }
   std::optional<int> read_exponent() {
     if (take("²")) return 2;
@@ -173,14 +175,30 @@ struct NamedDimension {
   std::string_view unit, name;
 };
 constexpr NamedDimension named_dimensions[] = {
-    {"rad/s", "an angular velocity"},     {"rad", "an angle"},         {"N*m/rad", "a torsional stiffness"},
-    {"N*m*s/rad", "a torsional damping"}, {"kg*m2", "an inertia"},     {"m", "a length"},
-    {"kg", "a mass"},                     {"s", "a time"},             {"N*m", "a torque or energy"},
-    {"N", "a force"},                     {"W", "a power"},            {"Pa", "a pressure"},
-    {"1/s", "a frequency"},               {"m/s", "a velocity"},       {"m/s2", "an acceleration"},
-    {"kg/m3", "a density"},               {"N/m", "a linear stiffness"}, {"N*s/m", "a linear damping"},
-    {"A", "a current"},                   {"V", "a voltage"},          {"Ohm", "a resistance"},
-    {"rad/s2", "an angular acceleration"}, {"m2", "an area"},          {"m3", "a volume"},
+    {"rad/s", "an angular velocity"},
+    {"rad", "an angle"},
+    {"N*m/rad", "a torsional stiffness"},
+    {"N*m*s/rad", "a torsional damping"},
+    {"kg*m2", "an inertia"},
+    {"m", "a length"},
+    {"kg", "a mass"},
+    {"s", "a time"},
+    {"N*m", "a torque or energy"},
+    {"N", "a force"},
+    {"W", "a power"},
+    {"Pa", "a pressure"},
+    {"1/s", "a frequency"},
+    {"m/s", "a velocity"},
+    {"m/s2", "an acceleration"},
+    {"kg/m3", "a density"},
+    {"N/m", "a linear stiffness"},
+    {"N*s/m", "a linear damping"},
+    {"A", "a current"},
+    {"V", "a voltage"},
+    {"Ohm", "a resistance"},
+    {"rad/s2", "an angular acceleration"},
+    {"m2", "an area"},
+    {"m3", "a volume"},
 };
 
 bool equal_but_for_case(std::string_view a, std::string_view b) {
@@ -197,7 +215,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i)
     for (std::size_t j = 1; j <= b.size(); ++j) {
       d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[a.size()][b.size()];
 }
@@ -218,7 +237,9 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
   double number = 0;
   const auto [end, status] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
   if (status != std::errc{}) {
-    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)" : "a number must come first", begin};
+    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)"
+                                                      : "a number must come first",
+             begin};
     return std::nullopt;
   }
   if (!std::isfinite(number)) {

@@ -60,13 +60,16 @@ class CommandLine : public testing::Test {
   Ended kurbel(const std::vector<std::string>& arguments) { return wait(start(arguments)); }
 
   std::string scene(const std::string& run, const std::string& inertia = "\"1 kg*m2\"") {
-    std::ofstream(folder_ / "scene.toml") << "line = [\"motor\", \"coupling\", \"fan\"]\n"
-                                             "[motor]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = \"40 rad/s\"\ninertia = "
-                                          << inertia
-                                          << "\n[coupling]\nkind = \"coupling\"\nstiffness = \"4 kN*m/rad\"\ndamping = \"2 N*m*s/rad\"\n"
-                                             "[fan]\nkind = \"load\"\nquadratic = \"0.02 N*m*s2/rad2\"\ninertia = \"0.6 kg*m2\"\n"
-                                             "[effects]\nelasticity = true\n[run]\n"
-                                          << run;
+    std::ofstream(folder_ / "scene.toml")
+        << "line = [\"motor\", \"coupling\", \"fan\"]\n"
+           "[motor]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = \"40 rad/s\"\ninertia = "
+        << inertia
+        << "\n[coupling]\nkind = \"coupling\"\nstiffness = \"4 kN*m/rad\"\ndamping = \"2 N*m*s/rad\"\n"
+           "[fan]\nkind = \"load\"\nquadratic = \"0.02 N*m*s2/rad2\"\ninertia = \"0.6 kg*m2\"\n"
+           // A pulsation: without one the steps would grow without limit.
+           "[pulse]\nkind = \"torque source\"\namplitude = \"5 N*m\"\nfrequency = \"5 Hz\"\non = \"fan\"\n"
+           "[effects]\nelasticity = true\n[run]\n"
+        << run;
     return "scene.toml";
   }
   bool file(const std::string& name) const { return fs::exists(folder_ / name); }
@@ -115,7 +118,8 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
     std::string option, value, said;
   } cases[] = {
       {"--effects", "elastic", "allowed: none, elasticity, or elasticity:COUPLING"},
-      {"--effects", "elasticity:copling", "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
+      {"--effects", "elasticity:copling",
+       "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
       {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},
       {"--effects", "elasticity:", "\"\" is no component"},
       {"--until", "3", "must be a time > 0 with its unit, e.g. \"3 s\""},
@@ -129,7 +133,8 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "0", "--accuracy"},
       {"--method", "euler", "allowed: \"auto\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
-      {"--method", "CPodes", "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
+      {"--method", "CPodes",
+       "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
   };
   for (const auto& c : cases) {
     const auto begin = Clock::now();
@@ -143,11 +148,16 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
 }
 
 TEST_F(CommandLine, MultibodyModelRefusesMethodsOfTheReducedOne) {
-  std::ofstream(folder_ / "crank.toml") << "line = [\"crank\"]\n[crank]\nkind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\n"
-                                           "crank_inertia = \"0.5 kg*m2\"\nslider_mass = \"3 kg\"\n[run]\nmodel = \"multibody\"\nuntil = \"0.1 s\"\nstart = { speed = \"30 rad/s\" }\n";
+  std::ofstream(folder_ / "crank.toml")
+      << "line = [\"crank\"]\n[crank]\nkind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\n"
+         "crank_inertia = \"0.5 kg*m2\"\nslider_mass = \"3 kg\"\n[run]\nmodel = \"multibody\"\nuntil = \"0.1 "
+         "s\"\nstart = { speed = \"30 rad/s\" }\n";
   const Ended r = kurbel({"run", "crank.toml", "--method", "dop853", "--no-files"});
   EXPECT_EQ(r.code, 2);
-  EXPECT_NE(r.err.find("method \"dop853\" belongs to model = \"reduced\"; for model = \"multibody\" allowed: \"auto\", \"RungeKuttaMerson\""), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("method \"dop853\" belongs to model = \"reduced\"; for model = \"multibody\" allowed: \"auto\", "
+                       "\"RungeKuttaMerson\""),
+            std::string::npos)
+      << r.err;
   EXPECT_EQ(kurbel({"run", "crank.toml", "--method", "RungeKuttaMerson", "--no-files"}).code, 0);
 }
 
@@ -170,7 +180,8 @@ TEST_F(CommandLine, UnwritableFolderIsNamed) {
 TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
   const Ended r = kurbel({"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"});
   EXPECT_EQ(r.code, 3);
-  for (const char* part : {"stopped at t = ", "the budget of 0.01 s of processor time is spent", "Raise `budget`, loosen `accuracy`"})
+  for (const char* part :
+       {"stopped at t = ", "the budget of 0.01 s of processor time is spent", "Raise `budget`, loosen `accuracy`"})
     EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
   EXPECT_NE(r.out.find("INCOMPLETE"), std::string::npos);
   const auto summary = nlohmann::json::parse(text_of(folder_ / "out/summary.json"));
@@ -190,7 +201,8 @@ TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
   EXPECT_NE(r.err.find("interrupted"), std::string::npos) << r.err;
   EXPECT_FALSE(nlohmann::json::parse(text_of(folder_ / "out/summary.json"))["complete"]);
   EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: "));
-  for (const auto& entry : fs::directory_iterator(folder_ / "out")) EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv") << entry.path();
+  for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+    EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv") << entry.path();
 }
 
 }  // namespace

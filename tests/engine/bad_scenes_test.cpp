@@ -64,7 +64,9 @@ std::string repeated(const std::string& text, int times) {
 
 class BadScene : public testing::TestWithParam<std::string> {};
 
-TEST_P(BadScene, SaysWhatIsWrongAndWhere) { EXPECT_EQ(messages_of(GetParam()), text_of(folder + GetParam() + ".expected")); }
+TEST_P(BadScene, SaysWhatIsWrongAndWhere) {
+  EXPECT_EQ(messages_of(GetParam()), text_of(folder + GetParam() + ".expected"));
+}
 
 INSTANTIATE_TEST_SUITE_P(All, BadScene, testing::ValuesIn(bad_scenes()), [](const auto& info) { return info.param; });
 
@@ -75,7 +77,9 @@ TEST(BadScenes, EveryExpectationHasItsScene) {
     }
 }
 
-TEST(BadScenes, MissingFileIsNamed) { EXPECT_EQ(messages_of("absent"), "absent.toml: no such file; check the path, or list the folder with ls\n"); }
+TEST(BadScenes, MissingFileIsNamed) {
+  EXPECT_EQ(messages_of("absent"), "absent.toml: no such file; check the path, or list the folder with ls\n");
+}
 
 TEST(BadScenes, FolderInPlaceOfAFileIsNamed) {
   try {
@@ -100,10 +104,11 @@ TEST(BadScenes, FileAboveFourMegabytesIsRefusedBeforeParsing) {
 
 TEST(BadScenes, DeepNestingOfAnyFormSparesTheStack) {
   constexpr int n = 100'000;
-  for (const std::string& text : {"x = " + repeated("[", n), "x = " + repeated("{a=", n), "x = " + repeated("[", n) + repeated("]", n), repeated("[", n),
-                                  repeated("a.", n) + "a = 1", "[" + repeated("a.", n) + "a]", "[[" + repeated("a . ", n) + "a]]",
-                                  "x = {" + repeated("a.", n) + "a = 1}", repeated("\"a\".", n) + "a = 1",
-                                  "x = " + repeated("{a.a.a.a.a.a.a.a=", 250) + "1" + repeated("}", 250)}) {
+  for (const std::string& text :
+       {"x = " + repeated("[", n), "x = " + repeated("{a=", n), "x = " + repeated("[", n) + repeated("]", n),
+        repeated("[", n), repeated("a.", n) + "a = 1", "[" + repeated("a.", n) + "a]",
+        "[[" + repeated("a . ", n) + "a]]", "x = {" + repeated("a.", n) + "a = 1}", repeated("\"a\".", n) + "a = 1",
+        "x = " + repeated("{a.a.a.a.a.a.a.a=", 250) + "1" + repeated("}", 250)}) {
     const std::string said = message_of(text);
     EXPECT_NE(said.find("test.toml:"), std::string::npos) << said.substr(0, 200);
     EXPECT_LT(said.size(), 2000u);
@@ -123,7 +128,8 @@ TEST(BadScenes, LargeScenesAreReadInSeconds) {
   const auto begin = std::chrono::steady_clock::now();
   std::string text = "line = [\"c0\"]\n";
   for (int i = 0; i < 20'000; ++i)
-    text += "[c" + std::to_string(i) + "]\nkind = \"flywheel\"\ninertia = \"1 kg*m2\"\n" + (i > 0 ? "on = \"c" + std::to_string(i - 1) + "\"\n" : "");
+    text += "[c" + std::to_string(i) + "]\nkind = \"flywheel\"\ninertia = \"1 kg*m2\"\n" +
+            (i > 0 ? "on = \"c" + std::to_string(i - 1) + "\"\n" : "");
   EXPECT_EQ(test::scene_from(text).components.size(), 20'000u);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }

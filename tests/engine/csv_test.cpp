@@ -48,7 +48,9 @@ TEST(Csv, CommaSemicolonAndTabSeparate) {
 }
 
 TEST(Csv, WindowsLineEndsAndByteOrderMarkDoNoHarm) {
-  const Read r = read("\xEF\xBB\xBF" "0,1\r\n2,+3\r\n");
+  const Read r = read(
+      "\xEF\xBB\xBF"
+      "0,1\r\n2,+3\r\n");
   EXPECT_EQ(r.columns.y, (Doubles{1, 3}));
   EXPECT_TRUE(r.errors.empty());
 }
@@ -60,7 +62,8 @@ TEST(Csv, ColumnsAreChosenByNumber) {
 }
 
 TEST(Csv, DecimalCommaIsRefusedAndNeverMisread) {
-  EXPECT_EQ(read("0,5;1,5\n").errors, (Texts{"1:1: \"0,5\" is not a finite number; decimals are written with a point"}));
+  EXPECT_EQ(read("0,5;1,5\n").errors,
+            (Texts{"1:1: \"0,5\" is not a finite number; decimals are written with a point"}));
 }
 
 TEST(Csv, FirstRowOfDataIsNoHeader) {
@@ -69,11 +72,14 @@ TEST(Csv, FirstRowOfDataIsNoHeader) {
   EXPECT_EQ(read("1e999,1e999\n1,2\n").errors.size(), 1u);
 }
 
-TEST(Csv, OnlyOneHeaderLineIsAllowed) { EXPECT_EQ(read("t,M\ns,Nm\n0,1\n").errors, (Texts{"2:1: \"s\" is not a finite number"})); }
+TEST(Csv, OnlyOneHeaderLineIsAllowed) {
+  EXPECT_EQ(read("t,M\ns,Nm\n0,1\n").errors, (Texts{"2:1: \"s\" is not a finite number"}));
+}
 
 TEST(Csv, BadCellsAreNamedByLineAndColumn) {
   EXPECT_EQ(read("0,1\n 1 ,x\n2\n3,\n").errors,
-            (Texts{"2:5: \"x\" is not a finite number", "3:1: column 2 is wanted, but this line has 1 cell; cells are separated by comma, semicolon or tab",
+            (Texts{"2:5: \"x\" is not a finite number",
+                   "3:1: column 2 is wanted, but this line has 1 cell; cells are separated by comma, semicolon or tab",
                    "4:1: \"\" is not a finite number"}));
 }
 

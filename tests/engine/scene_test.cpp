@@ -12,9 +12,13 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string motor = "[motor]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = \"1500 rpm\"\ninertia = \"0.1 kg*m2\"\n";
+const std::string motor =
+    "[motor]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = \"1500 rpm\"\ninertia = \"0.1 "
+    "kg*m2\"\n";
 const std::string coupling = "[coupling]\nkind = \"coupling\"\nstiffness = \"4 kN*m/rad\"\ndamping_ratio = \"5 %\"\n";
-std::string flywheel(const std::string& name, const std::string& more = "") { return "[" + name + "]\nkind = \"flywheel\"\ninertia = \"2 kg*m2\"\n" + more; }
+std::string flywheel(const std::string& name, const std::string& more = "") {
+  return "[" + name + "]\nkind = \"flywheel\"\ninertia = \"2 kg*m2\"\n" + more;
+}
 const std::string base = "line = [\"motor\", \"coupling\", \"wheel\"]\n" + motor + coupling + flywheel("wheel");
 
 Texts order_of(const Scene& scene) {
@@ -57,7 +61,9 @@ TEST(Scene, WhatIsNotGivenHasItsDefault) {
 }
 
 TEST(Scene, RunAndTitleAreRead) {
-  const Scene scene = test::scene_from("title = \"Test\"\n" + base + "[run]\nuntil = \"2 min\"\naccuracy = 1e-9\nmethod = \"bdf\"\nsamples = 7\nbudget = \"1 h\"\noutput = [\"wheel\"]\n");
+  const Scene scene = test::scene_from("title = \"Test\"\n" + base +
+                                       "[run]\nuntil = \"2 min\"\naccuracy = 1e-9\nmethod = \"bdf\"\nsamples = "
+                                       "7\nbudget = \"1 h\"\noutput = [\"wheel\"]\n");
   EXPECT_EQ(scene.title, "Test");
   EXPECT_EQ(scene.run.until, 120);
   EXPECT_EQ(scene.run.accuracy, 1e-9);
@@ -68,7 +74,8 @@ TEST(Scene, RunAndTitleAreRead) {
 }
 
 TEST(Scene, OrderOfTablesInTheFileDoesNotMatter) {
-  const Scene a = test::scene_from(base), b = test::scene_from("line = [\"motor\", \"coupling\", \"wheel\"]\n" + flywheel("wheel") + coupling + motor);
+  const Scene a = test::scene_from(base), b = test::scene_from("line = [\"motor\", \"coupling\", \"wheel\"]\n" +
+                                                               flywheel("wheel") + coupling + motor);
   EXPECT_EQ(order_of(a), (Texts{"motor", "coupling", "wheel"}));
   EXPECT_EQ(order_of(b), order_of(a));
 }
@@ -83,7 +90,8 @@ TEST(Scene, OnIsABranchOfOneComponent) {
 }
 
 TEST(Scene, BranchesOfBranchesFollowWhatTheyHangOn) {
-  const Scene scene = test::scene_from(base + flywheel("a", "on = \"b\"\n") + flywheel("b", "on = \"c\"\n") + flywheel("c", "on = \"coupling.out\"\n") + flywheel("d", "on = \"a\"\n"));
+  const Scene scene = test::scene_from(base + flywheel("a", "on = \"b\"\n") + flywheel("b", "on = \"c\"\n") +
+                                       flywheel("c", "on = \"coupling.out\"\n") + flywheel("d", "on = \"a\"\n"));
   EXPECT_EQ(order_of(scene), (Texts{"motor", "coupling", "wheel", "c", "b", "a", "d"}));
   EXPECT_EQ(scene.lines[1].from, "coupling.out");
 }
@@ -100,8 +108,11 @@ TEST(Scene, EffectsAreAllNoneOrNamed) {
 TEST(Scene, StartIsRestEquilibriumOrATable) {
   EXPECT_FALSE(test::scene_from(base + "[run]\nstart = \"rest\"\n").run.start.equilibrium);
   EXPECT_TRUE(test::scene_from(base + "[run]\nstart = \"equilibrium\"\n").run.start.equilibrium);
-  const StartSettings start = test::scene_from(base + "[run]\nstart = { speed = \"30 rpm\", angle = \"90 deg\", on = \"wheel\", equilibrium = true, "
-                                                      "motor = { speed = \"2 rad/s\", angle = \"1 rad\" }, coupling = { twist = \"180 deg\" } }\n").run.start;
+  const StartSettings start =
+      test::scene_from(base +
+                       "[run]\nstart = { speed = \"30 rpm\", angle = \"90 deg\", on = \"wheel\", equilibrium = true, "
+                       "motor = { speed = \"2 rad/s\", angle = \"1 rad\" }, coupling = { twist = \"180 deg\" } }\n")
+          .run.start;
   EXPECT_NEAR(start.speed, std::numbers::pi, 1e-15);
   EXPECT_NEAR(start.angle, std::numbers::pi / 2, 1e-15);
   EXPECT_EQ(start.on, "wheel");
@@ -121,9 +132,14 @@ TEST(Scene, CommandLineEffectsAreParsed) {
 
 TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   const Scene scene = test::scene_from(base);
-  EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }), "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: none, elasticity, or elasticity:COUPLING,…");
-  EXPECT_EQ(message_of([&] { parse_effects("elasticity:copling", scene); }), "effects \"elasticity:copling\": \"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\"");
-  EXPECT_EQ(message_of([&] { parse_effects("elasticity:wheel", scene); }), "effects \"elasticity:wheel\": \"wheel\" is a flywheel, which is always rigid; allowed: \"coupling\"");
+  EXPECT_EQ(
+      message_of([&] { parse_effects("elastisity", scene); }),
+      "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: none, elasticity, or elasticity:COUPLING,…");
+  EXPECT_EQ(message_of([&] { parse_effects("elasticity:copling", scene); }),
+            "effects \"elasticity:copling\": \"copling\" is no component — did you mean \"coupling\"?; allowed: "
+            "\"coupling\"");
+  EXPECT_EQ(message_of([&] { parse_effects("elasticity:wheel", scene); }),
+            "effects \"elasticity:wheel\": \"wheel\" is a flywheel, which is always rigid; allowed: \"coupling\"");
   EXPECT_NE(message_of([&] { parse_effects("elasticity:coupling,", scene); }), "no error");
   EXPECT_NE(message_of([&] { parse_effects("", scene); }), "no error");
 }
@@ -131,16 +147,19 @@ TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
 TEST(Scene, MethodsBelongToTheirModel) {
   EXPECT_EQ(message_of([] { check_method("bdf", "reduced"); }), "no error");
   EXPECT_EQ(message_of([] { check_method("CPodes", "multibody"); }), "no error");
-  EXPECT_NE(message_of([] { check_method("CPodes", "reduced"); }).find("belongs to model = \"multibody\""), std::string::npos);
+  EXPECT_NE(message_of([] { check_method("CPodes", "reduced"); }).find("belongs to model = \"multibody\""),
+            std::string::npos);
   for (const char* model : {"reduced", "multibody"})
     for (const std::string& method : methods_of(model)) {
-      const auto key = std::find_if(run_keys().begin(), run_keys().end(), [](const Key& k) { return k.name == "method"; });
+      const auto key =
+          std::find_if(run_keys().begin(), run_keys().end(), [](const Key& k) { return k.name == "method"; });
       EXPECT_EQ(std::count(key->choices.begin(), key->choices.end(), method), 1) << method;
     }
 }
 
 TEST(Scene, ColumnsCountCharactersNotBytes) {
-  EXPECT_EQ(message_of([] { test::scene_from(base + "[run]\nuntil = \"3 µs·x\"\n"); }), "test.toml:16:15: [run]: until = \"3 µs·x\": unknown unit \"x\"; write e.g. \"3 s\", \"20 ms\"");
+  EXPECT_EQ(message_of([] { test::scene_from(base + "[run]\nuntil = \"3 µs·x\"\n"); }),
+            "test.toml:15:15: [run]: until = \"3 µs·x\": unknown unit \"x\"; write e.g. \"3 s\", \"20 ms\"");
 }
 
 TEST(Scene, MessagesOfOneFileComeSortedByLine) {
@@ -149,7 +168,8 @@ TEST(Scene, MessagesOfOneFileComeSortedByLine) {
     FAIL();
   } catch (const SceneError& error) {
     ASSERT_EQ(error.messages.size(), 4u);
-    for (std::size_t i = 1; i < error.messages.size(); ++i) EXPECT_LT(error.messages[i - 1].at.line, error.messages[i].at.line);
+    for (std::size_t i = 1; i < error.messages.size(); ++i)
+      EXPECT_LT(error.messages[i - 1].at.line, error.messages[i].at.line);
   }
 }
 

@@ -1,7 +1,7 @@
 // reference_problems_test.cpp — R1, R2b, R2stick, E1, E2: references of 12 digits from long-double integration with
 // located events, confirmed by quadrature in 128 bits, integration over the crank angle, and CVODE at 1e-14
 // (tests/cases/reference.toml).
-#include <gtest/gtest.h>
+#include <fmt/format.h>
 
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -13,7 +13,6 @@
 namespace kurbel {
 namespace {
 
-using test::digits;
 using test::figure;
 using test::run;
 using test::text_of;
@@ -72,7 +71,7 @@ TEST(SixInertiaChain, SpeedsAfterTheRunUpMatchTheReference) {
   const std::vector<std::pair<const char*, double>> expected = {{"motor", 72.0459453224151}, {"j2", 72.0459597112134},
                                                                 {"j3", 72.0459599907005},    {"j4", 72.0459602500263},
                                                                 {"j5", 72.0459637117535},    {"fan", 72.0459618456415}};
-  for (const auto& [name, omega] : expected) EXPECT_NEAR(figure(r, std::string("final_speed.") + name), omega, 1e-9) << name;
+  for (const auto& [name, omega] : expected) EXPECT_NEAR(figure(r, fmt::format("final_speed.{}", name)), omega, 1e-9) << name;
 }
 
 TEST(SixInertiaChain, SpringTorquePeaksWhereTheTwoSpeedsMeet) {
@@ -101,11 +100,11 @@ std::shared_ptr<const Model> equal_chain(int n, double until) {
   Network net;
   int before = -1;
   for (int i = 0; i < n; ++i) {
-    const std::string name = "j" + std::to_string(i);
+    const std::string name = fmt::format("j{}", i);
     const int node = net.add_node(name, "", inertia);
     net.ports[name] = {node, node};
     net.components.push_back(name);
-    if (before >= 0) net.connect(before, node, 1, "k" + std::to_string(i), Coupling{stiffness, damping});
+    if (before >= 0) net.connect(before, node, 1, fmt::format("k{}", i), Coupling{stiffness, damping});
     if (i == 0) net.put(node, name, HarmonicTorque{Account::driving, torque_first, 0, 0, 0});
     if (i + 1 == n) net.put(node, name, SpeedLoad{Account::useful, viscous_last, 0});
     before = node;
