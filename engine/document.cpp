@@ -94,13 +94,15 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
 
 namespace {
 
-// Keys with thousands of dots nest thousands of tables, and toml++ sets them no limit. Says where the first key with
-// more dots than `limit` stands; line 0 if there is none.
-Location too_many_dots(const std::string& text, int limit) {
+// toml++ nests a table for every dot of a key, without limit, and meets characters outside of texts unprepared. Both
+// are found before it reads: the place and the reason, or line 0.
+Message unfit_for_toml(const std::string& text, const std::string& file) {
+  constexpr int most_dots = 8;
   Location at{1, 0};
   int dots = 0;
   std::string quote;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  const std::size_t byte_order_mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (std::size_t i = byte_order_mark; i < text.size(); ++i) {
     const char c = text[i];
     if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++at.column;
     if (c == '\n') at = {at.line + 1, 0};
@@ -119,7 +121,18 @@ Location too_many_dots(const std::string& text, int limit) {
     } else if (c == '#') {
       i = std::min(text.find('\n', i), text.size()) - 1;
     } else if (c == '.') {
-      if (++dots > limit) return at;
+      if (++dots > most_dots)
+        return {file, at,
+                fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)};
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      const auto end = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(i) + 1, text.end(),
+                                    [](char b) { return (static_cast<unsigned char>(b) & 0xC0) != 0x80; }) -
+                       text.begin();
+      return {file, at,
+              fmt::format("not TOML: {} outside of quotes; texts and quantities with units stand in quotes",
+                          static_cast<std::size_t>(end) - i == 1
+                              ? "a byte that is no UTF-8"
+                              : in_quotes(std::string_view(text).substr(i, static_cast<std::size_t>(end) - i)))};
     } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
       dots = 0;
     }
@@ -165,10 +178,7 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
                        {static_cast<int>(line), static_cast<int>(nul - begin) + 1},
                        "holds a NUL byte; a scene is a text file in UTF-8"}});
   }
-  constexpr int most_dots = 8;
-  if (const Location at = too_many_dots(text, most_dots); at.line > 0)
-    throw SceneError(
-        {{file, at, fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)}});
+  if (const Message message = unfit_for_toml(text, file); message.at.line > 0) throw SceneError({message});
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {

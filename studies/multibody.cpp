@@ -68,7 +68,8 @@ double slider_force(const SliderCrank& crank, double phi, double x, double v) {
 
 }  // namespace
 
-Result simulate_multibody(const Model& model, const std::string& label, const SimulateOptions& options) {
+Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label, const SimulateOptions& options) {
+  const Model& model = *shared;
   const RunSettings& settings = model.scene.run;
   const SliderCrankMaker* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
@@ -77,7 +78,6 @@ Result simulate_multibody(const Model& model, const std::string& label, const Si
   if (!mechanism) refuse("needs exactly one slider-crank");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0) refuse("runs rigid scenes with one free shaft (effects: none)");
   const SliderCrank& crank = mechanism->crank();
-  const auto shared = std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &model);  // the caller keeps it alive
   const auto torque = std::make_shared<ShaftTorque>(shared);
   Equations equations(shared, false);
   const std::vector<double> start = equations.start(0);
@@ -103,6 +103,7 @@ Result simulate_multibody(const Model& model, const std::string& label, const Si
   for (int i = 0; i < rows; ++i) problem.times.push_back(problem.t_end * i / (rows - 1));
 
   Result result;
+  result.model = shared;
   result.title = model.scene.title;
   result.label = label;
   result.scene_file = model.scene.file;

@@ -6,6 +6,6 @@
 namespace kurbel {
 
 // Throws SceneError where the scene is not one mechanism on one rigid shaft.
-Result simulate_multibody(const Model& model, const std::string& label, const SimulateOptions& options);
+Result simulate_multibody(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options);
 
 }  // namespace kurbel

@@ -200,6 +200,7 @@ class Simulation {
     result_.cycles = run.cycles.cycles();
     result_.statistics = run.outcome.statistics;
     result_.trajectory = run.trajectory;
+    result_.model = model_;
     fill_energy(*run.energy);
     if (!run.outcome.state.empty()) fill_final(run.outcome);
   }
@@ -248,7 +249,7 @@ const Figure* Result::find(const std::string& name) const {
 }
 
 Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options) {
-  if (model->scene.run.model == "multibody") return simulate_multibody(*model, label, options);
+  if (model->scene.run.model == "multibody") return simulate_multibody(std::move(model), label, options);
   return Simulation(std::move(model), label, options).run();
 }
 
