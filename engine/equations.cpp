@@ -490,11 +490,16 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
   for (const std::size_t guard : fired) {
     if (guard >= directions_begin) {
       const auto s = at(directional_[(guard - directions_begin) / 2]);
-      if (direction_[s] != 0) {
-        if (s < m.free_shafts) y[speed_index(static_cast<int>(s))] = 0;
-        direction_[s] = s < m.free_shafts ? 0 : -direction_[s];
+      if (s >= m.free_shafts) {
+        direction_[s] = -direction_[s];
+      } else if (direction_[s] != 0) {
+        y[speed_index(static_cast<int>(s))] = 0;
+        stopped.push_back(s);
+      } else {
+        // Breaks away on the side whose guard fired: just there the push still equals what can be held.
+        direction_[s] = (guard - directions_begin) % 2 == 0 ? -1 : 1;
+        log.push_back({t, m.node_label(m.shafts[s].reference), direction_[s] > 0 ? "moves forwards" : "moves backwards"});
       }
-      stopped.push_back(s);
       continue;
     }
     std::size_t p = m.pools.size() - 1;
@@ -505,6 +510,8 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
     if (!label.what.empty()) log.push_back({t, label.component, label.what});
   }
   settle_directions(t, y, stopped, &log);
+  if (stopped.empty() && !directional_.empty() && fired.back() >= directions_begin)
+    for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
 }
 
 // A shaft at standstill stays there while its opposing elements can hold it; else it moves the way it is pushed.

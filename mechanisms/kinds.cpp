@@ -133,8 +133,14 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
     }
   }
   if (!messages.empty()) return;  // extraction is the slow part
-  crank.reduced = reduce_slider_crank(d);
-  crank.bodies = std::make_shared<SliderCrankBodies>(d);
+  try {
+    crank.reduced = reduce_slider_crank(d);
+    crank.bodies = std::make_shared<SliderCrankBodies>(d);
+  } catch (const std::exception&) {  // Simbody's own checks, which speak of matrices
+    messages.add(s.at, fmt::format("slider-crank \"{}\": its lengths, masses and inertias lie too far apart to be computed together (crank {:g} kg, rod {:g} kg, slider {:g} kg); check their units",
+                                   s.name, d.crank_mass, d.rod_mass, d.slider_mass));
+    return;
+  }
   crank.mean_inertia = mean_inertia(*crank.reduced);
   const double phase = crank.phase;
   net.put_made(node, s.name, std::make_shared<SliderCrankMaker>(std::move(crank)), {}, phase);

@@ -34,7 +34,8 @@ TEST_P(EnergyBalance, ClosesForTheRigidMachineToo) {
   EXPECT_LE(r.energy.relative, 10 * scene.run.accuracy);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfScenes, EnergyBalance, ::testing::ValuesIn(all_scenes()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(OfScenes, EnergyBalance, ::testing::ValuesIn(all_scenes()),
+                         [](const auto& info) { return info.param; });
 
 }  // namespace
 }  // namespace kurbel

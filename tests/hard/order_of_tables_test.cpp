@@ -35,7 +35,9 @@ std::string shuffled(const std::string& text, unsigned seed) {
   return out;
 }
 
-void expect_same_bits(double a, double b, const std::string& what) { EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << what << ": " << a << " and " << b; }
+void expect_same_bits(double a, double b, const std::string& what) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << what << ": " << a << " and " << b;
+}
 
 // Every figure with its error, every value of every channel that both have, every event.
 void expect_same_bits(const Result& a, const Result& b) {
@@ -77,7 +79,8 @@ TEST_P(OrderOfTables, ChangesNoBitOfTheResult) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(OfScenes, OrderOfTables,
-                         ::testing::Values("scenes/crank_press.toml", "scenes/six_inertia_chain.toml", "scenes/driven_slider_crank.toml"),
+                         ::testing::Values("scenes/crank_press.toml", "scenes/six_inertia_chain.toml",
+                                           "scenes/driven_slider_crank.toml"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            std::string out;
@@ -155,7 +158,9 @@ TEST(OrderOfTables, OfBranchesChangesNoBitOfTheResult) {
 // --- parameters of effects that are off ---
 
 TEST(EffectOff, ItsDampingMayStayInTheFileOrNot) {
-  const std::string press = with(text_of("scenes/crank_press.toml"), "elasticity = [\"motor_coupling\", \"main_coupling\"]", "elasticity = [\"main_coupling\"]");
+  const std::string press =
+      with(text_of("scenes/crank_press.toml"), "elasticity = [\"motor_coupling\", \"main_coupling\"]",
+           "elasticity = [\"main_coupling\"]");
   expect_same_bits(run(press), run(with(press, "damping_ratio = 0.06", "")));
   expect_same_bits(run(press), run(with(press, "stiffness     = \"4 kN*m/rad\"", "stiffness     = \"123 kN*m/rad\"")));
 }
@@ -169,7 +174,8 @@ TEST(EffectOff, ARigidMachineKnowsNoStiffness) {
 
 // A coupling without hubs whose elasticity is off leaves no trace.
 TEST(EffectOff, ACouplingWithoutHubsMayAsWellBeAbsent) {
-  const std::string with_coupling = with(text_of("scenes/driven_slider_crank.toml"), "line  = [\"motor\", \"crank\"]", "line  = [\"motor\", \"soft\", \"crank\"]") +
+  const std::string with_coupling = with(text_of("scenes/driven_slider_crank.toml"), "line  = [\"motor\", \"crank\"]",
+                                         "line  = [\"motor\", \"soft\", \"crank\"]") +
                                     "\n[soft]\nkind = \"coupling\"\nstiffness = \"700 N*m/rad\"\ndamping_ratio = 0.1\n";
   expect_same_bits(run(text_of("scenes/driven_slider_crank.toml")), run(with_coupling));
 }

@@ -52,7 +52,8 @@ start = {{ speed = "5 rad/s" }}
 until = "1.2 s"
 accuracy = 1e-10
 samples = 121
-)", 2e3 * times, 1e5 * times);
+)",
+                     2e3 * times, 1e5 * times);
 }
 
 TEST(RigidLimit, UnderSmoothTorqueTheMotionApproachesTheRigidOneAsOneOverStiffness) {
@@ -80,7 +81,8 @@ TEST(RigidLimit, UnderSmoothTorqueThePeakTorqueApproachesTheRigidOne) {
   std::vector<double> difference;
   for (const double times : {1.0, 10.0, 100.0, 1000.0}) {
     const Result elastic = simulate(test::scene_from(press_drive(times)), {true, {}}, "elastic", {});
-    difference.push_back(std::abs(figure(elastic, "peak_torque.main_coupling") / figure(rigid, "peak_torque.main_coupling") - 1));
+    difference.push_back(
+        std::abs(figure(elastic, "peak_torque.main_coupling") / figure(rigid, "peak_torque.main_coupling") - 1));
   }
   for (std::size_t i = 1; i < difference.size(); ++i) EXPECT_LT(difference[i], 0.25 * difference[i - 1]) << i;
   EXPECT_LT(difference[3], 1e-4);
@@ -117,7 +119,8 @@ until = "0.2 s"
 samples = 2001
 accuracy = 1e-10
 start = {}
-)", step, j1, stiffness, damping_ratio, j2, start);
+)",
+                     step, j1, stiffness, damping_ratio, j2, start);
 }
 
 TEST(RigidLimit, AfterAStepThePeakTorqueStaysTwiceTheRigidOneWhileTheMotionConverges) {
@@ -139,10 +142,14 @@ TEST(RigidLimit, AfterAStepThePeakTorqueStaysTwiceTheRigidOneWhileTheMotionConve
   }
 }
 
-// With little damping: θ = M′/k (1 − e^{−ζω_n t}(cos ω_d t + ζ/√(1−ζ²) sin ω_d t)); the spring's first peak overshoots by e^{−πζ/√(1−ζ²)}.
+// With little damping: θ = M′/k (1 − e^{−ζω_n t}(cos ω_d t + ζ/√(1−ζ²) sin ω_d t)); the spring's first peak overshoots
+// by e^{−πζ/√(1−ζ²)}.
 TEST(RigidLimit, TinyDampingTakesLittleFromTheDoubledPeakAtAnyStiffness) {
   const double zeta = 0.01, overshoot = std::exp(-std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta));
-  for (const double k : {1e3, 1e4, 1e5, 1e6}) EXPECT_NEAR(figure(run(two_inertias(k, zeta)), "peak_spring_torque.c"), rigid_torque * (1 + overshoot), 1e-7 * rigid_torque) << k;
+  for (const double k : {1e3, 1e4, 1e5, 1e6})
+    EXPECT_NEAR(figure(run(two_inertias(k, zeta)), "peak_spring_torque.c"), rigid_torque * (1 + overshoot),
+                1e-7 * rigid_torque)
+        << k;
 }
 
 // A travel Δ closed first by the free J₁ gives it ω₁ = √(2MΔ/J₁) at contact: peak M′ (1 + √(1 + 2kΔ/M′)).
@@ -159,7 +166,9 @@ TEST(RigidLimit, ComparisonSaysThatAStepDoublesThePeakTorque) {
   const Comparison c = compare(test::scene_from(two_inertias(1e5, 0.001)), {}, "rigid", {true, {}}, "elastic", {});
   ASSERT_EQ(c.amplification.size(), 1u);
   EXPECT_NEAR(*c.amplification[0].b, 2, 0.01);
-  const bool said = std::any_of(c.notes.begin(), c.notes.end(), [](const std::string& note) { return note.find("sudden loads") != std::string::npos && note.find("twice the rigid one") != std::string::npos; });
+  const bool said = std::any_of(c.notes.begin(), c.notes.end(), [](const std::string& note) {
+    return note.find("sudden loads") != std::string::npos && note.find("twice the rigid one") != std::string::npos;
+  });
   EXPECT_TRUE(said);
 }
 

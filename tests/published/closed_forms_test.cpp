@@ -31,7 +31,8 @@ inertia = "2 kg*m2"
 start = {{ speed = "100 rad/s" }}
 until = "60 s"
 accuracy = 1e-10
-)", given.viscous, given.quadratic));
+)",
+                                   given.viscous, given.quadratic));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   ASSERT_EQ(r.events.size(), 1u);
   EXPECT_EQ(r.events[0].what, "comes to rest and is held");
@@ -41,11 +42,12 @@ accuracy = 1e-10
   EXPECT_NEAR(r.energy.by_line.at("useful"), -0.5 * 2 * 100 * 100, 1e-5);  // all of ½ J ω₀²
 }
 
-INSTANTIATE_TEST_SUITE_P(Against, RunDownOfAFlywheel,
-                         ::testing::Values(RunDown{"DryFriction", 0, 0, 40.0, 2000.0},                             // t = J ω₀/M
-                                           RunDown{"DryAndViscous", 0.05, 0, 27.725887222398, 1227.4112777602},    // t = J/b ln(1 + b ω₀/M)
-                                           RunDown{"DryAndFan", 0, 0.002, 22.142974355882, 804.7189562171}),      // t = J/√(M k) atan(ω₀ √(k/M))
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Against, RunDownOfAFlywheel,
+    ::testing::Values(RunDown{"DryFriction", 0, 0, 40.0, 2000.0},                           // t = J ω₀/M
+                      RunDown{"DryAndViscous", 0.05, 0, 27.725887222398, 1227.4112777602},  // t = J/b ln(1 + b ω₀/M)
+                      RunDown{"DryAndFan", 0, 0.002, 22.142974355882, 804.7189562171}),  // t = J/√(M k) atan(ω₀ √(k/M))
+    [](const auto& info) { return info.param.name; });
 
 // --- starts ---
 
@@ -68,11 +70,13 @@ acts = "always"
 until = "{} s"
 samples = 101
 accuracy = 1e-10
-)", 10 * tau));
+)",
+                                   10 * tau));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const auto omega = test::series(r, "speed.motor");
   EXPECT_NEAR(omega[10], w_at_tau, 1e-8);
-  for (std::size_t row = 0; row < omega.size(); ++row) EXPECT_NEAR(omega[row], w_inf * (1 - std::exp(-r.trajectory->time()[row] / tau)), 1e-8);
+  for (std::size_t row = 0; row < omega.size(); ++row)
+    EXPECT_NEAR(omega[row], w_inf * (1 - std::exp(-r.trajectory->time()[row] / tau)), 1e-8);
 }
 
 // Constant torque against a fan: ω = ω∞ tanh(t √(M k)/J).
@@ -91,11 +95,13 @@ inertia = "2 kg*m2"
 until = "{} s"
 samples = 101
 accuracy = 1e-10
-)", 2 * t_95));
+)",
+                                   2 * t_95));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const auto omega = test::series(r, "speed.fan");
   EXPECT_NEAR(omega[50], 0.95 * w_inf, 1e-8);
-  for (std::size_t row = 0; row < omega.size(); ++row) EXPECT_NEAR(omega[row], w_inf * std::tanh(r.trajectory->time()[row] * std::sqrt(50 * 0.04) / 2), 1e-8);
+  for (std::size_t row = 0; row < omega.size(); ++row)
+    EXPECT_NEAR(omega[row], w_inf * std::tanh(r.trajectory->time()[row] * std::sqrt(50 * 0.04) / 2), 1e-8);
 }
 
 // A DC series motor, M = c V²/(R + c ω)², by table (the characteristic "given graphically"): a smooth curve through
@@ -117,19 +123,24 @@ inertia = "0.3 kg*m2"
 until = "5 s"
 samples = 11
 accuracy = 1e-8
-)", points));
+)",
+                                   points));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const auto omega = test::series(r, "speed.motor");
-  const struct { std::size_t row; double omega; } expected[] = {{1, 65.38985776}, {2, 106.39567097}, {4, 163.78626679}, {10, 269.97566298}};
+  const struct {
+    std::size_t row;
+    double omega;
+  } expected[] = {{1, 65.38985776}, {2, 106.39567097}, {4, 163.78626679}, {10, 269.97566298}};
   for (const auto& e : expected) {
     const double t = 0.5 * static_cast<double>(e.row);
-    EXPECT_NEAR((std::cbrt(std::pow(resistance, 3) + 3 * c * c * voltage * voltage * t / j) - resistance) / c, e.omega, 1e-7);
+    EXPECT_NEAR((std::cbrt(std::pow(resistance, 3) + 3 * c * c * voltage * voltage * t / j) - resistance) / c, e.omega,
+                1e-7);
     EXPECT_NEAR(omega[e.row], e.omega, 2e-5);
   }
 }
 
-// Dubey, Fundamentals of Electrical Drives, ex. 2.2: reversal. M = −100 − 0.1 N [N·m, rpm] against 0.05 N; J = 10 kg·m².
-// N = −100/0.15 + (N₀ + 100/0.15) e^{−t/T}; to 95 % of the final speed with N₀ = 666.67 rpm.
+// Dubey, Fundamentals of Electrical Drives, ex. 2.2: reversal. M = −100 − 0.1 N [N·m, rpm] against 0.05 N; J = 10
+// kg·m². N = −100/0.15 + (N₀ + 100/0.15) e^{−t/T}; to 95 % of the final speed with N₀ = 666.67 rpm.
 TEST(MotorStart, ReversalOfALinearMotorTakesTheTimeOfTheClosedForm) {
   const Result r = run(R"(
 line = ["motor", "load"]
@@ -174,8 +185,9 @@ accuracy = 1e-10
   EXPECT_NEAR(figure(r, "final_angle.b"), 0.5 * 6.25 * 4, 1e-11);
 }
 
-// Ex. 3.17: motor I_A = 0.6, T_A = 30; load I_B = 45, T_B = 100; G = 9, η = 0.95. A steady efficiency lets η of torque and
-// of inertia torque pass, so motor torque and rotor inertia count η times: I = 91.17, α = 1.716573, 60 rpm at 3.660307 s.
+// Ex. 3.17: motor I_A = 0.6, T_A = 30; load I_B = 45, T_B = 100; G = 9, η = 0.95. A steady efficiency lets η of torque
+// and of inertia torque pass, so motor torque and rotor inertia count η times: I = 91.17, α = 1.716573, 60 rpm
+// at 3.660307 s.
 TEST(GearedAcceleration, TimeToSixtyRpmMatchesKhurmi) {
   const Result r = run(R"(
 line = ["motor", "gear", "machine"]

@@ -13,7 +13,8 @@ using test::figure;
 using test::run;
 using test::two_pi;
 
-// --- Modelica.Mechanics.Rotational.Examples.First: motor 0.1, gear 10, J2 = 2 with 10 N·m·s/rad to the frame, k = 1e4, J3 = 2 ---
+// --- Modelica.Mechanics.Rotational.Examples.First: motor 0.1, gear 10, J2 = 2 with 10 N·m·s/rad to the frame, k = 1e4,
+// J3 = 2 ---
 
 std::string first(double until, int samples, const std::string& start) {
   return fmt::format(R"(
@@ -46,7 +47,8 @@ until = "{} s"
 samples = {}
 accuracy = 1e-10
 start = {}
-)", until, samples, start);
+)",
+                     until, samples, start);
 }
 
 TEST(GearedForcedChain, TransientAfterOneSecondMatchesTheConvergedSolution) {
@@ -70,8 +72,10 @@ TEST(GearedForcedChain, TransientFollowsTheModelicaSeries) {
 }
 
 // Complex amplitudes X of J ẍ + C ẋ + K x = F e^{iωt}.
-Eigen::VectorXcd harmonic_response(const Eigen::MatrixXd& j, const Eigen::MatrixXd& c, const Eigen::MatrixXd& k, const Eigen::VectorXd& f, double omega) {
-  const Eigen::MatrixXcd dynamic = (k - omega * omega * j).cast<std::complex<double>>() + std::complex<double>(0, omega) * c.cast<std::complex<double>>();
+Eigen::VectorXcd harmonic_response(const Eigen::MatrixXd& j, const Eigen::MatrixXd& c, const Eigen::MatrixXd& k,
+                                   const Eigen::VectorXd& f, double omega) {
+  const Eigen::MatrixXcd dynamic = (k - omega * omega * j).cast<std::complex<double>>() +
+                                   std::complex<double>(0, omega) * c.cast<std::complex<double>>();
   return dynamic.partialPivLu().solve(f.cast<std::complex<double>>());
 }
 
@@ -80,7 +84,8 @@ std::string periodic_start(const std::vector<std::string>& names, const Eigen::V
   std::string text = "{ ";
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::complex<double> amplitude = x[static_cast<Eigen::Index>(i)];
-    text += fmt::format("{}{} = {{ angle = \"{} rad\", speed = \"{} rad/s\" }}", i ? ", " : "", names[i], amplitude.imag(), omega * amplitude.real());
+    text += fmt::format("{}{} = {{ angle = \"{} rad\", speed = \"{} rad/s\" }}", i ? ", " : "", names[i],
+                        amplitude.imag(), omega * amplitude.real());
   }
   return text + " }";
 }
@@ -92,7 +97,7 @@ TEST(GearedForcedChain, PeriodicRegimeHasTheAmplitudesOfTheClosedForm) {
   c << 10, 0, 0, 0;
   k << 1e4, -1e4, -1e4, 1e4;
   const Eigen::VectorXcd x = harmonic_response(j, c, k, Eigen::Vector2d(100, 0), omega);  // torque counts with i
-  EXPECT_NEAR(std::abs(x[0]), 0.0069899, 6e-8);  // the case's own digits
+  EXPECT_NEAR(std::abs(x[0]), 0.0069899, 6e-8);                                           // the case's own digits
   EXPECT_NEAR(std::abs(x[1]), 0.00870898, 6e-9);
   const Result r = run(first(1, 501, periodic_start({"j2", "j3"}, x, omega)));  // five periods
   EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j2", omega), std::abs(x[0]), 1e-11);
@@ -103,7 +108,8 @@ TEST(GearedForcedChain, PeriodicRegimeHasTheAmplitudesOfTheClosedForm) {
   EXPECT_NEAR(figure(r, "final_speed.j3"), omega * x[1].real(), 1e-10);
 }
 
-// --- three discs, free at both ends, below, between and above the two natural frequencies (163.96 and 279.49 rad/s) ---
+// --- three discs, free at both ends, below, between and above the two natural frequencies (163.96 and 279.49 rad/s)
+// ---
 
 struct ForcedCase {
   double omega, amplitude1, amplitude2, amplitude3, torque1, torque2;
@@ -138,7 +144,8 @@ until = "{} s"
 samples = 401
 accuracy = 1e-10
 start = {}
-)", omega / two_pi, 4 * two_pi / omega, start);
+)",
+                     omega / two_pi, 4 * two_pi / omega, start);
 }
 
 TEST_P(ThreeDiscs, SteadyAmplitudesAndTorquesMatchTheClosedForm) {
@@ -157,17 +164,19 @@ TEST_P(ThreeDiscs, SteadyAmplitudesAndTorquesMatchTheClosedForm) {
   EXPECT_NEAR(std::abs(figure(r, "peak_torque.k1")), given.torque1, 1e-8 * given.torque1);
   EXPECT_NEAR(std::abs(figure(r, "peak_torque.k2")), given.torque2, 1e-8 * given.torque2);
   // Four periods later every disc is where it began: no other motion is mixed in.
-  for (const auto& [name, i] : {std::pair{"j1", 0}, {"j2", 1}, {"j3", 2}}) EXPECT_NEAR(figure(r, std::string("final_angle.") + name), x[i].imag(), 1e-10) << name;
+  for (const auto& [name, i] : {std::pair{"j1", 0}, {"j2", 1}, {"j3", 2}})
+    EXPECT_NEAR(figure(r, std::string("final_angle.") + name), x[i].imag(), 1e-10) << name;
   // The root mean square of a sine is its peak over √2.
   EXPECT_NEAR(figure(r, "rms_torque.k2"), given.torque2 / std::numbers::sqrt2, 1e-8 * given.torque2);
 }
 
-INSTANTIATE_TEST_SUITE_P(BelowBetweenAndAboveTheNaturalFrequencies, ThreeDiscs,
-                         ::testing::Values(ForcedCase{50, 0.00624563, 0.01084655, 0.01301587, 92.1957142987, 65.0793277402},
-                                           ForcedCase{120, 0.00741295, 0.00020837, 0.00520919, 153.0251589656, 150.0246656526},
-                                           ForcedCase{200, 0.00701172, 0.00503558, 0.00302135, 40.2846729602, 241.7080377611},
-                                           ForcedCase{300, 0.00541619, 0.00323741, 0.00064748, 174.8201723162, 116.5467818777}),
-                         [](const auto& info) { return fmt::format("At{:.0f}RadPerSecond", info.param.omega); });
+INSTANTIATE_TEST_SUITE_P(
+    BelowBetweenAndAboveTheNaturalFrequencies, ThreeDiscs,
+    ::testing::Values(ForcedCase{50, 0.00624563, 0.01084655, 0.01301587, 92.1957142987, 65.0793277402},
+                      ForcedCase{120, 0.00741295, 0.00020837, 0.00520919, 153.0251589656, 150.0246656526},
+                      ForcedCase{200, 0.00701172, 0.00503558, 0.00302135, 40.2846729602, 241.7080377611},
+                      ForcedCase{300, 0.00541619, 0.00323741, 0.00064748, 174.8201723162, 116.5467818777}),
+    [](const auto& info) { return fmt::format("At{:.0f}RadPerSecond", info.param.omega); });
 
 }  // namespace
 }  // namespace kurbel

@@ -77,7 +77,8 @@ inline Eigen::MatrixXd state_matrix(const std::string& text) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t column = 0; column < pattern.size; ++column)
     for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
-      a(pattern.row[static_cast<std::size_t>(k)], static_cast<Eigen::Index>(column)) = values[static_cast<std::size_t>(k)];
+      a(pattern.row[static_cast<std::size_t>(k)], static_cast<Eigen::Index>(column)) =
+          values[static_cast<std::size_t>(k)];
   return a;
 }
 
@@ -92,10 +93,12 @@ inline std::vector<double> natural_frequencies(const std::string& text) {
   return frequencies;
 }
 
-inline void expect_frequencies(const std::string& text, const std::vector<double>& expected, double unit, double relative) {
+inline void expect_frequencies(const std::string& text, const std::vector<double>& expected, double unit,
+                               double relative) {
   const std::vector<double> found = natural_frequencies(text);
   ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / unit, expected[i], relative * expected[i]) << "mode " << i + 1;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i] / unit, expected[i], relative * expected[i]) << "mode " << i + 1;
 }
 
 // Two columns of a published series.
@@ -113,7 +116,8 @@ inline double largest_difference(const Result& result, const std::string& channe
   double largest = 0;
   for (std::size_t k = 0; k < published.x.size(); ++k) {
     const auto row = static_cast<std::size_t>(std::lround(published.x[k] / (time[1] - time[0])));
-    if (row >= time.size() || std::abs(time[row] - published.x[k]) > 1e-9) throw std::runtime_error("no row at t = " + digits(published.x[k]));
+    if (row >= time.size() || std::abs(time[row] - published.x[k]) > 1e-9)
+      throw std::runtime_error("no row at t = " + digits(published.x[k]));
     largest = std::max(largest, std::abs(x[row] - published.y[k]));
   }
   return largest;
@@ -123,7 +127,9 @@ inline double largest_difference(const Result& result, const std::string& channe
 struct InlineSliderCrank {
   double r, l, crank_inertia, rod_mass, rod_com, rod_inertia, slider_mass;
 
-  double position(double phi) const { return r * std::cos(phi) + std::sqrt(l * l - r * r * std::sin(phi) * std::sin(phi)); }
+  double position(double phi) const {
+    return r * std::cos(phi) + std::sqrt(l * l - r * r * std::sin(phi) * std::sin(phi));
+  }
   // Reduced inertia (THEORY 2.1) from the velocities at ω = 1.
   double inertia(double phi) const {
     const double s = std::sin(phi), c = std::cos(phi);
@@ -132,7 +138,8 @@ struct InlineSliderCrank {
     const double slider = -r * s - l * sin_b * beta_rate;  // dx/dφ
     // Centre of mass of the rod: pin + rod_com (cos β, −sin β).
     const double vx = -r * s - rod_com * sin_b * beta_rate, vy = r * c - rod_com * cos_b * beta_rate;
-    return crank_inertia + rod_mass * (vx * vx + vy * vy) + rod_inertia * beta_rate * beta_rate + slider_mass * slider * slider;
+    return crank_inertia + rod_mass * (vx * vx + vy * vy) + rod_inertia * beta_rate * beta_rate +
+           slider_mass * slider * slider;
   }
 };
 

@@ -31,7 +31,8 @@ TEST(FreeSliderCrank, MotionAfterFortySevenTurnsMatchesTheQuadrature) {
 
 TEST(FreeSliderCrank, EnergyIsConstantAndSpeedFollowsTheReducedInertia) {
   const Result r = run(with(text_of("scenes/free_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
-  const double energy = 252.037193877551, most_inertia = 0.6028418696, least_inertia = 0.5600826531;  // reference.toml, R1
+  const double energy = 252.037193877551, most_inertia = 0.6028418696,
+               least_inertia = 0.5600826531;  // reference.toml, R1
   EXPECT_NEAR(r.energy.kinetic_start, energy, 1e-12 * energy);
   EXPECT_NEAR(r.energy.kinetic_end, energy, 1e-9 * energy);
   EXPECT_NEAR(figure(r, "min_speed.crank"), std::sqrt(2 * energy / most_inertia), 3e-9);  // inertia given to 10 digits
@@ -46,7 +47,8 @@ TEST(DrivenSliderCrank, MotionPastSixtyLoadEdgesMatchesLocatedEvents) {
   EXPECT_NEAR(figure(r, "final_angle.crank"), 175.990300636005, 1e-9);
   EXPECT_NEAR(figure(r, "final_speed.crank"), 22.9514530858349, 1e-9);
   // The load sets in and ends once a turn; 175.99 rad are 28.009 turns, and the load begins before half a turn.
-  EXPECT_EQ(std::count_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.component == "crank"; }), 2 * 28);
+  EXPECT_EQ(std::count_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.component == "crank"; }),
+            2 * 28);
 }
 
 TEST(DrivenSliderCrank, TooSlowItStopsUnderTheLoadAndIsHeldForEver) {
@@ -71,7 +73,8 @@ TEST(SixInertiaChain, SpeedsAfterTheRunUpMatchTheReference) {
   const std::vector<std::pair<const char*, double>> expected = {{"motor", 72.0459453224151}, {"j2", 72.0459597112134},
                                                                 {"j3", 72.0459599907005},    {"j4", 72.0459602500263},
                                                                 {"j5", 72.0459637117535},    {"fan", 72.0459618456415}};
-  for (const auto& [name, omega] : expected) EXPECT_NEAR(figure(r, fmt::format("final_speed.{}", name)), omega, 1e-9) << name;
+  for (const auto& [name, omega] : expected)
+    EXPECT_NEAR(figure(r, fmt::format("final_speed.{}", name)), omega, 1e-9) << name;
 }
 
 TEST(SixInertiaChain, SpringTorquePeaksWhereTheTwoSpeedsMeet) {
@@ -125,11 +128,13 @@ Eigen::VectorXd speeds(int n, double until, double tolerance, const std::string&
   const RunOutcome out = integrate(equations, options, {});
   EXPECT_TRUE(out.complete) << out.diagnosis;
   Eigen::VectorXd omega(n);
-  for (int i = 0; i < n; ++i) omega[i] = out.state[equations.speed_index(model->shaft_of_node[static_cast<std::size_t>(i)])];
+  for (int i = 0; i < n; ++i)
+    omega[i] = out.state[equations.speed_index(model->shaft_of_node[static_cast<std::size_t>(i)])];
   return omega;
 }
 
-// The same by the matrix exponential, assembled here by hand: z = (Ω θ, ω, 1), ż = A z, with Ω = √(k/J) for round-off's sake.
+// The same by the matrix exponential, assembled here by hand: z = (Ω θ, ω, 1), ż = A z, with Ω = √(k/J) for round-off's
+// sake.
 Eigen::VectorXd speeds_by_exponential(int n, double until) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   const auto w = [n](int i) { return n - 1 + i; };
@@ -174,7 +179,9 @@ TEST(EqualChain, FirstSpeedOfALongChainIsTorqueOverItsImpedance) {
 TEST(EqualChain, EqualToleranceGivesEqualAccuracyAtAnyLength) {
   for (const std::string method : {"dop853", "dopri5", "esdirk"}) {
     const double until = 0.02, tolerance = 1e-5;
-    const auto error = [&](int n) { return (speeds(n, until, tolerance, method) - speeds(n, until, 1e-13, "dop853")).cwiseAbs().maxCoeff(); };
+    const auto error = [&](int n) {
+      return (speeds(n, until, tolerance, method) - speeds(n, until, 1e-13, "dop853")).cwiseAbs().maxCoeff();
+    };
     const double small = error(10), large = error(1000);
     EXPECT_LT(large, 5 * small) << method;
     EXPECT_LT(large, 1e-3) << method;

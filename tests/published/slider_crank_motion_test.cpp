@@ -30,18 +30,28 @@ until = "3 s"
 samples = 61
 accuracy = 1e-10
 )";
-const test::InlineSliderCrank run_up_mechanism{.r = 0.1, .l = 0.3, .crank_inertia = 0.2 * 0.01 / 3, .rod_mass = 0.2, .rod_com = 0.15, .rod_inertia = 0.2 * 0.09 / 12, .slider_mass = 0.4};
+const test::InlineSliderCrank run_up_mechanism{.r = 0.1,
+                                               .l = 0.3,
+                                               .crank_inertia = 0.2 * 0.01 / 3,
+                                               .rod_mass = 0.2,
+                                               .rod_com = 0.15,
+                                               .rod_inertia = 0.2 * 0.09 / 12,
+                                               .slider_mass = 0.4};
 
 TEST(SliderCrankRunUp, MotionMatchesTheReferenceOfExudynsCase) {
   const Result r = run(run_up);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const auto phi = test::series(r, "angle.crank"), omega = test::series(r, "speed.crank");
-  const struct { std::size_t row; double phi, omega; } expected[] = {{20, 14.12789222, 20.53748285}, {40, 55.0724438, 39.79557704}, {60, 121.88627751, 101.36564506}};
+  const struct {
+    std::size_t row;
+    double phi, omega;
+  } expected[] = {{20, 14.12789222, 20.53748285}, {40, 55.0724438, 39.79557704}, {60, 121.88627751, 101.36564506}};
   for (const auto& e : expected) {
     EXPECT_NEAR(phi[e.row], e.phi, 1e-7 * e.phi);
     EXPECT_NEAR(omega[e.row], e.omega, 1e-7 * e.omega);
   }
-  EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc03_exudyn.csv", 1, 4)), 2e-8);  // ten digits
+  EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc03_exudyn.csv", 1, 4)),
+            2e-8);  // ten digits
   EXPECT_LT(test::largest_difference(r, "speed.crank", test::published_series("sc03_exudyn.csv", 1, 5)), 6e-8);
   // MATLAB's series with RelTol 1e-6 drifts by 5.7e-3 rad.
   EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc03_exudyn.csv", 1, 2)), 6e-3);
@@ -125,7 +135,8 @@ TEST(SliderCrankAtPrescribedSpeed, SliderMovesAsTheClosedFormSays) {
   const Result r = run(prescribed);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const double w = 150, l1 = 0.15, l2 = 0.3;
-  const auto x = test::series(r, "position.crank"), v = test::series(r, "velocity.crank"), a = test::series(r, "acceleration.crank");
+  const auto x = test::series(r, "position.crank"), v = test::series(r, "velocity.crank"),
+             a = test::series(r, "acceleration.crank");
   EXPECT_NEAR(a.front(), -5062.5, 5062.5e-11);  // −(l₁ Ω² + l₂ (Ω/2)²)
   for (std::size_t row = 0; row < x.size(); ++row) {
     const double phi = w * r.trajectory->time()[row], s = std::sin(phi), c = std::cos(phi);
@@ -141,7 +152,13 @@ TEST(SliderCrankAtPrescribedSpeed, SliderMovesAsTheClosedFormSays) {
 
 // The drive's work is the change of the kinetic energy, ½ Ω² (I_r(Ω t) − I_r(0)).
 TEST(SliderCrankAtPrescribedSpeed, DriveDoesTheWorkThatTheReducedInertiaAsksFor) {
-  const test::InlineSliderCrank m{.r = 0.15, .l = 0.3, .crank_inertia = 0.002727, .rod_mass = 0.151104, .rod_com = 0.15, .rod_inertia = 0.0011340859, .slider_mass = 0.075552};
+  const test::InlineSliderCrank m{.r = 0.15,
+                                  .l = 0.3,
+                                  .crank_inertia = 0.002727,
+                                  .rod_mass = 0.151104,
+                                  .rod_com = 0.15,
+                                  .rod_inertia = 0.0011340859,
+                                  .slider_mass = 0.075552};
   const Result r = run(prescribed);
   const double work = 0.5 * 150 * 150 * (m.inertia(15) - m.inertia(0));
   EXPECT_GT(std::abs(work), 1);

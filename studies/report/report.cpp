@@ -1,0 +1,344 @@
+// report.cpp — the page: template, styles and scripts with the report's data as JSON.
+#include "studies/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/units.h"
+#include "studies/report/assets.h"
+#include "studies/report/thin.h"
+
+namespace kurbel {
+namespace {
+
+const char* name_of(Role role) {
+  switch (role) {
+    case Role::rigid: return "rigid";
+    case Role::elastic: return "elastic";
+    case Role::reference: return "reference";
+    case Role::orange: return "orange";
+    case Role::green: return "green";
+    case Role::vermillion: return "vermillion";
+    case Role::purple: return "purple";
+    case Role::sky: return "sky";
+  }
+  return "elastic";
+}
+
+// JSON written straight into one string: a report is mostly numbers.
+class Writer {
+ public:
+  std::string text;
+
+  void key(std::string_view name) {
+    comma();
+    text += fmt::format("\"{}\":", name);
+    fresh_ = true;
+  }
+  void value(const std::string& s) { put(json_string(s)); }
+  void value(const char* s) { put(json_string(s)); }
+  void value(bool b) { put(b ? "true" : "false"); }
+  void value(double v, int digits = 7) { put(number(v, digits)); }
+  void value(const std::vector<double>& list, int digits = 7) {
+    comma();
+    text += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i) text += ',';
+      text += number(list[i], digits);
+    }
+    text += ']';
+    fresh_ = false;
+  }
+  void value(const std::vector<std::vector<double>>& lists, int digits) {
+    list(lists, [&](const std::vector<double>& l) { value(l, digits); });
+  }
+  void value(const std::vector<std::string>& strings) {
+    list(strings, [&](const std::string& s) { value(s); });
+  }
+  template <class T, class... More>
+  void field(std::string_view name, const T& v, More... more) {
+    key(name);
+    value(v, more...);
+  }
+  template <class Body>
+  void object(Body body) {
+    comma();
+    text += '{';
+    fresh_ = true;
+    body();
+    text += '}';
+    fresh_ = false;
+  }
+  template <class List, class Each>
+  void list(const List& items, Each each) {
+    comma();
+    text += '[';
+    fresh_ = true;
+    for (const auto& item : items) each(item);
+    text += ']';
+    fresh_ = false;
+  }
+
+ private:
+  static std::string number(double v, int digits) { return std::isfinite(v) ? fmt::format("{:.{}g}", v, digits) : "null"; }
+  void put(const std::string& s) {
+    comma();
+    text += s;
+    fresh_ = false;
+  }
+  void comma() {
+    if (!fresh_) text += ',';
+    fresh_ = false;
+  }
+  bool fresh_ = true;
+};
+
+void write(Writer& w, const Axis& axis) {
+  w.object([&] {
+    w.field("label", axis.label);
+    w.field("unit", axis.unit);
+    w.field("log", axis.logarithmic);
+  });
+}
+
+void write(Writer& w, const Plot& plot) {
+  w.field("kind", "plot");
+  w.field("title", plot.title);
+  w.field("note", plot.note);
+  w.key("x"), write(w, plot.x);
+  w.key("y"), write(w, plot.y);
+  w.key("series");
+  w.list(plot.series, [&](const Series& series) {
+    std::vector<double> x = series.x, y = series.y;
+    thin_by_extremes(x, y, points_per_series);
+    w.object([&] {
+      w.field("name", series.name);
+      w.field("role", name_of(series.role));
+      w.field("dashed", series.dashed);
+      w.field("points", series.points);
+      w.field("x", x, 8);
+      w.field("y", y, 7);
+    });
+  });
+  // Marks beyond some hundreds run into each other.
+  std::vector<EventMark> marks;
+  const std::size_t stride = 1 + plot.marks.size() / 400;
+  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
+  w.key("marks");
+  w.list(marks, [&](const EventMark& mark) {
+    w.object([&] {
+      w.field("x", mark.x, 8);
+      w.field("text", mark.text);
+    });
+  });
+}
+
+void write(Writer& w, const Table& table) {
+  w.field("kind", "table");
+  w.field("title", table.title);
+  w.field("folded", table.folded);
+  w.field("textColumns", static_cast<double>(table.text_columns));
+  w.field("columns", table.columns);
+  w.key("rows");
+  w.list(table.rows, [&](const std::vector<std::string>& row) { w.value(row); });
+}
+
+void write(Writer& w, const Formula& formula) {
+  w.field("kind", "formula");
+  w.field("title", formula.title);
+  w.field("symbols", formula.symbols);
+  w.field("numbers", formula.numbers);
+  w.field("note", formula.note);
+}
+
+void write(Writer& w, const Text& t) {
+  w.field("kind", "text");
+  w.field("title", t.title);
+  w.field("body", t.body);
+  w.field("verbatim", t.verbatim);
+  w.field("folded", t.folded);
+}
+
+void write(Writer& w, const MachineView& machine) {
+  w.field("kind", "machine");
+  w.field("title", machine.title);
+  w.field("link", machine.link);
+  w.field("enlargement", machine.enlargement);
+  w.field("cycle", machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12);
+  w.key("parts");
+  w.list(machine.parts, [&](const MachineView::Part& part) {
+    w.object([&] {
+      w.field("name", part.name);
+      w.field("kind", part.kind);
+      w.field("ratioIn", part.ratio_in);
+      w.field("ratioOut", part.ratio_out);
+      w.field("elastic", part.elastic);
+      w.field("row", static_cast<double>(part.row));
+    });
+  });
+  if (machine.slider_crank) {
+    w.key("sliderCrank");
+    w.object([&] {
+      w.field("radius", machine.slider_crank->radius);
+      w.field("rod", machine.slider_crank->rod);
+      w.field("offset", machine.slider_crank->offset);
+      w.field("direction", machine.slider_crank->direction);
+    });
+  }
+  w.field("time", machine.time, 7);
+  w.key("motions");
+  w.list(machine.motions, [&](const MachineView::Motion& motion) {
+    w.object([&] {
+      w.field("label", motion.label);
+      w.field("role", name_of(motion.role));
+      w.field("angle", motion.angle, 7);
+      w.field("twistIn", motion.twist_in, 4);
+      w.field("twistOut", motion.twist_out, 4);
+      w.field("torque", motion.torque, 4);
+      w.field("force", motion.force, 4);
+    });
+  });
+}
+
+std::string json_of(const Report& report) {
+  Writer w;
+  w.object([&] {
+    w.field("title", report.title);
+    w.field("subtitle", report.subtitle);
+    w.field("conclusion", report.conclusion);
+    w.field("complete", report.complete);
+    w.field("footer", report.footer);
+    w.key("figures");
+    w.list(report.figures, [&](const KeyFigure& figure) {
+      w.object([&] {
+        w.field("name", figure.name);
+        w.field("value", rounded(figure.value, figure.error));
+        w.field("unit", pretty_unit(figure.unit));
+        w.field("error", error_text(figure.error));
+        w.field("note", figure.note);
+      });
+    });
+    w.key("sections");
+    w.list(report.sections, [&](const ReportSection& section) {
+      w.object([&] {
+        w.field("title", section.title);
+        w.key("cards");
+        w.list(section.cards, [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
+      });
+    });
+  });
+  return w.text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  return out;
+}
+
+}  // namespace
+
+Role further_role(std::size_t i) {
+  constexpr Role roles[] = {Role::orange, Role::green, Role::vermillion, Role::purple, Role::sky};
+  return roles[i % std::size(roles)];
+}
+
+ReportSection& Report::add(const std::string& section_title) {
+  sections.push_back({section_title, {}});
+  return sections.back();
+}
+
+std::string json_string(const std::string& text) {
+  std::string out = "\"";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '<') {
+      out += "\\u003c";  // neither "</script" nor "<!--" can arise
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<int>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string rounded(double value, const std::optional<double>& error) {
+  if (!std::isfinite(value)) return "—";
+  int digits = 6;
+  if (error && *error > 0 && value != 0) digits = std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / *error))) + 1, 3, 7);
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string error_text(const std::optional<double>& error) {
+  if (!error) return "";
+  return *error == 0 ? "± 0" : fmt::format("± {:.1g}", *error);
+}
+
+ReadableUnit readable_unit(double largest, const std::string& si_unit) {
+  largest = std::abs(largest);
+  if (si_unit == "rad/s") return {"1/min", 30 / std::numbers::pi};
+  if (si_unit == "m") return largest < 2 ? ReadableUnit{"mm", 1e3} : ReadableUnit{"m", 1};
+  if (si_unit == "N" || si_unit == "N*m" || si_unit == "J" || si_unit == "W") {
+    const std::string unit = pretty_unit(si_unit);
+    if (largest >= 2e6) return {"M" + unit, 1e-6};
+    if (largest >= 2e3) return {"k" + unit, 1e-3};
+    return {unit, 1};
+  }
+  if (si_unit == "rad") return largest < 0.2 ? ReadableUnit{"mrad", 1e3} : ReadableUnit{"rad", 1};
+  return {pretty_unit(si_unit), 1};
+}
+
+std::string html_of(const Report& report) {
+  const std::string json = json_of(report);
+  const std::string_view page = report_assets::page_html();
+  std::string html;
+  html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);
+  // Placeholders {{name}} of the template, once through; what is put in is not looked at again.
+  std::size_t at = 0;
+  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{", at)) {
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    html += page.substr(at, open - at);
+    if (name == "title") html += escaped(report.title);
+    else if (name == "conclusion") html += escaped(report.conclusion);
+    else if (name == "css") html += report_assets::page_css();
+    else if (name == "js") html += report_assets::page_js();
+    else if (name == "plotly") html += report_assets::plotly_js();
+    else if (name == "licence") html += escaped(report_assets::plotly_licence());
+    else if (name == "data") html += json;
+    else throw std::logic_error(fmt::format("the report's template has no \"{}\"", name));
+    at = close + 2;
+  }
+  html += page.substr(at);
+  return html;
+}
+
+void write_html(const Report& report, const std::string& path) {
+  // Under another name first: a page appears only when it is whole.
+  const std::string temporary = path + ".part";
+  std::ofstream out(temporary, std::ios::binary);
+  out << html_of(report);
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("cannot write {}: is there room and permission?", temporary));
+  std::filesystem::rename(temporary, path);
+}
+
+}  // namespace kurbel

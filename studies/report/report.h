@@ -1,0 +1,149 @@
+// report.h — what a study tells people: data and words here; one self-contained HTML page, or gnuplot's files, from it.
+//
+//   Report report{.title = "Size of the flywheel", .conclusion = "420 kg·m² keep δ below 0.05."};
+//   report.figures.push_back({"flywheel", 420, "kg*m2", 0.2});
+//   report.add("Results").cards.push_back(Plot{"δ falls with the flywheel's inertia", …});
+//   write_html(report, "results/size/report.html");
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace kurbel {
+
+// What a colour stands for; the same everywhere. The rest of the palette is that of Okabe and Ito.
+enum class Role { rigid, elastic, reference, orange, green, vermillion, purple, sky };
+Role further_role(std::size_t i);  // colours for a list of like things
+
+// A figure on the first screen.
+struct KeyFigure {
+  std::string name;
+  double value = 0;
+  std::string unit = {};                // SI, as in a scene: "N*m"
+  std::optional<double> error = {};
+  std::string note = {};
+};
+
+struct Axis {
+  std::string label, unit = {};  // unit as it is to be read
+  bool logarithmic = false;
+};
+
+struct Series {
+  std::string name;
+  Role role = Role::elastic;
+  std::vector<double> x, y;
+  bool dashed = false;   // references
+  bool points = false;   // markers beside the line
+};
+
+// Something that happened, on the x-axis.
+struct EventMark {
+  double x = 0;
+  std::string text;
+};
+
+struct Plot {
+  std::string title;  // says what it shows
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<EventMark> marks = {};
+  std::string note = {};
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  bool folded = false;           // shown on demand; always in print
+  std::size_t text_columns = 1;  // leading ones; the others are numbers, on the right
+};
+
+struct Formula {
+  std::string title, symbols;  // "δ = (ω_max − ω_min)/ω_m"
+  std::string numbers;         // the same with numbers put in, and the result
+  std::string note = {};
+};
+
+struct Text {
+  std::string title, body;
+  bool verbatim = false, folded = false;
+};
+
+// The moving machine: a shaft line, and a slider-crank to scale.
+struct MachineView {
+  struct Part {
+    std::string name, kind;
+    double ratio_in = 1, ratio_out = 1;  // speed over the crank's
+    bool elastic = false;
+    int row = 0;                         // 0: the main line
+  };
+  struct SliderCrank {
+    double radius = 0, rod = 0, offset = 0;  // [m]
+    double direction = 0;                    // of the stroke, above the horizontal [rad]
+  };
+  // Per frame; twists and torques per part, empty where there are none.
+  struct Motion {
+    std::string label;
+    Role role = Role::elastic;
+    std::vector<double> angle;                             // of the crank, or of the reduction link [rad]
+    std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it [rad]
+    std::vector<std::vector<double>> torque;               // [N·m]
+    std::vector<double> force;                             // on the slider, positive towards the extended end [N]
+  };
+  std::string title, link;
+  std::vector<Part> parts;
+  std::optional<SliderCrank> slider_crank;
+  std::vector<double> time;     // of the frames [s]
+  std::vector<Motion> motions;  // the last one in front, those before it as grey ghosts
+  double enlargement = 1;       // of the twists
+  double cycle = 0;             // [rad]; 0: one turn
+};
+
+using Card = std::variant<Plot, Table, Formula, Text, MachineView>;
+
+struct ReportSection {
+  std::string title;
+  std::vector<Card> cards = {};
+};
+
+struct Report {
+  std::string title, subtitle = {}, conclusion = {};
+  bool complete = true;
+  std::vector<KeyFigure> figures = {};
+  std::deque<ReportSection> sections = {};
+  std::string footer = {};  // versions
+
+  ReportSection& add(const std::string& section_title);  // stays where it is
+};
+
+// Points of a series that a page holds; longer ones are thinned with their peaks kept.
+inline constexpr std::size_t points_per_series = 3000;
+
+// The page: styles, scripts and data inlined; it asks the network for nothing, and says so to the browser.
+std::string html_of(const Report& report);
+void write_html(const Report& report, const std::string& path);
+
+// For every plot NAME.dat and NAME.gp, and NAME.svg where gnuplot is installed. Returns how many SVGs there are.
+int write_gnuplot(const Report& report, const std::string& folder);
+
+// --- helpers for studies ---
+
+// 6082.163 ± 7e-05 → "6082.163": as many digits as the error leaves, at most seven.
+std::string rounded(double value, const std::optional<double>& error = {});
+std::string error_text(const std::optional<double>& error);
+
+// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; "rad/s" → 1/min.
+struct ReadableUnit {
+  std::string unit;
+  double factor = 1;  // value in this unit = factor · value in SI
+};
+ReadableUnit readable_unit(double largest, const std::string& si_unit);
+
+// Text as a script's string may hold it within a page: valid JSON without "</" and "<!--".
+std::string json_string(const std::string& text);
+
+}  // namespace kurbel

@@ -1,0 +1,34 @@
+// thin.cpp — buckets of equally many points, two survivors each.
+#include "studies/report/thin.h"
+
+#include <algorithm>
+
+namespace kurbel {
+
+void thin_by_extremes(std::vector<double>& x, std::vector<double>& y, std::size_t limit) {
+  const std::size_t n = x.size();
+  limit = std::max<std::size_t>(limit, 4);
+  if (n <= limit) return;
+  const std::size_t buckets = (limit - 2) / 2;
+  std::size_t kept = 1;  // the first point stays; survivors are written over what was read already
+  const auto keep = [&](std::size_t i) {
+    x[kept] = x[i];
+    y[kept] = y[i];
+    ++kept;
+  };
+  for (std::size_t b = 0; b < buckets; ++b) {
+    const std::size_t begin = 1 + b * (n - 2) / buckets, end = 1 + (b + 1) * (n - 2) / buckets;
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+    }
+    keep(std::min(low, high));
+    if (low != high) keep(std::max(low, high));
+  }
+  keep(n - 1);
+  x.resize(kept);
+  y.resize(kept);
+}
+
+}  // namespace kurbel
