@@ -202,7 +202,10 @@ class Compiler {
   void check_inertias() {
     for (std::size_t s = 0; s < model_.free_shafts; ++s) {
       const Shaft& shaft = model_.shafts[s];
-      if (shaft.mean_inertia > 0) continue;
+      if (shaft.mean_inertia > 0) {
+        check_dead_centres(shaft);
+        continue;
+      }
       std::set<std::string> names;
       for (const int n : shaft.nodes) names.insert(model_.node_label(n));
       messages_.add(location_of(net().nodes[at(shaft.nodes.front())].component),
@@ -210,6 +213,22 @@ class Compiler {
                                 listed({names.begin(), names.end()}, "and"), model_.elastic.empty() ? "" : ", or switch the elasticity beside it off"));
     }
     messages_.throw_if_any();
+  }
+
+  // A slider alone has no inertia to offer its crank at a dead centre, and the crank's acceleration is infinite there.
+  void check_dead_centres(const Shaft& shaft) {
+    const Network::ShaftElement* mechanism = nullptr;
+    double least = shaft.inertia;
+    for (const Network::ShaftElement& e : net().elements) {
+      if (!std::count(shaft.nodes.begin(), shaft.nodes.end(), e.node) || e.element->cycle() == 0) continue;
+      if (mechanism) return;  // several mechanisms stand at different angles
+      mechanism = &e;
+      const double gain = model_.gain_of_node[at(e.node)];
+      least += e.element->least_inertia() * gain * gain;
+    }
+    if (mechanism && least < 1e-9 * shaft.mean_inertia)
+      messages_.add(location_of(mechanism->component),
+                    fmt::format("\"{}\" has no inertia at a dead centre (its slider stands still there), so the crank's motion is undefined; give it a crank_inertia", mechanism->component));
   }
 
   // Rated speed and torque, carried to the reduction link and from there to every shaft.

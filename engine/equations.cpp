@@ -523,10 +523,11 @@ void Equations::settle_directions(double t, std::span<double> y, const std::vect
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
     for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
-    const double push = torque_[s];
-    if (push + shaft_hold_[s].low > 0) {
+    // A push within round-off decides nothing: the guards will tell which way it grows.
+    const double push = torque_[s], nothing = 1e-12 * m.shafts[s].torque_scale;
+    if (push + shaft_hold_[s].low > nothing) {
       direction_[s] = 1;
-    } else if (push + shaft_hold_[s].high < 0) {
+    } else if (push + shaft_hold_[s].high < -nothing) {
       direction_[s] = -1;
     }
     for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());

@@ -84,7 +84,8 @@ class ShaftElementMaker {
   virtual bool directional() const { return false; }
   virtual Rated rated() const { return {}; }
   virtual Account account() const = 0;
-  virtual double mean_inertia() const { return 0; }  // of a mechanism, on its own shaft
+  virtual double mean_inertia() const { return 0; }   // of a mechanism, on its own shaft
+  virtual double least_inertia() const { return 0; }  // over a turn
   virtual double cycle() const { return 0; }         // angle of one cycle of a mechanism [rad]
   virtual int mode_count() const { return 1; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -94,12 +95,16 @@ bool check_geometry(const Section& s, const SliderCrankData& d, Messages& messag
   return messages.all().size() == before;
 }
 
-// Mean of I_r over a turn; the trapezium rule converges at once on periodic functions.
-double mean_inertia(const ReducedMechanism& reduced) {
+// Mean of I_r over a turn (the trapezium rule converges at once on periodic functions) and its least value, which
+// lies at a dead centre where the slider stands still.
+void find_inertias(SliderCrank& crank, const SliderCrankGeometry& geometry) {
   constexpr int n = 256;
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += reduced.inertia(2 * std::numbers::pi * i / n).value;
-  return sum / n;
+  crank.least_inertia = std::min(crank.reduced->inertia(geometry.extended_angle()).value, crank.reduced->inertia(geometry.folded_angle()).value);
+  for (int i = 0; i < n; ++i) {
+    const double inertia = crank.reduced->inertia(2 * std::numbers::pi * i / n).value;
+    crank.mean_inertia += inertia / n;
+    crank.least_inertia = std::min(crank.least_inertia, inertia);
+  }
 }
 
 void build_slider_crank(const Section& s, Network& net, Messages& messages) {
@@ -141,7 +146,7 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
                                    s.name, d.crank_mass, d.rod_mass, d.slider_mass));
     return;
   }
-  crank.mean_inertia = mean_inertia(*crank.reduced);
+  find_inertias(crank, geometry);
   const double phase = crank.phase;
   net.put_made(node, s.name, std::make_shared<SliderCrankMaker>(std::move(crank)), {}, phase);
 }

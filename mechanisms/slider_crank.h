@@ -19,7 +19,8 @@ struct SliderCrank {
   std::shared_ptr<SliderCrankBodies> bodies;  // for the independent kinetic energy
   std::vector<SliderLoad> loads;
   double x_min = 0, x_max = 0;
-  double mean_inertia = 0;  // of I_r over a turn [kg·m²]
+  double mean_inertia = 0;   // of I_r over a turn [kg·m²]
+  double least_inertia = 0;
   double phase = 0;         // added to the shaft's angle [rad]
 
   bool has_weight() const { return data.gravity != 0; }
@@ -36,6 +37,7 @@ class SliderCrankMaker final : public ShaftElementMaker {
   Rated rated() const override;
   Account account() const override { return Account::weight; }
   double mean_inertia() const override { return crank_.mean_inertia; }
+  double least_inertia() const override { return crank_.least_inertia; }
   double cycle() const override;
   std::string describe() const override;
   int mode_count() const override { return 1 + static_cast<int>(crank_.loads.size()); }

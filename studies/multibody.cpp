@@ -140,7 +140,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     result.statistics.stepper.flow_calls = fine.evaluations;
     const MultibodySample &a = coarse.samples.back(), &b = fine.samples.back();
     const auto add = [&](const std::string& name, double value, double other, const std::string& unit, double scale) {
-      Figure figure{name, value, unit, {}, b.t, scale};
+      Figure figure{name, value, unit, {}, b.t, scale, 0};
       if (options.measure_error) {
         figure.error = std::abs(value - other);
         result.measured_accuracy = std::max(result.measured_accuracy, *figure.error / scale);

@@ -24,18 +24,37 @@ std::optional<double> last_switch_off(const Model& model, const RunOutcome& outc
   return any && last > 0 ? std::optional(last) : std::nullopt;
 }
 
-// Speed of the reduction link over time, straight between the samples.
+// A time between samples, and how far off it may be.
+struct Passing {
+  double t, resolution;
+};
+
+// Speed of the reduction link at the samples.
 struct SpeedSeries {
   const TrajectoryRecorder& trajectory;
   std::size_t channel;
   double at(std::size_t row) const { return trajectory.value(row, channel); }
   double time(std::size_t row) const { return trajectory.time()[row]; }
   std::size_t rows() const { return trajectory.time().size(); }
-  // Time between two rows at which the speed passes a value.
-  double passing(std::size_t row, double value) const {
+  // Time between rows row − 1 and row at which the speed passes a value: root of the cubic through four samples. Its
+  // distance from the straight line's root is taken for its uncertainty.
+  Passing passing(std::size_t row, double value) const {
+    const double t0 = time(row - 1), t1 = time(row);
     const double a = at(row - 1) - value, b = at(row) - value;
-    const double s = a == b ? 1 : a / (a - b);
-    return time(row - 1) + s * (time(row) - time(row - 1));
+    const double straight = a == b ? t1 : t0 + a / (a - b) * (t1 - t0);
+    if (row < 2 || row + 1 >= rows()) return {straight, t1 - t0};
+    const auto cubic = [&](double t) {
+      double sum = 0;
+      for (std::size_t i = row - 2; i <= row + 1; ++i) {
+        double weight = 1;
+        for (std::size_t k = row - 2; k <= row + 1; ++k)
+          if (k != i) weight *= (t - time(k)) / (time(i) - time(k));
+        sum += weight * at(i);
+      }
+      return sum - value;
+    };
+    const double root = find_root(cubic, t0, a, t1, b);
+    return {root, std::abs(root - straight)};
   }
 };
 
@@ -46,30 +65,41 @@ std::optional<SpeedSeries> speed_series(const Model& model, const TrajectoryReco
   return {};
 }
 
-void from_cycles(const std::vector<CycleRecord>& cycles, Periods& periods) {
+// The range of speeds that belongs to steady motion.
+struct Band {
+  double low = 0, high = 0;
+  bool contains(double omega) const { return omega >= low && omega <= high; }
+};
+
+std::optional<Band> band_of_cycles(const std::vector<CycleRecord>& cycles, Periods& periods) {
   std::vector<const CycleRecord*> driven;
   for (const CycleRecord& c : cycles)
     if (!periods.run_down_begin || c.end <= *periods.run_down_begin) driven.push_back(&c);
-  if (driven.size() < 2) return;
-  periods.steady_speed = driven.back()->mean_speed();
+  if (driven.size() < 2) return {};
+  const CycleRecord& last = *driven.back();
+  periods.steady_speed = last.mean_speed();
   periods.steady = std::abs(driven[driven.size() - 2]->mean_speed() / periods.steady_speed - 1) < same_cycle;
-  if (!periods.steady) return;
-  std::size_t first = driven.size();
-  while (first > 0 && std::abs(driven[first - 1]->mean_speed() / periods.steady_speed - 1) <= near_steady) --first;
-  if (first > 0) periods.run_up_end = driven[first]->begin;
+  const double margin = near_steady * std::abs(periods.steady_speed);
+  return Band{last.omega_min - margin, last.omega_max + margin};
 }
 
-void from_speed(const SpeedSeries& speed, double end, Periods& periods) {
-  std::size_t last = 0;
-  while (last + 1 < speed.rows() && speed.time(last + 1) <= end) ++last;
-  if (last < 20) return;
-  const double final = speed.at(last), before = speed.at(last - last / 20);
-  periods.steady_speed = final;
-  periods.steady = final != 0 && std::abs(before / final - 1) < same_cycle;
-  if (!periods.steady) return;
+std::optional<Band> band_of_speed(const SpeedSeries& speed, std::size_t last, Periods& periods) {
+  if (last < 20) return {};
+  periods.steady_speed = speed.at(last);
+  periods.steady = periods.steady_speed != 0 && std::abs(speed.at(last - last / 20) / periods.steady_speed - 1) < same_cycle;
+  const double margin = near_steady * std::abs(periods.steady_speed);
+  return Band{periods.steady_speed - margin, periods.steady_speed + margin};
+}
+
+// Where the speed enters the band for good.
+void find_run_up(const SpeedSeries& speed, std::size_t last, const Band& band, Periods& periods) {
+  if (!band.contains(speed.at(last))) return;
   std::size_t first = last;
-  while (first > 0 && std::abs(speed.at(first - 1) / final - 1) <= near_steady) --first;
-  if (first > 0) periods.run_up_end = speed.passing(first, speed.at(first - 1) < final ? final * (1 - near_steady) : final * (1 + near_steady));
+  while (first > 0 && band.contains(speed.at(first - 1))) --first;
+  if (first == 0) return;  // began in steady motion
+  const Passing entry = speed.passing(first, speed.at(first - 1) < band.low ? band.low : band.high);
+  periods.run_up_end = entry.t;
+  periods.run_up_resolution = entry.resolution;
 }
 
 }  // namespace
@@ -79,10 +109,11 @@ Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles,
   Periods periods;
   periods.run_down_begin = last_switch_off(model, outcome);
   const std::optional<SpeedSeries> speed = speed_series(model, trajectory);
-  if (cycles.size() >= 2) {
-    from_cycles(cycles, periods);
-  } else if (speed) {
-    from_speed(*speed, periods.run_down_begin.value_or(outcome.t), periods);
+  if (speed) {
+    std::size_t last = 0;
+    while (last + 1 < speed->rows() && speed->time(last + 1) <= periods.run_down_begin.value_or(outcome.t)) ++last;
+    const std::optional<Band> band = cycles.size() >= 2 ? band_of_cycles(cycles, periods) : band_of_speed(*speed, last, periods);
+    if (band && periods.steady) find_run_up(*speed, last, *band, periods);
   }
   if (!periods.run_down_begin || !speed) return periods;
   // The event is exact; a machine without dry friction only comes near rest.
@@ -94,6 +125,7 @@ Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles,
   for (std::size_t row = 1; row < speed->rows(); ++row)
     if (speed->time(row) > *periods.run_down_begin && std::abs(speed->at(row)) < at_rest * std::max(std::abs(periods.steady_speed), at_rest * model.speed_scale)) {
       periods.standstill = speed->time(row);
+      periods.standstill_resolution = speed->time(row) - speed->time(row - 1);
       break;
     }
   return periods;

@@ -11,6 +11,8 @@
 
 namespace kurbel {
 
+class TraceRecorder;
+
 struct Figure {
   std::string name;             // dotted and stable: "peak_torque.main_coupling"
   double value = 0;             // SI
@@ -18,6 +20,7 @@ struct Figure {
   std::optional<double> error;  // measured: difference to a run with tolerances 30 × looser
   std::optional<double> at;     // time it belongs to [s]
   double scale = 0;             // rated quantity that the error is judged by; 0: the error is not judged
+  double resolution = 0;        // part of the error that both runs share: what sampling leaves open
 };
 
 struct ComponentState {
@@ -27,9 +30,10 @@ struct ComponentState {
 
 // Run-up, steady motion and run-down of the reduction link; times in s.
 struct Periods {
-  std::optional<double> run_up_end;      // from here on within 1 % of the steady speed
+  std::optional<double> run_up_end;      // from here on within the range of the steady cycle, ± 1 %
   std::optional<double> run_down_begin;  // the last source went off
   std::optional<double> standstill;      // came to rest
+  double run_up_resolution = 0, standstill_resolution = 0;  // what the samples leave open [s]
   double steady_speed = 0;               // [rad/s]
   bool steady = false;                   // the last two cycles agree to 0.1 %
 };
@@ -65,6 +69,7 @@ struct Result {
   double cpu_total = 0;       // of all runs, errors included [s]
   std::vector<std::string> notes;
   std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
+  std::shared_ptr<const TraceRecorder> traces;           // for plots; null unless asked for
   std::shared_ptr<const Model> model;
 
   const Figure* find(const std::string& name) const;

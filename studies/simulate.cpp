@@ -43,7 +43,11 @@ class Figures {
 
  private:
   void add(const std::string& name, double value, const std::string& unit, double scale, std::optional<double> time = {}) {
-    run_.figures.push_back({name, value, unit, {}, time, scale});
+    run_.figures.push_back({name, value, unit, {}, time, scale, 0});
+  }
+  void add_sampled(const std::string& name, double value, double resolution) {
+    add(name, value, "s", run_.outcome.t);
+    run_.figures.back().resolution = resolution;
   }
   std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
 
@@ -93,10 +97,10 @@ class Figures {
     }
   }
   void collect_periods() {
-    if (run_.periods.run_up_end) add("run_up_time", *run_.periods.run_up_end, "s", run_.outcome.t);
+    if (run_.periods.run_up_end) add_sampled("run_up_time", *run_.periods.run_up_end, run_.periods.run_up_resolution);
     if (run_.periods.steady_speed != 0) add("steady_speed." + link(), run_.periods.steady_speed, "rad/s", model_.speed_scale);
     if (run_.periods.run_down_begin && run_.periods.standstill)
-      add("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin, "s", run_.outcome.t);
+      add_sampled("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin, run_.periods.standstill_resolution);
   }
   void collect_work() {
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
@@ -175,8 +179,9 @@ class Simulation {
     for (Figure& figure : fine.figures) {
       const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(), [&](const Figure& f) { return f.name == figure.name; });
       if (other == coarse.figures.end()) continue;
-      figure.error = std::abs(figure.value - other->value);
-      if (figure.scale > 0) worst = std::max(worst, *figure.error / figure.scale);
+      const double difference = std::abs(figure.value - other->value);
+      if (figure.scale > 0) worst = std::max(worst, difference / figure.scale);
+      figure.error = difference + figure.resolution;
     }
     return worst;
   }
@@ -259,7 +264,7 @@ Result simulate(const Scene& scene, const Effects& effects, const std::string& l
 
 std::vector<Figure> figure_list(const Model& model) {
   std::vector<Figure> list;
-  const auto add = [&](const std::string& name, const std::string& unit) { list.push_back({name, 0, unit, {}, {}, 0}); };
+  const auto add = [&](const std::string& name, const std::string& unit) { list.push_back({name, 0, unit, {}, {}, 0, 0}); };
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
   for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
   for (const TorqueJoint& joint : model.torque_joints) {
