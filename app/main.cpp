@@ -6,13 +6,17 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
+#include "app/scene_commands.h"
+#include "app/terminal.h"
 #include "engine/units.h"
 #include "studies/compare.h"
 #include "studies/kinds.h"
 #include "studies/output.h"
+#include "studies/schema.h"
 #include "studies/simulate.h"
 
 namespace {
@@ -26,10 +30,11 @@ extern "C" void on_interrupt(int) {
 }
 
 struct Arguments {
+  std::string kind, file;
   std::string scene, effects, against, out, method;
   std::optional<double> accuracy;
   std::string until;
-  bool json = false, no_error = false, explain = false, quiet = false, no_files = false;
+  bool json = false, no_error = false, explain = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
 };
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
@@ -57,7 +62,9 @@ class Progress {
 kurbel::SimulateOptions simulate_options(const Arguments& arguments, Progress& progress) {
   kurbel::SimulateOptions options;
   options.measure_error = !arguments.no_error;
+  options.traces = !arguments.no_files;
   options.interrupted = &interrupted;
+  options.log = kurbel::app::make_log(arguments.verbose);
   options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
   if (!arguments.method.empty()) options.method = arguments.method;
   if (arguments.accuracy) {
@@ -97,16 +104,38 @@ void check_arguments(const Arguments& arguments, const kurbel::Scene& scene) {
     throw std::invalid_argument(fmt::format("--out {}: no permission to write in {}; give another folder, or --no-files", folder, existing.string()));
 }
 
+// A browser, where the desktop has one.
+void open_in_browser(const std::string& path) {
+  const bool desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+  setenv("KURBEL_REPORT", path.c_str(), 1);  // so that no path is read as a command
+  if (!desktop || std::system("command -v xdg-open > /dev/null && xdg-open \"$KURBEL_REPORT\" > /dev/null 2>&1 &") != 0)
+    fmt::print(stderr, "kurbel: no browser to open here; the report is {}\n", path);
+}
+
 template <class AnyResult>
 void show(const AnyResult& result, const Arguments& arguments) {
   if (arguments.json) {
     fmt::print("{}\n", kurbel::json_of(result));
+  } else if (arguments.quiet) {
+    fmt::print("{}\n", kurbel::app::conclusion_of(result));
   } else {
-    fmt::print("{}", kurbel::table_of(result));
+    const std::string table = kurbel::table_of(result);
+    fmt::print("{}", kurbel::app::wants_colour(STDOUT_FILENO) ? kurbel::app::coloured(table, kurbel::app::conclusion_of(result)) : table);
   }
   if (arguments.no_files) return;
-  kurbel::write_results(result, folder_of(arguments));
-  if (!arguments.json && !arguments.quiet) fmt::print("results: {}\n", (std::filesystem::path(folder_of(arguments)) / "summary.json").string());
+  const std::filesystem::path folder = folder_of(arguments);
+  kurbel::write_results(result, folder.string(), arguments.plots);
+  if (!arguments.json && !arguments.quiet) {
+    fmt::print("results: {}\n", (folder / "summary.json").string());
+    if (arguments.plots) fmt::print("plots for gnuplot: {}\n", (folder / "plots").string());
+    fmt::print("report: {}\n", (folder / "report.html").string());
+  }
+  if (arguments.open) open_in_browser((folder / "report.html").string());
+}
+
+void log_scene(const kurbel::Scene& scene, const Arguments& arguments) {
+  if (const auto log = kurbel::app::make_log(arguments.verbose))
+    log(fmt::format("read {}: {} components on {} line{}, effects: {}", scene.file, scene.components.size(), scene.lines.size(), scene.lines.size() == 1 ? "" : "s", scene.effects.describe()));
 }
 
 int end_of_run(bool complete, const std::string& diagnosis) {
@@ -117,6 +146,7 @@ int end_of_run(bool complete, const std::string& diagnosis) {
 
 int run(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
+  log_scene(scene, arguments);
   const kurbel::Effects effects = arguments.effects.empty() ? scene.effects : kurbel::parse_effects(arguments.effects, scene);
   const auto model = kurbel::compile(scene, effects);
   if (arguments.explain) {
@@ -134,6 +164,7 @@ int run(const Arguments& arguments) {
 // Rigid against the scene's own effects; a scene without any is compared with all of its elasticity.
 int compare(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
+  log_scene(scene, arguments);
   kurbel::Effects full = arguments.effects.empty() ? scene.effects : kurbel::parse_effects(arguments.effects, scene);
   check_arguments(arguments, scene);
   if (arguments.effects.empty() && full.describe() == "none") full.all_elastic = true;
@@ -152,7 +183,7 @@ int compare(const Arguments& arguments) {
 int check(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
   const auto model = kurbel::compile(scene, scene.effects);
-  fmt::print("{}: sound; {} components, {} coordinates with effects: {}\n", arguments.scene, scene.components.size(), model->free_shafts + model->twist_count(), scene.effects.describe());
+  fmt::print("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", arguments.scene, scene.components.size(), scene.components.size() == 1 ? "" : "s", model->free_shafts + model->twist_count(), model->free_shafts + model->twist_count() == 1 ? "" : "s", scene.effects.describe());
   return 0;
 }
 
@@ -170,11 +201,28 @@ void add_run_options(CLI::App* command, Arguments& arguments) {
   command->add_option("--accuracy", arguments.accuracy, "measured error of every figure over its scale (overrides the scene)");
   command->add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
   command->add_option("--method", arguments.method, "auto, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
-  command->add_option("--out", arguments.out, "folder for summary.json and trajectory.csv (default: results/SCENE)");
+  command->add_option("--out", arguments.out, "folder for report.html, summary.json and trajectory.csv (default: results/SCENE)");
   command->add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
   command->add_flag("--no-files", arguments.no_files, "print only");
+  command->add_flag("--open", arguments.open, "open the report in a browser");
+  command->add_flag("--plots", arguments.plots, "write the plots for gnuplot too, and as SVG where it is installed");
   command->add_flag("--json", arguments.json, "print the summary as JSON");
-  command->add_flag("--quiet", arguments.quiet, "no progress line");
+  command->add_flag("--quiet", arguments.quiet, "print only the conclusion in one line, and no progress");
+  command->add_flag("--verbose", arguments.verbose, "say on stderr what is read, compiled, chosen and run");
+}
+
+// " — did you mean "--quiet"?" for the first option that the command does not know.
+std::string option_meant(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
+    const auto near = kurbel::nearest(word, names);
+    return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+  }
+  return "";
 }
 
 // CLI11 says little about a mistyped command.
@@ -185,8 +233,12 @@ int refuse_command(const CLI::App& app, const CLI::ParseError& error, int argc, 
     const auto near = kurbel::nearest(argv[1], names);
     fmt::print(stderr, "kurbel: unknown command \"{}\"{}; allowed: {}. See kurbel --help\n", argv[1],
                near ? fmt::format(" — did you mean \"{}\"?", *near) : "", kurbel::listed(names));
+  } else if (argc == 1) {
+    fmt::print(stderr, "kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n", kurbel::listed(names));
   } else {
-    fmt::print(stderr, "kurbel: {}. See kurbel --help\n", error.what());
+    std::string meant;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && argv[1][0] != '-') meant = option_meant(*app.get_subcommand(argv[1]), argc, argv);
+    fmt::print(stderr, "kurbel: {}{} See kurbel{} --help\n", error.what(), meant.empty() ? "." : meant, argv[1][0] == '-' ? "" : fmt::format(" {}", argv[1]));
   }
   return exit_user_error;
 }
@@ -195,6 +247,7 @@ int refuse_command(const CLI::App& app, const CLI::ParseError& error, int argc, 
 
 int main(int argc, char** argv) {
   CLI::App app{"kurbel — dynamics of machine units: is the rigid model good enough, and if not, how far is it off?\n"
+               "begin with: kurbel new press\n"
                "exit codes: 0 done, 2 the input is wrong, 3 a run failed, 130 interrupted"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "kurbel 0.1.0");
@@ -213,8 +266,14 @@ int main(int argc, char** argv) {
   compare_command->add_option("--against", arguments.against, "effects of the first model (default: none)");
   add_scene(add("check", "validate a scene", check), arguments);
   add_scene(add("figures", "list the figures that runs of a scene yield", figures), arguments);
-  add("keys", "print the table of all keys of a scene (Markdown)", [](const Arguments&) {
-    fmt::print("{}", kurbel::keys_in_markdown());
+  CLI::App* new_command = add("new", "write a commented scene to start from: press, pump, engine, compressor or chain",
+                              [](const Arguments& a) { return kurbel::app::new_scene(a.kind, a.file); });
+  new_command->add_option("kind", arguments.kind, "press, pump, engine, compressor or chain");
+  new_command->add_option("file", arguments.file, "file to write (default: KIND.toml); one that exists is never overwritten");
+  add("keys", "print the keys of one kind, or of a whole scene (Markdown)", [](const Arguments& a) { return kurbel::app::print_keys(a.kind); })
+      ->add_option("kind", arguments.kind, "e.g. coupling, \"induction motor\", run (default: all)");
+  add("schema", "print the JSON Schema of a scene, for editors", [](const Arguments&) {
+    fmt::print("{}", kurbel::scene_schema());
     return 0;
   });
   std::signal(SIGINT, on_interrupt);

@@ -164,10 +164,19 @@ class Loop {
         if (guard_[i] < fired_below) below.push_back(i);
       if (below.empty()) return fired;
       const double t0 = stepper_->t_previous(), t1 = stepper_->t();
-      // The mode was wrong from the step's begin: nothing to find, take the whole step back.
+      // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was wrong
+      // from the step's begin: nothing to find, take the whole step back.
       fired.clear();
-      for (const std::size_t i : below)
-        if (guard_before_[i] <= 0) fired.push_back(i);
+      std::vector<double> from(below.size(), t0), value(below.size());
+      for (std::size_t k = 0; k < below.size(); ++k) {
+        value[k] = guard_before_[below[k]];
+        for (const double part : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6}) {
+          if (value[k] > 0) break;
+          from[k] = t0 + part * (t1 - t0);
+          value[k] = guard_at(from[k], below[k]);
+        }
+        if (value[k] <= 0) fired.push_back(below[k]);
+      }
       if (!fired.empty()) {
         at_begin_ = true;
         return fired;
@@ -176,7 +185,7 @@ class Loop {
       std::vector<double> root(below.size());
       for (std::size_t k = 0; k < below.size(); ++k) {
         const std::size_t i = below[k];
-        root[k] = find_root([&](double t) { return guard_at(t, i); }, t0, guard_before_[i], t1, guard_[i], 1e-14);
+        root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], t1, guard_[i], 1e-14);
         first = std::min(first, root[k]);
       }
       for (std::size_t k = 0; k < below.size(); ++k)

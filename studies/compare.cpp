@@ -78,7 +78,7 @@ void conclude(Comparison& c) {
   }
   for (const ComparisonRow& row : c.rows)
     if (row.name.starts_with("delta.") && row.ratio)
-      c.conclusion += fmt::format("{}δ changes by {:+.2g} %", c.conclusion.empty() ? "" : "; ", 100 * (*row.ratio - 1));
+      c.conclusion += (c.conclusion.empty() ? "" : "; ") + (*row.ratio > 2 ? fmt::format("δ is {:.3g} × as great", *row.ratio) : fmt::format("δ changes by {:+.2g} %", 100 * (*row.ratio - 1)));
   if (c.conclusion.empty()) c.conclusion = "The two models have no torque or cycle in common to compare";
   c.conclusion += fmt::format("; it costs {:.3g} × the time.", c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
 }

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "drivetrain/kinds.h"
 #include "engine/scene.h"
 #include "engine/units.h"
@@ -49,7 +52,80 @@ std::string chapter(const Kind& kind, const char* level) {
   return text;
 }
 
+// Columns a terminal needs for a text: UTF-8 continuation bytes take none.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+// Columns below each other.
+std::string aligned(const std::vector<Key>& keys) {
+  std::vector<std::vector<std::string>> cells = {{"key", "unit or values", "default", "domain", "meaning"}};
+  for (const Key& key : keys) cells.push_back({key.name, type_of(key), key.required ? "required" : key.fallback.empty() ? "—" : key.fallback, domain_of(key), key.doc});
+  constexpr std::size_t widest = 30;
+  std::vector<std::size_t> widths(4, 0);
+  for (const auto& row : cells)
+    for (std::size_t k = 0; k < 4; ++k) widths[k] = std::max(widths[k], std::min(width(row[k]), widest));
+  std::string text;
+  for (const auto& row : cells) {
+    std::string line = "  ";
+    std::size_t begin = 2;
+    for (std::size_t k = 0; k < 5; ++k) {
+      if (width(line) > begin) {  // a long list of values has the line for itself
+        text += line + "\n";
+        line.clear();
+      }
+      line += std::string(begin - width(line), ' ') + row[k];
+      if (k == 4) break;
+      begin += widths[k] + 2;
+    }
+    while (line.ends_with(' ')) line.pop_back();
+    text += line + "\n";
+  }
+  return text;
+}
+
+void add_kinds(const std::vector<Kind>& kinds, std::vector<const Kind*>& list) {
+  for (const Kind& kind : kinds) list.push_back(&kind);
+  for (const Kind& kind : kinds)
+    for (const Key& key : kind.keys)
+      if (key.nested) add_kinds(*key.nested, list);
+}
+
+// Components first, then what stands inside them.
+std::vector<const Kind*> kinds_with_nested() {
+  std::vector<const Kind*> list;
+  add_kinds(all_kinds(), list);
+  return list;
+}
+
 }  // namespace
+
+std::vector<std::string> names_of_keys() {
+  std::vector<std::string> names;
+  for (const Kind* kind : kinds_with_nested()) names.push_back(kind->name);
+  names.push_back("run");
+  return names;
+}
+
+std::string keys_of(const std::string& name) {
+  if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
+  std::string text;
+  for (const Kind* kind : kinds_with_nested()) {
+    if (kind->name != name) continue;
+    const bool nested = kind->placement == Placement::nested;
+    text += fmt::format("{}{} — {}.{}{}\n\n", text.empty() ? "" : "\n", kind->name, kind->doc, kind->elastic ? " Its elasticity is an effect." : "",
+                        nested ? " Stands inside a component." : kind->placement == Placement::inline_two ? " Two shafts: .in and .out." : "");
+    text += aligned(kind->keys);
+    for (const Key& key : kind->keys)
+      if (key.nested) {
+        std::vector<std::string> names;
+        for (const Kind& inner : *key.nested) names.push_back(inner.name);
+        text += fmt::format("\n  {}: tables of kind {}; see kurbel keys {}\n", key.name, listed(names), names.front());
+      }
+  }
+  if (text.empty()) throw std::invalid_argument(fmt::format("no kind {}", in_quotes(name)));
+  return text;
+}
 
 const std::vector<Kind>& all_kinds() {
   static const std::vector<Kind> kinds = [] {

@@ -1,4 +1,4 @@
-// output.cpp — tables, JSON, CSV.
+// output.cpp — tables, JSON, CSV, reports.
 #include "studies/output.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/units.h"
+#include "studies/report/run_report.h"
 
 namespace kurbel {
 namespace {
@@ -171,6 +172,11 @@ void make_folder(const std::string& folder) {
   if (status) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder, status.message()));
 }
 
+void write_report(const Report& report, const std::string& folder, bool plots) {
+  write_html(report, (std::filesystem::path(folder) / "report.html").string());
+  if (plots) write_gnuplot(report, (std::filesystem::path(folder) / "plots").string());
+}
+
 }  // namespace
 
 std::string table_of(const Result& r) {
@@ -195,17 +201,19 @@ std::string table_of(const Comparison& c) {
 std::string json_of(const Result& r) { return result_json(r).dump(2); }
 std::string json_of(const Comparison& c) { return comparison_json(c).dump(2); }
 
-void write_results(const Result& r, const std::string& folder) {
+void write_results(const Result& r, const std::string& folder, bool plots) {
   make_folder(folder);
   if (r.trajectory) write_whole(std::filesystem::path(folder) / "trajectory.csv", csv_of(r));
   write_whole(std::filesystem::path(folder) / "summary.json", json_of(r) + "\n");
+  write_report(report_of(r), folder, plots);
 }
 
-void write_results(const Comparison& c, const std::string& folder) {
+void write_results(const Comparison& c, const std::string& folder, bool plots) {
   make_folder(folder);
   for (const Result* r : {&c.a, &c.b})
     if (r->trajectory) write_whole(std::filesystem::path(folder) / ("trajectory." + r->label + ".csv"), csv_of(*r));
   write_whole(std::filesystem::path(folder) / "summary.json", json_of(c) + "\n");
+  write_report(report_of(c), folder, plots);
 }
 
 }  // namespace kurbel

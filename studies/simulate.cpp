@@ -8,6 +8,7 @@
 
 #include "studies/multibody.h"
 #include "studies/periods.h"
+#include "studies/report/trace.h"
 
 namespace kurbel {
 namespace {
@@ -129,6 +130,7 @@ class Simulation {
 
   // Tolerances are tightened until two runs agree within the accuracy.
   Result run() {
+    log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label, model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(), settings_.until));
     double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
     result_.runs = 1;
@@ -149,6 +151,8 @@ class Simulation {
       result_.measured_accuracy = measure_errors(*coarse, *fine);
       result_.errors_measured = true;
       result_.accuracy_confirmed = result_.measured_accuracy <= settings_.accuracy;
+      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}; {:.1e} asked for: {}", tolerance * tolerance_step, tolerance, result_.measured_accuracy,
+                      settings_.accuracy, result_.accuracy_confirmed ? "reached" : "go on"));
       if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
     }
     if (result_.errors_measured && !result_.accuracy_confirmed)
@@ -158,6 +162,10 @@ class Simulation {
   }
 
  private:
+  void log(const std::string& text) const {
+    if (options_.log) options_.log(text);
+  }
+
   std::unique_ptr<OneRun> one_run(double tolerance) {
     auto run = std::make_unique<OneRun>();
     run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until, settings_.samples);
@@ -167,9 +175,20 @@ class Simulation {
                        .interrupted = options_.interrupted, .progress = {}};
     if (options_.progress)
       options.progress = [&](double fraction) { options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction); };
-    run->outcome = integrate(equations_, options, {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()});
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()};
+    // Plots need no tighter run than the first, and the runs that are timed stay free of them.
+    if (options_.traces && !result_.traces) {
+      const auto traces = std::make_shared<TraceRecorder>(*model_);
+      observers.push_back(traces.get());
+      result_.traces = traces;
+    }
+    run->outcome = integrate(equations_, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     if (!run->outcome.state.empty()) Figures(*model_, equations_, *run).collect();
+    const RunStatistics& s = run->outcome.statistics;
+    log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance, s.stepper.steps, s.stepper.rejected, s.events,
+                    1e3 * s.cpu_seconds, run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
+    if (result_.runs == 0) log(fmt::format("  chosen because: {}", s.reason));
     return run;
   }
 

@@ -17,14 +17,22 @@ namespace {
 
 const char* colour_of(Role role) {
   switch (role) {
-    case Role::rigid: return "#7f7f7f";
-    case Role::elastic: return "#0072b2";
-    case Role::reference: return "#404040";
-    case Role::orange: return "#e69f00";
-    case Role::green: return "#009e73";
-    case Role::vermillion: return "#d55e00";
-    case Role::purple: return "#cc79a7";
-    case Role::sky: return "#56b4e9";
+    case Role::rigid:
+      return "#7f7f7f";
+    case Role::elastic:
+      return "#0072b2";
+    case Role::reference:
+      return "#404040";
+    case Role::orange:
+      return "#e69f00";
+    case Role::green:
+      return "#009e73";
+    case Role::vermillion:
+      return "#d55e00";
+    case Role::purple:
+      return "#cc79a7";
+    case Role::sky:
+      return "#56b4e9";
   }
   return "#000000";
 }
@@ -33,8 +41,10 @@ const char* colour_of(Role role) {
 std::string slug(const std::string& title) {
   std::string name;
   for (const char c : title)
-    if (std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 0x80) name += static_cast<char>(std::tolower(c));
-    else if (!name.empty() && name.back() != '_') name += '_';
+    if (std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 0x80)
+      name += static_cast<char>(std::tolower(c));
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
   while (!name.empty() && name.back() == '_') name.pop_back();
   return name.empty() ? "plot" : name.substr(0, 60);
 }
@@ -46,7 +56,9 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string label(const Axis& axis) { return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit); }
+std::string label(const Axis& axis) {
+  return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
+}
 
 void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
@@ -69,7 +81,8 @@ std::string data_of(const Plot& plot) {
 
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
-      "# gnuplot {0}.gp → {0}.svg\nset terminal svg size 900,480 noenhanced font 'sans,14' background 'white'\nset output '{0}.svg'\n"
+      "# gnuplot {0}.gp → {0}.svg\nset terminal svg size 900,480 noenhanced font 'sans,14' background 'white'\nset "
+      "output '{0}.svg'\n"
       "set title {1}\nset xlabel {2}\nset ylabel {3}\nset grid lc rgb '#dddddd'\nset key outside below horizontal\n",
       name, quoted(plot.title), quoted(label(plot.x)), quoted(label(plot.y)));
   if (plot.x.logarithmic) text += "set logscale x\n";
@@ -77,7 +90,8 @@ std::string script_of(const Plot& plot, const std::string& name) {
   text += "plot ";
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
-    text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i, s.points ? "linespoints pt 7 ps 0.5" : "lines",
+    text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i,
+                        s.points ? "linespoints pt 7 ps 0.5" : "lines",
                         s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role), quoted(s.name));
   }
   return text + "\n";
@@ -100,7 +114,8 @@ int write_gnuplot(const Report& report, const std::string& folder) {
       write(base.string() + ".gp", script_of(*plot, name));
       // The folder goes by the environment, so that no name is read as a command.
       setenv("KURBEL_PLOTS", folder.c_str(), 1);
-      const std::string command = fmt::format("cd \"$KURBEL_PLOTS\" && command -v gnuplot > /dev/null && gnuplot {}.gp > /dev/null 2>&1", name);
+      const std::string command =
+          fmt::format("cd \"$KURBEL_PLOTS\" && command -v gnuplot > /dev/null && gnuplot {}.gp > /dev/null 2>&1", name);
       if (std::system(command.c_str()) == 0) ++drawn;
     }
   return drawn;

@@ -13,7 +13,9 @@ namespace {
 constexpr double frames_per_turn = 40;
 constexpr int fewest_frames = 400, most_frames = 3000;
 constexpr double turns_shown = most_frames / frames_per_turn;
-constexpr double shown_twist = 0.7;  // of the largest one after enlargement [rad]
+constexpr std::size_t most_parts = 60;
+constexpr std::ptrdiff_t ends_shown = 7;
+constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -51,28 +53,48 @@ void add_parts(MachineView& view, const Model& model) {
     const Network::Ports& ports = model.network.ports.at(name);
     part.ratio_in = model.node_ratio[at(ports.in)];
     part.ratio_out = model.node_ratio[at(ports.out)];
-    for (const ElasticJoint& joint : model.elastic) part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
+    for (const ElasticJoint& joint : model.elastic)
+      part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
     view.parts.push_back(std::move(part));
   };
   if (model.scene.lines.empty())
     for (const std::string& name : model.network.components) add(name, 0);
   for (std::size_t row = 0; row < model.scene.lines.size(); ++row)
     for (const std::string& name : model.scene.lines[row].names) add(name, static_cast<int>(row));
+  // Of a long machine both ends.
+  if (view.parts.size() > most_parts) {
+    view.parts.erase(view.parts.begin() + ends_shown, view.parts.end() - ends_shown);
+    view.parts.insert(view.parts.begin() + ends_shown,
+                      MachineView::Part{.name = "…", .kind = "gap", .row = view.parts.front().row});
+  }
 }
 
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
   const Model& model = *r.model;
   const TraceRecorder& traces = *r.traces;
-  MachineView::Motion motion{.label = r.label, .role = role, .angle = sampled(traces.find("angle"), view.time), .twist_in = {}, .twist_out = {}, .torque = {}, .force = {}};
+  MachineView::Motion motion{.label = r.label,
+                             .role = role,
+                             .angle = sampled(traces.find("angle"), view.time),
+                             .twist_in = {},
+                             .twist_out = {},
+                             .torque = {},
+                             .force = {}};
   bool any_twist = false;
   for (const MachineView::Part& part : view.parts) {
+    if (part.kind == "gap") {
+      for (auto* lists : {&motion.twist_in, &motion.twist_out, &motion.torque}) lists->emplace_back();
+      continue;
+    }
     const Network::Ports& ports = model.network.ports.at(part.name);
     motion.twist_in.push_back(sampled(traces.find(TraceRecorder::node_key(ports.in)), view.time));
-    motion.twist_out.push_back(ports.in == ports.out ? motion.twist_in.back() : sampled(traces.find(TraceRecorder::node_key(ports.out)), view.time));
+    motion.twist_out.push_back(ports.in == ports.out
+                                   ? motion.twist_in.back()
+                                   : sampled(traces.find(TraceRecorder::node_key(ports.out)), view.time));
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
     for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
       for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
-    if (part.kind == "slider-crank" && motion.force.empty()) motion.force = sampled(traces.find("force." + part.name), view.time);
+    if (part.kind == "slider-crank" && motion.force.empty())
+      motion.force = sampled(traces.find("force." + part.name), view.time);
   }
   if (!any_twist || model.elastic.empty()) motion.twist_in.clear(), motion.twist_out.clear();
   return motion;
@@ -89,7 +111,8 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
-    if (const auto* crank = dynamic_cast<const SliderCrankMaker*>(model.network.elements[at(model.reduction_element)].element.get())) {
+    if (const auto* crank =
+            dynamic_cast<const SliderCrankMaker*>(model.network.elements[at(model.reduction_element)].element.get())) {
       const SliderCrankData& d = crank->crank().data;
       view.slider_crank = {d.radius, d.rod_length, d.offset, d.stroke_angle};
     }
@@ -100,10 +123,13 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   const double turns = std::abs(value_at(angle, end) - angle.y.front()) / (2 * std::numbers::pi);
   double begin = angle.x.front();
   if (turns > turns_shown)
-    for (std::size_t i = 0; i < angle.x.size() && std::abs(value_at(angle, end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i) begin = angle.x[i];
+    for (std::size_t i = 0;
+         i < angle.x.size() && std::abs(value_at(angle, end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i)
+      begin = angle.x[i];
   const int frames = std::clamp(static_cast<int>(frames_per_turn * turns), fewest_frames, most_frames);
   for (int i = 0; i < frames; ++i) view.time.push_back(begin + (end - begin) * i / (frames - 1));
-  for (const Result* r : results) view.motions.push_back(motion_of(*r, view, r->model->elastic.empty() ? Role::rigid : Role::elastic));
+  for (const Result* r : results)
+    view.motions.push_back(motion_of(*r, view, r->model->elastic.empty() ? Role::rigid : Role::elastic));
   double largest = 0;
   for (const MachineView::Motion& motion : view.motions)
     for (const auto* side : {&motion.twist_in, &motion.twist_out})

@@ -19,14 +19,22 @@ namespace {
 
 const char* name_of(Role role) {
   switch (role) {
-    case Role::rigid: return "rigid";
-    case Role::elastic: return "elastic";
-    case Role::reference: return "reference";
-    case Role::orange: return "orange";
-    case Role::green: return "green";
-    case Role::vermillion: return "vermillion";
-    case Role::purple: return "purple";
-    case Role::sky: return "sky";
+    case Role::rigid:
+      return "rigid";
+    case Role::elastic:
+      return "elastic";
+    case Role::reference:
+      return "reference";
+    case Role::orange:
+      return "orange";
+    case Role::green:
+      return "green";
+    case Role::vermillion:
+      return "vermillion";
+    case Role::purple:
+      return "purple";
+    case Role::sky:
+      return "sky";
   }
   return "elastic";
 }
@@ -86,7 +94,9 @@ class Writer {
   }
 
  private:
-  static std::string number(double v, int digits) { return std::isfinite(v) ? fmt::format("{:.{}g}", v, digits) : "null"; }
+  static std::string number(double v, int digits) {
+    return std::isfinite(v) ? fmt::format("{:.{}g}", v, digits) : "null";
+  }
   void put(const std::string& s) {
     comma();
     text += s;
@@ -218,7 +228,8 @@ std::string json_of(const Report& report) {
     w.list(report.figures, [&](const KeyFigure& figure) {
       w.object([&] {
         w.field("name", figure.name);
-        w.field("value", rounded(figure.value, figure.error));
+        w.field("value", figure.digits > 0 ? fmt::format("{:.{}g}", figure.value, figure.digits)
+                                           : rounded(figure.value, figure.error));
         w.field("unit", pretty_unit(figure.unit));
         w.field("error", error_text(figure.error));
         w.field("note", figure.note);
@@ -229,7 +240,8 @@ std::string json_of(const Report& report) {
       w.object([&] {
         w.field("title", section.title);
         w.key("cards");
-        w.list(section.cards, [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
+        w.list(section.cards,
+               [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
       });
     });
   });
@@ -239,11 +251,20 @@ std::string json_of(const Report& report) {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -283,7 +304,8 @@ std::string json_string(const std::string& text) {
 std::string rounded(double value, const std::optional<double>& error) {
   if (!std::isfinite(value)) return "—";
   int digits = 6;
-  if (error && *error > 0 && value != 0) digits = std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / *error))) + 1, 3, 7);
+  if (error && *error > 0 && value != 0)
+    digits = std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / *error))) + 1, 3, 7);
   return fmt::format("{:.{}g}", value, digits);
 }
 
@@ -317,14 +339,22 @@ std::string html_of(const Report& report) {
     const std::size_t close = page.find("}}", open);
     const std::string_view name = page.substr(open + 2, close - open - 2);
     html += page.substr(at, open - at);
-    if (name == "title") html += escaped(report.title);
-    else if (name == "conclusion") html += escaped(report.conclusion);
-    else if (name == "css") html += report_assets::page_css();
-    else if (name == "js") html += report_assets::page_js();
-    else if (name == "plotly") html += report_assets::plotly_js();
-    else if (name == "licence") html += escaped(report_assets::plotly_licence());
-    else if (name == "data") html += json;
-    else throw std::logic_error(fmt::format("the report's template has no \"{}\"", name));
+    if (name == "title")
+      html += escaped(report.title);
+    else if (name == "conclusion")
+      html += escaped(report.conclusion);
+    else if (name == "css")
+      html += report_assets::page_css();
+    else if (name == "js")
+      html += report_assets::page_js();
+    else if (name == "plotly")
+      html += report_assets::plotly_js();
+    else if (name == "licence")
+      html += escaped(report_assets::plotly_licence());
+    else if (name == "data")
+      html += json;
+    else
+      throw std::logic_error(fmt::format("the report's template has no \"{}\"", name));
     at = close + 2;
   }
   html += page.substr(at);

@@ -22,9 +22,10 @@ Role further_role(std::size_t i);  // colours for a list of like things
 struct KeyFigure {
   std::string name;
   double value = 0;
-  std::string unit = {};                // SI, as in a scene: "N*m"
+  std::string unit = {};  // SI, as in a scene: "N*m"
   std::optional<double> error = {};
   std::string note = {};
+  int digits = 0;  // significant ones; 0: by the error
 };
 
 struct Axis {
@@ -36,8 +37,8 @@ struct Series {
   std::string name;
   Role role = Role::elastic;
   std::vector<double> x, y;
-  bool dashed = false;   // references
-  bool points = false;   // markers beside the line
+  bool dashed = false;  // references
+  bool points = false;  // markers beside the line
 };
 
 // Something that happened, on the x-axis.
@@ -76,10 +77,10 @@ struct Text {
 // The moving machine: a shaft line, and a slider-crank to scale.
 struct MachineView {
   struct Part {
-    std::string name, kind;
+    std::string name, kind;              // kind "gap": parts that are left out
     double ratio_in = 1, ratio_out = 1;  // speed over the crank's
     bool elastic = false;
-    int row = 0;                         // 0: the main line
+    int row = 0;  // 0: the main line
   };
   struct SliderCrank {
     double radius = 0, rod = 0, offset = 0;  // [m]
@@ -121,7 +122,7 @@ struct Report {
 };
 
 // Points of a series that a page holds; longer ones are thinned with their peaks kept.
-inline constexpr std::size_t points_per_series = 3000;
+inline constexpr std::size_t points_per_series = 2400;
 
 // The page: styles, scripts and data inlined; it asks the network for nothing, and says so to the browser.
 std::string html_of(const Report& report);

@@ -10,7 +10,6 @@
 
 #include "engine/units.h"
 #include "studies/report/trace.h"
-#include "studies/version.h"
 
 namespace kurbel {
 namespace {
@@ -19,7 +18,9 @@ using Results = std::vector<const Result*>;
 constexpr std::size_t most_torque_plots = 8;
 
 bool drawable(const Results& results) {
-  return std::all_of(results.begin(), results.end(), [](const Result* r) { return r->traces && r->model && !r->traces->find("angle")->x.empty(); });
+  return std::all_of(results.begin(), results.end(), [](const Result* r) {
+    return r->traces && r->model && r->traces->find("angle")->x.size() > 1 && r->traces->find("angle")->x.back() > 0;
+  });
 }
 
 Role role_of(const Result& r, const Results& all) {
@@ -39,7 +40,8 @@ std::string in_words(const std::string& name) {
 }
 
 std::string sure(const Figure& f) {
-  return fmt::format("{}{}{}", rounded(f.value, f.error), f.error ? " " + error_text(f.error) : "", f.unit.empty() ? "" : " " + pretty_unit(f.unit));
+  return fmt::format("{}{}{}", rounded(f.value, f.error), f.error ? " " + error_text(f.error) : "",
+                     f.unit.empty() ? "" : " " + pretty_unit(f.unit));
 }
 
 std::vector<EventMark> marks_of(const Result& r) {
@@ -63,20 +65,24 @@ Series series_of(const Trace& trace, const std::string& name, Role role, double 
 }
 
 // One quantity over time, the models over each other. Nothing if no model has it.
-std::optional<Plot> over_time(const Results& results, const std::string& channel, const std::string& title, const std::string& label) {
+std::optional<Plot> over_time(const Results& results, const std::string& channel, const std::string& title,
+                              const std::string& label) {
   std::vector<const Trace*> traces;
   for (const Result* r : results)
     if (const Trace* trace = r->traces->find(channel)) traces.push_back(trace);
   if (traces.empty()) return {};
   const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit);
-  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .series = {}, .marks = marks_of(*results.back())};
+  Plot plot{
+      .title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .series = {}, .marks = marks_of(*results.back())};
   for (const Result* r : results)
-    if (const Trace* trace = r->traces->find(channel)) plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 1, unit.factor));
+    if (const Trace* trace = r->traces->find(channel))
+      plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 1, unit.factor));
   return plot;
 }
 
 // One quantity over the crank angle in the last whole cycle of each model.
-std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title, const std::string& label) {
+std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title,
+                               const std::string& label) {
   std::vector<std::pair<const Result*, const Trace*>> found;
   for (const Result* r : results) {
     if (r->traces->last_cycles().empty()) continue;
@@ -88,21 +94,24 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   for (const auto& [r, trace] : found) traces.push_back(trace);
   const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit);
   Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}, .series = {}};
-  for (const auto& [r, trace] : found) plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));
+  for (const auto& [r, trace] : found)
+    plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));
   const CycleTraces& last = results.back()->traces->last_cycles().back();
   plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", results.back()->label, last.begin, last.end);
   return plot;
 }
 
-// Component of the speed plot: the crank, and the motor's end of the line reduced to it would only repeat it.
-std::string link_of(const Result& r) { return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component; }
+std::string link_of(const Result& r) {
+  return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
+}
 
 // Couplings by the size of their peak torque in the last model, the largest first.
 std::vector<std::string> couplings(const Result& r) {
   std::vector<std::pair<double, std::string>> sorted;
   for (const TorqueJoint& joint : r.model->torque_joints) {
     const Figure* peak = r.find("peak_torque." + joint.component);
-    if (r.traces->find("torque." + joint.component)) sorted.emplace_back(peak ? -std::abs(peak->value) : 0, joint.component);
+    if (r.traces->find("torque." + joint.component))
+      sorted.emplace_back(peak ? -std::abs(peak->value) : 0, joint.component);
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;
@@ -115,29 +124,45 @@ Plot energy_plot(const Result& r) {
     const char *channel, *name;
     Role role;
   };
-  constexpr Line lines[] = {{"kinetic_energy", "kinetic energy", Role::elastic}, {"stored_energy", "stored in springs", Role::sky},
-                            {"work.driving", "driving work", Role::green},       {"work.useful", "useful work", Role::orange},
-                            {"work.harmful", "harmful work", Role::vermillion},  {"work.weight", "work of weight", Role::purple}};
+  constexpr Line lines[] = {
+      {"kinetic_energy", "kinetic energy", Role::elastic}, {"stored_energy", "stored in springs", Role::sky},
+      {"work.driving", "driving work", Role::green},       {"work.useful", "useful work", Role::orange},
+      {"work.harmful", "harmful work", Role::vermillion},  {"work.weight", "work of weight", Role::purple}};
   std::vector<const Trace*> traces;
   for (const Line& line : lines) traces.push_back(r.traces->find(line.channel));
   const ReadableUnit unit = readable_unit(largest(traces), "J");
-  Plot plot{.title = fmt::format("Where the energy goes, {} model", r.label), .x = {"time", "s"}, .y = {"energy, work since the start", unit.unit}, .series = {}, .marks = marks_of(r)};
+  Plot plot{.title = fmt::format("Where the energy goes, {} model", r.label),
+            .x = {"time", "s"},
+            .y = {"energy, work since the start", unit.unit},
+            .series = {},
+            .marks = marks_of(r)};
   for (std::size_t i = 0; i < traces.size(); ++i)
-    if (largest({traces[i]}) > 0) plot.series.push_back(series_of(*traces[i], lines[i].name, lines[i].role, 1, unit.factor));
-  plot.note = fmt::format("Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.", r.energy.relative);
+    if (largest({traces[i]}) > 0)
+      plot.series.push_back(series_of(*traces[i], lines[i].name, lines[i].role, 1, unit.factor));
+  plot.note = fmt::format(
+      "Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.",
+      r.energy.relative);
   return plot;
 }
 
 // A word that fits the plot's marks, where there are any.
 void note_marks(Plot& plot) {
-  if (!plot.marks.empty() && plot.note.empty()) plot.note = fmt::format("Ticks below: {} event{}; hover to read.", plot.marks.size(), plot.marks.size() == 1 ? "" : "s");
+  if (!plot.marks.empty() && plot.note.empty())
+    plot.note =
+        fmt::format("Ticks below: {} event{}; hover to read.", plot.marks.size(), plot.marks.size() == 1 ? "" : "s");
 }
 
 Table events_table(const Result& r) {
-  Table table{.title = fmt::format("Events, {} model ({})", r.label, r.events.size()), .columns = {"component", "what", "time [s]"}, .rows = {}, .folded = true, .text_columns = 2};
+  Table table{.title = fmt::format("Events, {} model ({})", r.label, r.events.size()),
+              .columns = {"component", "what", "time [s]"},
+              .rows = {},
+              .folded = true,
+              .text_columns = 2};
   constexpr std::size_t most = 500;
-  for (std::size_t i = 0; i < r.events.size() && i < most; ++i) table.rows.push_back({r.events[i].component, r.events[i].what, fmt::format("{:.9g}", r.events[i].t)});
-  if (r.events.size() > most) table.rows.push_back({"…", fmt::format("{} more in summary.json", r.events.size() - most), ""});
+  for (std::size_t i = 0; i < r.events.size() && i < most; ++i)
+    table.rows.push_back({r.events[i].component, r.events[i].what, fmt::format("{:.9g}", r.events[i].t)});
+  if (r.events.size() > most)
+    table.rows.push_back({"…", fmt::format("{} more in summary.json", r.events.size() - most), ""});
   return table;
 }
 
@@ -155,11 +180,15 @@ Table statistics_table(const Results& results) {
   row("rejected steps", [](const Result& r) { return std::to_string(r.statistics.stepper.rejected); });
   row("evaluations of the equations", [](const Result& r) { return std::to_string(r.statistics.stepper.flow_calls); });
   row("events", [](const Result& r) { return std::to_string(r.statistics.events); });
-  row("processor time of a run [ms]", [](const Result& r) { return fmt::format("{:.3g}", 1e3 * r.statistics.cpu_seconds); });
+  row("processor time of a run [ms]",
+      [](const Result& r) { return fmt::format("{:.3g}", 1e3 * r.statistics.cpu_seconds); });
   row("runs", [](const Result& r) { return std::to_string(r.runs); });
   row("accuracy asked for", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
-  row("accuracy measured", [](const Result& r) { return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—"); });
-  row("energy balance closes to", [](const Result& r) { return r.energy.checks ? fmt::format("{:.1e}", r.energy.relative) : std::string("—"); });
+  row("accuracy measured", [](const Result& r) {
+    return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
+  });
+  row("energy balance closes to",
+      [](const Result& r) { return r.energy.checks ? fmt::format("{:.1e}", r.energy.relative) : std::string("—"); });
   return table;
 }
 
@@ -191,8 +220,15 @@ Table energy_table(const Results& results) {
 void add_machine_and_plots(Report& report, const Results& results) {
   if (!drawable(results)) return;
   report.add("").cards.push_back(machine_view(results));
-  ReportSection& plots = report.add("Over time and over the crank's angle");
+  ReportSection& plots =
+      report.add(results.back()->traces->last_cycles().empty() ? "Over time" : "Over time and over the crank's angle");
   for (Plot& plot : motion_plots(results)) plots.cards.push_back(std::move(plot));
+  if (const std::size_t all = couplings(*results.back()).size(); all > most_torque_plots)
+    plots.cards.push_back(Text{
+        .title = "Further couplings",
+        .body = fmt::format(
+            "Torques are plotted for the {} couplings with the largest peaks, of {}; trajectory.csv holds the others.",
+            most_torque_plots, all)});
 }
 
 void add_background(Report& report, const Results& results) {
@@ -202,12 +238,17 @@ void add_background(Report& report, const Results& results) {
   for (const Result* r : results)
     if (!r->events.empty()) audit.cards.push_back(events_table(*r));
   ReportSection& model = report.add("What was on, what was merged, and why");
-  for (const Result* r : results) model.cards.push_back(Text{.title = fmt::format("{} model", r->label), .body = r->explanation, .verbatim = true});
+  for (const Result* r : results)
+    model.cards.push_back(Text{.title = fmt::format("{} model", r->label), .body = r->explanation, .verbatim = true});
   std::string method;
-  for (const Result* r : results) method += fmt::format("{}: {} — {}\n", r->label, r->statistics.method, r->statistics.reason);
+  for (const Result* r : results)
+    method += fmt::format("{}: {} — {}\n", r->label, r->statistics.method, r->statistics.reason);
   model.cards.push_back(Text{.title = "How it was integrated", .body = method, .verbatim = true});
   if (results.back()->model && !results.back()->model->scene.text.empty())
-    report.add("Scene").cards.push_back(Text{.title = results.back()->scene_file, .body = results.back()->model->scene.text, .verbatim = true, .folded = true});
+    report.add("Scene").cards.push_back(Text{.title = results.back()->scene_file,
+                                             .body = results.back()->model->scene.text,
+                                             .verbatim = true,
+                                             .folded = true});
 }
 
 void add_notes(Report& report, const std::vector<std::string>& notes) {
@@ -217,9 +258,13 @@ void add_notes(Report& report, const std::vector<std::string>& notes) {
   report.add("Notes").cards.push_back(Text{.title = "", .body = body});
 }
 
-KeyFigure key_of(const Figure& f, const std::string& note) { return {in_words(f.name), f.value, f.unit, f.error, note}; }
+KeyFigure key_of(const Figure& f, const std::string& note) {
+  return {in_words(f.name), f.value, f.unit, f.error, note};
+}
 
-std::string footer() { return fmt::format("kurbel {} · {} · Plotly.js 3.7.0 (basic)", version, build_description()); }
+std::string footer() {
+  return fmt::format("kurbel {} · g++ {} · Plotly.js 3.7.0 (basic)", KURBEL_VERSION, __VERSION__);
+}
 
 // Largest peak of torque in any coupling.
 const Figure* largest_peak(const Result& r) {
@@ -243,10 +288,12 @@ void add_delta_formula(ReportSection& section, const Results& results) {
     for (const CycleRecord& c : r->cycles)
       if (delta && delta->at && c.end == *delta->at) cycle = &c;
     if (!cycle) continue;
-    section.cards.push_back(Formula{.title = fmt::format("Speed fluctuation, {} model", r->label),
-                                    .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
-                                    .numbers = fmt::format("δ = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", cycle->omega_max, cycle->omega_min, cycle->mean_speed(), sure(*delta)),
-                                    .note = fmt::format("Cycle from {:.5g} to {:.5g} s.", cycle->begin, cycle->end)});
+    section.cards.push_back(
+        Formula{.title = fmt::format("Speed fluctuation, {} model", r->label),
+                .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                .numbers = fmt::format("δ = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", cycle->omega_max,
+                                       cycle->omega_min, cycle->mean_speed(), sure(*delta)),
+                .note = fmt::format("Cycle from {:.5g} to {:.5g} s.", cycle->begin, cycle->end)});
   }
 }
 
@@ -254,11 +301,16 @@ std::string conclusion_of(const Result& r) {
   if (!r.complete) return fmt::format("The run is incomplete: {}", r.diagnosis);
   std::string text;
   if (const Figure* peak = largest_peak(r))
-    text = fmt::format("The torque in {} reaches {}{}", peak->name.substr(std::string("peak_torque.").size()), sure(*peak), peak->at ? fmt::format(" at {:.4g} s", *peak->at) : "");
-  if (const Figure* delta = first_with(r, "delta.")) text += fmt::format("{} speed of {} fluctuates by δ = {}", text.empty() ? "The" : "; the", delta->name.substr(6), sure(*delta));
+    text = fmt::format("The torque in {} reaches {}{}", peak->name.substr(std::string("peak_torque.").size()),
+                       sure(*peak), peak->at ? fmt::format(" at {:.4g} s", *peak->at) : "");
+  if (const Figure* delta = first_with(r, "delta."))
+    text += fmt::format("{} speed of {} fluctuates by δ = {}", text.empty() ? "The" : "; the", delta->name.substr(6),
+                        sure(*delta));
   if (text.empty())
-    if (const Figure* speed = first_with(r, "final_speed.")) text = fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
-  if (r.energy.checks > 0) text += fmt::format("{}he energy balance closes to {:.1e}", text.empty() ? "T" : "; t", r.energy.relative);
+    if (const Figure* speed = first_with(r, "final_speed."))
+      text = fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
+  if (r.energy.checks > 0)
+    text += fmt::format("{}he energy balance closes to {:.1e}", text.empty() ? "T" : "; t", r.energy.relative);
   return text + ".";
 }
 
@@ -274,19 +326,26 @@ std::vector<Plot> motion_plots(const Results& results) {
   };
   const Result& front = *results.back();
   const std::string link = link_of(front);
-  for (const char* end : {"", ".out"}) add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
+  for (const char* end : {"", ".out"})
+    add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
   add(over_angle(results, "speed." + link, fmt::format("Speed of {} over its angle", link), "speed"));
   const std::vector<std::string> joints = couplings(front);
   for (std::size_t i = 0; i < joints.size() && i < most_torque_plots; ++i) {
     add(over_time(results, "torque." + joints[i], fmt::format("Torque in {}", joints[i]), "torque"));
-    add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {} over the crank's angle", joints[i]), "torque"));
+    add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {} over the crank's angle", joints[i]),
+                   "torque"));
   }
   for (const Trace& trace : front.traces->traces()) {
-    if (trace.name.starts_with("position.")) add(over_time(results, trace.name, fmt::format("Position of the slider of {}", trace.name.substr(9)), "position"));
-    if (trace.name.starts_with("velocity.")) add(over_time(results, trace.name, fmt::format("Speed of the slider of {}", trace.name.substr(9)), "slider speed"));
+    if (trace.name.starts_with("position."))
+      add(over_time(results, trace.name, fmt::format("Position of the slider of {}", trace.name.substr(9)),
+                    "position"));
+    if (trace.name.starts_with("velocity."))
+      add(over_time(results, trace.name, fmt::format("Speed of the slider of {}", trace.name.substr(9)),
+                    "slider speed"));
     if (trace.name.starts_with("force.")) {
       add(over_time(results, trace.name, fmt::format("Force on the slider of {}", trace.name.substr(6)), "force"));
-      add(over_angle(results, trace.name, fmt::format("Force on the slider of {} over the crank's angle", trace.name.substr(6)), "force"));
+      add(over_angle(results, trace.name,
+                     fmt::format("Force on the slider of {} over the crank's angle", trace.name.substr(6)), "force"));
     }
   }
   for (const Result* r : results) plots.push_back(energy_plot(*r));
@@ -294,17 +353,31 @@ std::vector<Plot> motion_plots(const Results& results) {
 }
 
 Table figures_table(const Result& r, bool folded) {
-  Table table{.title = fmt::format("All figures, {} model", r.label), .columns = {"figure", "value", "error", "unit", "at [s]"}, .rows = {}, .folded = folded};
-  for (const Figure& f : r.figures) table.rows.push_back({f.name, rounded(f.value, f.error), error_text(f.error), pretty_unit(f.unit), f.at ? fmt::format("{:.6g}", *f.at) : ""});
+  Table table{.title = fmt::format("All figures, {} model", r.label),
+              .columns = {"figure", "value", "error", "unit", "at [s]"},
+              .rows = {},
+              .folded = folded};
+  for (const Figure& f : r.figures)
+    table.rows.push_back({f.name, rounded(f.value, f.error), error_text(f.error), pretty_unit(f.unit),
+                          f.at ? fmt::format("{:.6g}", *f.at) : ""});
   return table;
 }
 
 Report report_of(const Result& r) {
-  Report report{.title = r.title, .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects), .conclusion = conclusion_of(r), .complete = r.complete};
-  if (const Figure* peak = largest_peak(r)) report.figures.push_back(key_of(*peak, peak->at ? fmt::format("at {:.4g} s", *peak->at) : ""));
+  Report report{
+      .title = r.title,
+      .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
+      .conclusion = conclusion_of(r),
+      .complete = r.complete};
+  if (const Figure* peak = largest_peak(r))
+    report.figures.push_back(key_of(*peak, peak->at ? fmt::format("at {:.4g} s", *peak->at) : ""));
   for (const char* prefix : {"delta.", "mean_speed.", "peak_force.", "run_up_time"})
     if (const Figure* f = first_with(r, prefix)) report.figures.push_back(key_of(*f, ""));
-  report.figures.push_back({"coordinates", static_cast<double>(r.coordinates), "", {}, fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds)});
+  report.figures.push_back({"coordinates",
+                            static_cast<double>(r.coordinates),
+                            "",
+                            {},
+                            fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds)});
   add_machine_and_plots(report, {&r});
   ReportSection& figures = report.add("Figures");
   figures.cards.push_back(figures_table(r, false));
@@ -317,32 +390,50 @@ Report report_of(const Result& r) {
 
 Report report_of(const Comparison& c) {
   const Results results = {&c.a, &c.b};
-  Report report{.title = c.title, .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects), .conclusion = c.conclusion,
+  Report report{.title = c.title,
+                .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
+                .conclusion = c.conclusion,
                 .complete = c.a.complete && c.b.complete};
   const auto add_key = [&](const Figure* f) {
     if (!f) return;
     const Figure* other = c.a.find(f->name);
-    report.figures.push_back(key_of(*f, other ? fmt::format("{}: {}{}", c.a.label, rounded(other->value, other->error), other->value != 0 ? fmt::format(" · ratio {:.3f}", f->value / other->value) : "") : ""));
+    report.figures.push_back(
+        key_of(*f, other ? fmt::format("{}: {}{}", c.a.label, rounded(other->value, other->error),
+                                       other->value != 0 ? fmt::format(" · ratio {:.3f}", f->value / other->value) : "")
+                         : ""));
   };
   for (const std::string& joint : drawable(results) ? couplings(c.b) : std::vector<std::string>{})
     if (report.figures.size() < 3) add_key(c.b.find("peak_torque." + joint));
   add_key(first_with(c.b, "delta."));
   add_key(first_with(c.b, "mean_speed."));
-  report.figures.push_back({"processor time of a run", 1e3 * c.b.statistics.cpu_seconds, "ms", {}, fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds)});
+  report.figures.push_back({"processor time of a run",
+                            1e3 * c.b.statistics.cpu_seconds,
+                            "ms",
+                            {},
+                            fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
+                            3});
   add_machine_and_plots(report, results);
 
   ReportSection& figures = report.add("Figures");
-  Table table{.title = "Every figure of both models", .columns = {"figure", c.a.label, "error", c.b.label, "error", "unit", c.b.label + "/" + c.a.label}, .rows = {}};
-  const auto number = [](const std::optional<double>& v, const std::optional<double>& e) { return v ? rounded(*v, e) : "—"; };
+  Table table{.title = "Every figure of both models",
+              .columns = {"figure", c.a.label, "error", c.b.label, "error", "unit", c.b.label + "/" + c.a.label},
+              .rows = {}};
+  const auto number = [](const std::optional<double>& v, const std::optional<double>& e) {
+    return v ? rounded(*v, e) : "—";
+  };
   for (const ComparisonRow& row : c.rows)
-    table.rows.push_back({row.name, number(row.a, row.a_error), error_text(row.a_error), number(row.b, row.b_error), error_text(row.b_error), pretty_unit(row.unit), row.ratio ? fmt::format("{:.4g}", *row.ratio) : ""});
+    table.rows.push_back({row.name, number(row.a, row.a_error), error_text(row.a_error), number(row.b, row.b_error),
+                          error_text(row.b_error), pretty_unit(row.unit),
+                          row.ratio ? fmt::format("{:.4g}", *row.ratio) : ""});
   figures.cards.push_back(std::move(table));
   for (const ComparisonRow& row : c.amplification) {
     const std::string joint = row.name.substr(std::string("amplification.").size());
     const Figure *a = c.a.find("peak_torque." + joint), *b = c.b.find("peak_torque." + joint);
     if (!a || !b || !row.b) continue;
-    figures.cards.push_back(Formula{.title = fmt::format("Torque amplification in {}", joint), .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
-                                    .numbers = fmt::format("K = |{:.7g}| / |{:.7g}| = {} {}", b->value, a->value, rounded(*row.b, row.b_error), error_text(row.b_error)),
+    figures.cards.push_back(Formula{.title = fmt::format("Torque amplification in {}", joint),
+                                    .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
+                                    .numbers = fmt::format("K = |{:.7g}| / |{:.7g}| = {} {}", b->value, a->value,
+                                                           rounded(*row.b, row.b_error), error_text(row.b_error)),
                                     .note = "Largest transmitted torques, each at its own time."});
   }
   add_delta_formula(figures, results);

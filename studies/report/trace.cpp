@@ -21,7 +21,8 @@ void push(Trace& trace, double x, double y) {
 }  // namespace
 
 TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
-  for (Channel& channel : channels_of(model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
+  for (Channel& channel : channels_of(
+           model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
     const std::string quantity = channel.name.substr(0, channel.name.find('.'));
     if (quantity == "spring_torque" || quantity == "angle") continue;
     channels_.push_back(std::move(channel));
@@ -36,14 +37,19 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
         if (ratio == 0 || node == link || (node == ports.out && ports.in == ports.out && node != ports.in)) continue;
         bool known = false;
         for (const Channel& c : channels_) known = known || c.name == node_key(node);
-        if (!known) channels_.push_back({node_key(node), "rad", [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
+        if (!known)
+          channels_.push_back({node_key(node), "rad",
+                               [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
       }
     }
   for (const Channel& channel : channels_) {
-    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") || channel.name.starts_with("speed.")) over_angle_.push_back(traces_.size());
+    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") || channel.name.starts_with("speed."))
+      over_angle_.push_back(traces_.size());
     traces_.push_back({channel.name, channel.unit, {}, {}});
   }
-  for (const char* name : {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"}) traces_.push_back({name, "J", {}, {}});
+  for (const char* name :
+       {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
+    traces_.push_back({name, "J", {}, {}});
   now_.resize(traces_.size());
 }
 

@@ -21,8 +21,8 @@ struct CycleTraces {
   std::vector<Trace> traces;
 };
 
-// Follows the steps of the integrator, which are short where something happens, and both sides of every jump. Beside the
-// model's channels:
+// Follows the steps of the integrator, which are short where something happens, and both sides of every jump. Beside
+// the model's channels:
 //   twist_to_link.NODE  angle of a node reduced to the reduction link, less the link's own angle [rad]
 //   kinetic_energy, stored_energy, work.driving, work.useful, work.harmful, work.weight [J]
 class TraceRecorder final : public Observer {
@@ -47,7 +47,7 @@ class TraceRecorder final : public Observer {
   std::vector<std::size_t> over_angle_;  // traces that are also followed over the angle
   std::deque<CycleTraces> cycles_;
   CycleTraces open_;
-  double turn_ = 0;         // number of the open cycle
+  double turn_ = 0;          // number of the open cycle
   bool open_whole_ = false;  // it was seen from its beginning
   std::vector<double> now_;
 };

@@ -1,0 +1,482 @@
+// page.js: builds the report from its data; text only ever goes in as text.
+'use strict';
+(() => {
+  const report = JSON.parse(document.getElementById('data').textContent);
+  const root = document.getElementById('report');
+
+  // --- small helpers -------------------------------------------------------------------------------------------------
+  function make(tag, className, text, parent) {
+    const element = document.createElement(tag);
+    if (className) element.className = className;
+    if (text !== undefined && text !== null) element.textContent = text;
+    if (parent) parent.appendChild(element);
+    return element;
+  }
+  function draw(tag, attributes, parent, text) {
+    const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    for (const name in attributes) element.setAttribute(name, attributes[name]);
+    if (text !== undefined) element.textContent = text;
+    if (parent) parent.appendChild(element);
+    return element;
+  }
+  const place = (element, attributes) => { for (const name in attributes) element.setAttribute(name, attributes[name]); };
+  const colour = name => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+  const withUnit = axis => axis.unit ? `${axis.label} [${axis.unit}]` : axis.label;
+  const narrow = () => window.innerWidth < 600;
+
+  // --- plots ---------------------------------------------------------------------------------------------------------
+  const plots = [];
+
+  function tracesOf(plot) {
+    const traces = plot.series.map(s => ({
+      x: s.x, y: s.y, name: s.name, type: 'scatter', mode: s.points ? 'lines+markers' : 'lines',
+      line: {color: colour(s.role), width: s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
+      hovertemplate: `%{y:.6~g} ${plot.y.unit}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
+    }));
+    if (plot.marks.length) traces.push({
+      x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => m.text.replace(/[<&]/g, '')), name: 'events', yaxis: 'y2', type: 'scatter',
+      mode: 'markers', showlegend: false, cliponaxis: true, marker: {symbol: 'line-ns-open', size: 9, color: colour('vermillion'), line: {width: 1.4}},
+      hovertemplate: '%{text} at %{x:.6~g}<extra></extra>',
+    });
+    return traces;
+  }
+  // From the first to the last point: markers would make room for themselves at both ends.
+  function rangeOf(plot) {
+    if (plot.x.log || plot.series.some(s => s.points)) return {};
+    const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
+    return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
+  }
+  function layoutOf(plot) {
+    const axis = given => ({
+      title: {text: withUnit(given), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
+      linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', hoverformat: '.6~g',
+    });
+    const layout = {
+      paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
+      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
+      legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
+      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: axis(plot.y), dragmode: narrow() ? false : 'zoom',
+    };
+    if (plot.x.unit === '°') Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
+    if (plot.marks.length) layout.yaxis2 = {overlaying: 'y', range: [0, 1], visible: false, fixedrange: true};
+    return layout;
+  }
+  function csvOf(plot) {
+    const quote = text => `"${text.replace(/"/g, '""')}"`;
+    const same = plot.series.every(s => s.x.length === plot.series[0].x.length && s.x.every((x, i) => x === plot.series[0].x[i]));
+    if (same) {
+      const rows = [[withUnit(plot.x), ...plot.series.map(s => `${s.name}: ${withUnit(plot.y)}`)].map(quote).join(',')];
+      plot.series[0].x.forEach((x, i) => rows.push([x, ...plot.series.map(s => s.y[i])].join(',')));
+      return rows.join('\n') + '\n';
+    }
+    const rows = [['series', withUnit(plot.x), withUnit(plot.y)].map(quote).join(',')];
+    for (const s of plot.series) s.x.forEach((x, i) => rows.push([quote(s.name), x, s.y[i]].join(',')));
+    return rows.join('\n') + '\n';
+  }
+  function addPlot(plot, card) {
+    const head = make('header', '', null, card);
+    make('h3', '', plot.title, head);
+    const tools = make('span', 'tools', null, head);
+    const link = make('a', 'csv', 'data as CSV', tools);
+    link.href = '#';
+    link.onclick = event => {
+      event.preventDefault();
+      const url = URL.createObjectURL(new Blob([csvOf(plot)], {type: 'text/csv'}));
+      const save = make('a');
+      save.href = url;
+      save.download = plot.title.replace(/[^\w\u00c0-\uffff]+/g, '_') + '.csv';
+      save.click();
+      setTimeout(() => URL.revokeObjectURL(url), 10000);
+    };
+    const place = make('div', 'plot', null, card);
+    if (plot.note) make('p', 'note', plot.note, card);
+    plots.push({plot, place, drawn: false});
+  }
+  function drawPlot(entry) {
+    Plotly.react(entry.place, tracesOf(entry.plot), layoutOf(entry.plot), {responsive: true, displaylogo: false, displayModeBar: 'hover', modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d']});
+    entry.drawn = true;
+  }
+  const drawAll = () => plots.forEach(drawPlot);
+  // One after the other, so that the page answers meanwhile.
+  function drawInTurn(i) {
+    if (i >= plots.length) { root.dataset.ready = 'yes'; return; }
+    if (!plots[i].drawn) drawPlot(plots[i]);
+    setTimeout(drawInTurn, 0, i + 1);
+  }
+
+  // --- tables, formulas, text ----------------------------------------------------------------------------------------
+  function fold(card, title, folded) {
+    if (!folded) {
+      if (title) make('h3', '', title, card);
+      return card;
+    }
+    const details = make('details', '', null, card);
+    make('summary', '', title, details);
+    return details;
+  }
+  function addTable(table, card) {
+    const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
+    const element = make('table', '', null, scroll);
+    const head = make('tr', '', null, make('thead', '', null, element));
+    const kind = column => column < table.textColumns ? 'text' : '';
+    table.columns.forEach((text, i) => make('th', kind(i), text, head));
+    const body = make('tbody', '', null, element);
+    for (const row of table.rows) {
+      const line = make('tr', '', null, body);
+      row.forEach((text, i) => {
+        const cell = make('td', kind(i), '', line);
+        // Long names break behind their dots and underscores.
+        text.split(/(?<=[._])/).forEach((piece, k) => { if (k && kind(i)) make('wbr', '', null, cell); cell.append(piece); });
+      });
+    }
+  }
+  function addFormula(formula, card) {
+    make('h3', '', formula.title, card);
+    make('p', 'formula', formula.symbols, card);
+    make('p', 'formula', formula.numbers, card);
+    if (formula.note) make('p', 'note', formula.note, card);
+  }
+  function addText(text, card) {
+    const inside = fold(card, text.title, text.folded);
+    if (text.verbatim) make('pre', text.folded ? '' : 'wrapped', text.body, inside);
+    else for (const line of text.body.split('\n')) if (line) make('p', '', line, inside);
+  }
+
+  // --- the moving machine ----------------------------------------------------------------------------------------------
+  const widths = {motor: 110, coupling: 92, gearbox: 130, flywheel: 90, 'slider-crank': 110};
+  const partWidth = part => widths[part.kind] || (/motor|turbine/.test(part.kind) ? 110 : 84);
+
+  function addMachine(m, card) {
+    card.classList.add('machine');
+    const front = m.motions[m.motions.length - 1], ghosts = m.motions.slice(0, -1);
+    const head = make('header', '', null, card);
+    make('h3', '', m.title, head);
+    const stage = make('div', 'stage' + (m.sliderCrank ? '' : ' alone'), null, card);
+    const shaftLine = drawShaftLine(m, front, stage);
+    const mechanism = m.sliderCrank ? drawSliderCrank(m, front, ghosts, stage) : null;
+
+    // Controls.
+    const controls = make('div', 'controls', null, card);
+    const play = make('button', 'play', 'Play', controls);
+    play.type = 'button';
+    const last = m.time.length - 1, span = m.time[last] - m.time[0];
+    const slide = (text, high) => {
+      const label = make('label', 'slide', null, controls);
+      make('span', '', text, label);
+      const input = make('input', '', null, label);
+      input.type = 'range'; input.min = 0; input.max = high; input.step = 'any'; input.value = 0;
+      input.setAttribute('aria-label', text);
+      return [input, make('output', '', '', label)];
+    };
+    const [timeSlider, timeShown] = slide('time', 1);
+    const degrees = m.cycle * 180 / Math.PI;
+    const [angleSlider, angleShown] = slide('angle', degrees);
+    const speedLabel = make('label', '', null, controls);
+    make('span', '', 'pace', speedLabel);
+    const pace = make('select', '', null, speedLabel);
+    const turns = Math.max(Math.abs(front.angle[last] - front.angle[0]) / (2 * Math.PI), 1e-9);
+    const wanted = span / turns / 3;  // a turn in three seconds
+    const paces = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
+    let chosen = paces.reduce((a, b) => Math.abs(Math.log(b / wanted)) < Math.abs(Math.log(a / wanted)) ? b : a);
+    for (const p of paces) {
+      const option = make('option', '', p < 1 ? `1 : ${Math.round(1 / p)}` : `${p} ×`, pace);
+      option.value = p;
+      option.selected = p === chosen;
+    }
+    const loadsLabel = make('label', '', null, controls);
+    const loads = make('input', '', null, loadsLabel);
+    loads.type = 'checkbox';
+    make('span', '', 'forces and torques', loadsLabel);
+    const legend = make('div', 'legend', null, card);
+    make('span', 'is-elastic', front.label + (front.twistIn.length ? `: twists reduced to ${m.link}, enlarged ${m.enlargement.toLocaleString('en')} ×` : ''), legend).className = 'is-elastic';
+    make('span', 'is-rigid', ghosts.length ? ghosts.map(g => g.label).join(', ') : 'without twist', legend);
+    make('span', 'plain', `all shafts are drawn at the speed of ${m.link}`, legend);
+
+    // One frame.
+    let now = m.time[0];
+    function show(t) {
+      now = Math.min(Math.max(t, m.time[0]), m.time[last]);
+      const place = (now - m.time[0]) / span * last;
+      const i = Math.min(Math.floor(place), last - 1), share = place - i;
+      const at = list => list && list.length ? list[i] + share * (list[i + 1] - list[i]) : 0;
+      shaftLine(at, loads.checked);
+      if (mechanism) mechanism(at, loads.checked);
+      const angle = at(front.angle), within = ((angle % m.cycle) + m.cycle) % m.cycle;
+      timeSlider.value = (now - m.time[0]) / span;
+      angleSlider.value = within * 180 / Math.PI;
+      timeShown.textContent = now.toFixed(span < 1 ? 4 : 3) + ' s';
+      angleShown.textContent = (within * 180 / Math.PI).toFixed(1) + '°';
+      card.dataset.time = now;
+    }
+    let frame = 0, before = 0;
+    function step(moment) {
+      let next = now + (moment - before) / 1000 * pace.value;
+      before = moment;
+      if (next > m.time[last]) next = m.time[0];
+      show(next);
+      frame = requestAnimationFrame(step);
+    }
+    function stop() {
+      cancelAnimationFrame(frame);
+      frame = 0;
+      play.textContent = 'Play';
+    }
+    play.onclick = () => {
+      if (frame) return stop();
+      play.textContent = 'Pause';
+      before = performance.now();
+      frame = requestAnimationFrame(step);
+    };
+    timeSlider.oninput = () => { stop(); show(m.time[0] + timeSlider.value * span); };
+    // The angle is sought in the last whole cycle.
+    angleSlider.oninput = () => {
+      stop();
+      const rising = front.angle[last] >= front.angle[0];
+      const end = Math.floor(Math.max(front.angle[last], front.angle[0]) / m.cycle + 1e-9) * m.cycle;
+      const target = end - m.cycle + angleSlider.value * Math.PI / 180;
+      let low = 0, high = last;
+      while (high - low > 1) {
+        const middle = (low + high) >> 1;
+        if ((front.angle[middle] < target) === rising) low = middle; else high = middle;
+      }
+      const rise = front.angle[high] - front.angle[low];
+      const kept = angleSlider.value;
+      show(m.time[low] + (rise ? Math.min(Math.max((target - front.angle[low]) / rise, 0), 1) : 0) * (m.time[high] - m.time[low]));
+      angleSlider.value = kept;
+    };
+    loads.onchange = () => show(now);
+    // It starts where it is twisted most, or pushed hardest.
+    let most = Math.floor(0.37 * last / Math.max(turns, 1)), highest = 0;
+    for (const list of front.twistIn.length ? [...front.twistIn, ...front.twistOut] : [front.force])
+      list.forEach((value, i) => { if (Math.abs(value) > highest * 1.001) { highest = Math.abs(value); most = i; } });
+    show(m.time[most]);
+  }
+
+  // Parts side by side, a line painted along the shafts, and a dial below each part.
+  function drawShaftLine(m, front, stage) {
+    const ghost = m.motions.length > 1 ? m.motions[0] : null;
+    const rows = [...new Set(m.parts.map(p => p.row))];
+    const gap = 22, rowHeight = 295, most = 14, R = 13;
+    let partsOf = rows.map(row => m.parts.map((p, k) => ({p, k})).filter(e => e.p.row === row).map(e => e.p.kind === 'gap' ? null : e));
+    partsOf = partsOf.map(list => list.length > most + 1 ? [...list.slice(0, most / 2), null, ...list.slice(-most / 2)] : list);
+    const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
+    const width = Math.max(420, ...partsOf.map(lengthOf));
+    if (width > 1050) stage.classList.add('alone');
+    const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * rows.length}`, class: 'line', role: 'img'}, stage);
+    draw('title', {}, svg, 'Shaft line');
+    const updates = [], stations = [];
+    partsOf.forEach((list, r) => {
+      let x = gap + (width - lengthOf(list)) / 2;
+      let y = rowHeight * r + 105;
+      let line = [];
+      stations.push(line);
+      list.forEach((entry, n) => {
+        if (!entry) {
+          draw('text', {x: x + 10, y: y + 5}, svg, '…');
+          stations.push(line = []);
+          x += 40 + gap;
+          return;
+        }
+        const {p, k} = entry, w = partWidth(p), kind = p.kind, middle = x + w / 2;
+        // Shafts to both neighbours.
+        const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
+        const out = kind === 'gearbox' ? y + 34 * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : y;
+        if (n > 0 || kind === 'coupling' || kind === 'gearbox') shaft(x - gap / 2, middle, y);
+        if (n < list.length - 1 || kind === 'coupling' || kind === 'gearbox') shaft(middle, x + w + gap / 2, out);
+        line.push({x: x - gap / 2, y, k, side: 'twistIn'});
+        if (kind === 'gearbox') {
+          line.push({x: middle - 6, y, k, side: 'twistIn'});
+          stations.push(line = []);
+          line.push({x: middle + 6, y: out, k, side: 'twistOut'});
+          const i = Math.abs(p.ratioIn / p.ratioOut), high = i > 1 ? 1 / i : 1;
+          const rIn = 12 + 30 * Math.min(1, Math.pow(high, 0.5)) * (i > 1 ? 0.6 : 1), rOut = 60 - rIn > 14 ? 60 - rIn : 14;
+          draw('rect', {x: middle - 17, y: y - rIn, width: 14, height: 2 * rIn, rx: 2, class: 'body'}, svg);
+          draw('rect', {x: middle + 3, y: out - rOut, width: 14, height: 2 * rOut, rx: 2, class: 'body'}, svg);
+          draw('text', {x: middle, y: y - 62, 'text-anchor': 'middle', class: 'soft'}, svg, `i = ${+(p.ratioIn / p.ratioOut).toPrecision(4)}`);
+        } else if (kind === 'coupling') {
+          line.push({x: middle - 12, y, k, side: 'twistIn'}, {x: middle + 12, y, k, side: 'twistOut'});
+          for (const s of [-1, 1]) draw('rect', {x: middle + (s < 0 ? -26 : 12), y: y - 34, width: 14, height: 68, rx: 3, class: 'body'}, svg);
+          if (p.elastic) draw('polyline', {points: [-12, -8, -4, 0, 4, 8, 12].map((d, j) => `${middle + d},${y - 24 + (j % 2 ? -5 : 5)}`).join(' '), class: 'front', 'stroke-width': 1.6}, svg);
+          else draw('rect', {x: middle - 12, y: y - 27, width: 24, height: 6, class: 'shaft'}, svg);
+        } else {
+          const height = /flywheel/.test(kind) ? 150 : /motor|turbine/.test(kind) ? 92 : kind === 'slider-crank' ? 72 : kind === 'load' ? 84 : 84;
+          const thick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : kind === 'slider-crank' ? 0 : 26;
+          if (thick) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
+          if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) draw('line', {x1: middle - thick / 2 + 8, x2: middle + thick / 2 - 8, y1: y - height / 2 + j * height / 6, y2: y - height / 2 + j * height / 6, stroke: 'var(--metal-edge)', 'stroke-width': .6}, svg);
+          if (kind === 'slider-crank') {
+            shaft(middle, middle + 22, y);
+            const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg);
+            updates.push(at => {
+              const h = 40 * Math.sin(at(front.angle));
+              place(web, {y: y + Math.min(0, -h) - 10, height: Math.abs(h) + 20});
+              place(pin, {y: y - h - 6});
+            });
+          }
+          if (!/motor|turbine/.test(kind) || n > 0) line.push({x: middle - thick / 2, y, k, side: 'twistIn', hidden: thick > 60});
+          line.push({x: middle + thick / 2 + (kind === 'slider-crank' ? 14 : 0), y, k, side: 'twistOut'});
+          if (n === 0) line.shift();
+        }
+        if (n < list.length - 1) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
+        // Name, and the dial.
+        const name = p.name.length > 16 ? p.name.slice(0, 15) + '…' : p.name;
+        draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && kind !== 'gearbox' ? 20 : 0), 'text-anchor': 'middle'}, svg, name);
+        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + 254, svg));
+        x += w + gap;
+        y = out;
+      });
+    });
+    const angleOf = (motion, s, at) => at(motion.angle) + (motion[s.side].length ? m.enlargement * at(motion[s.side][s.k]) : 0);
+    for (const line of stations.filter(l => l.length > 1)) {
+      const background = draw('polyline', {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '5 4'}, svg);
+      const paint = draw('polyline', {class: 'front', 'stroke-width': 3.2, 'stroke-linejoin': 'round'}, svg);
+      updates.push(at => {
+        const pointsOf = angle => line.map(s => `${s.x.toFixed(1)},${(s.y - R * Math.sin(angle(s))).toFixed(2)}`).join(' ');
+        place(paint, {points: pointsOf(s => angleOf(front, s, at)), opacity: Math.cos(angleOf(front, line[0], at)) >= 0 ? 1 : 0.25});
+        place(background, {points: pointsOf(s => ghost ? angleOf(ghost, s, at) : at(front.angle)), opacity: Math.cos(at(ghost ? ghost.angle : front.angle)) >= 0 ? 1 : 0.25});
+      });
+    }
+    return (at, loads) => updates.forEach(update => update(at, loads));
+  }
+
+  const hand = (x, y, r, angle) => ({x1: x, y1: y, x2: x + r * Math.cos(angle), y2: y - r * Math.sin(angle)});
+  const withPrefix = (value, unit) => Math.abs(value) >= 1000 ? `${(value / 1000).toPrecision(3)} k${unit}` : `${Math.abs(value) < 0.5 ? 0 : +value.toPrecision(3)} ${unit}`;
+  function drawArrowHead(path, head, x, y, direction, size) {
+    const c = Math.cos(direction), s = Math.sin(direction);
+    place(head, {points: [[size, 0], [-size * 0.5, size * 0.65], [-size * 0.5, -size * 0.65]].map(([a, b]) => `${x + a * c - b * s},${y - a * s - b * c}`).join(' ')});
+  }
+
+  // Hands of both sides of a part, the angle between them filled; on demand its torque as an arc.
+  function drawDial(m, front, ghost, k, x, y, svg) {
+    const r = 27;
+    draw('circle', {cx: x, cy: y, r, class: 'dial'}, svg);
+    const wedge = draw('path', {class: 'wedge'}, svg);
+    const grey = draw('line', {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '4 3'}, svg);
+    const input = draw('line', {class: 'front', 'stroke-width': 1.6, opacity: .65}, svg), output = draw('line', {class: 'front', 'stroke-width': 3}, svg);
+    const torque = front.torque[k] || [];
+    const shown = torque.length > 0;
+    const largest = torque.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
+    const group = draw('g', {}, svg), arc = draw('path', {class: 'arrow'}, group), head = draw('polygon', {class: 'head'}, group);
+    const text = draw('text', {x, y: y - 44, 'text-anchor': 'middle', class: 'load'}, group);
+    return (at, loads) => {
+      const base = at(front.angle), a = base + (front.twistIn.length ? m.enlargement * at(front.twistIn[k]) : 0), b = base + (front.twistOut.length ? m.enlargement * at(front.twistOut[k]) : 0);
+      place(grey, hand(x, y, r, at((ghost || front).angle)));
+      place(input, hand(x, y, r, a));
+      place(output, hand(x, y, r, b));
+      const sweep = a < b ? 0 : 1;
+      place(wedge, {d: Math.abs(a - b) < 1e-3 ? '' : `M${x},${y} L${x + r * Math.cos(a)},${y - r * Math.sin(a)} A${r},${r} 0 ${Math.abs(a - b) > Math.PI ? 1 : 0} ${sweep} ${x + r * Math.cos(b)},${y - r * Math.sin(b)} Z`});
+      group.setAttribute('visibility', loads && shown ? 'visible' : 'hidden');
+      if (!loads || !shown) return;
+      const value = at(torque), turn = 2.6 * value / largest, R = r + 7, start = Math.PI / 2 - turn / 2, end = start + turn;
+      place(arc, {d: `M${x + R * Math.cos(start)},${y - R * Math.sin(start)} A${R},${R} 0 0 ${turn > 0 ? 0 : 1} ${x + R * Math.cos(end)},${y - R * Math.sin(end)}`});
+      drawArrowHead(arc, head, x + R * Math.cos(end), y - R * Math.sin(end), end + (turn > 0 ? 1 : -1) * Math.PI / 2, Math.abs(turn) < 0.08 ? 0 : 8);
+      text.textContent = withPrefix(value, 'N·m');
+    };
+  }
+
+  // Crank, rod and slider to scale, in the direction of the stroke.
+  function drawSliderCrank(m, front, ghosts, stage) {
+    const g = m.sliderCrank, c = Math.cos(g.direction), s = Math.sin(g.direction);
+    const far = Math.sqrt((g.radius + g.rod) ** 2 - g.offset ** 2), body = 0.16 * (g.radius + g.rod);
+    const forceRoom = 0.62 * (g.radius + g.rod) * 0.6;
+    // Corners of what is seen, in the frame of the stroke.
+    const side = Math.max(g.radius * 1.25, body * 0.75 + Math.abs(g.offset), 0.22 * far);
+    const corners = [[-g.radius * 1.25, -side], [-g.radius * 1.25, side], [far + body + (m.motions.some(q => q.force.length) ? forceRoom * 0.55 : 0), -side], [far + body, side]].map(([u, v]) => [u * c - v * s, -(u * s + v * c)]);
+    const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
+    const w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - Math.min(...ys);
+    const scale = 380 / Math.max(w, h), padding = 14;
+    const W = Math.max(w * scale + 2 * padding, 250), H = h * scale + 2 * padding;
+    const X = (u, v) => (u * c - v * s - (Math.max(...xs) + Math.min(...xs)) / 2) * scale + W / 2;
+    const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + padding;
+    const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
+    draw('title', {}, svg, 'Slider-crank to scale');
+    const at2 = (u, v) => `${X(u, v).toFixed(2)},${Y(u, v).toFixed(2)}`;
+    // Guide, and a scale bar.
+    for (const v of [-1, 1]) {
+      const low = g.rod - g.radius - body, off = g.offset + v * body * 0.62;
+      draw('line', {x1: X(low, off), y1: Y(low, off), x2: X(far + body * 0.6, off), y2: Y(far + body * 0.6, off), stroke: 'var(--metal-edge)', 'stroke-width': 2}, svg);
+    }
+    const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
+    draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
+    draw('text', {x: 10, y: 30, class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
+
+    function linkage(parent, ghost) {
+      const kind = ghost ? 'ghost' : 'front', width = ghost ? 2 : 1;
+      const disc = draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: g.radius * scale, class: ghost ? 'ghost' : 'dial', fill: 'none', 'stroke-dasharray': ghost ? '4 3' : '', opacity: ghost ? 0 : 1}, parent);
+      const rod = draw('line', ghost ? {class: kind, 'stroke-width': 2, 'stroke-dasharray': '6 4'} : {stroke: 'var(--metal-edge)', 'stroke-width': 9, 'stroke-linecap': 'round'}, parent);
+      const slider = draw('polygon', ghost ? {class: kind, 'stroke-width': 2, 'stroke-dasharray': '6 4'} : {class: 'body'}, parent);
+      const crank = draw('line', {class: kind, 'stroke-width': ghost ? 2 : 7, 'stroke-linecap': 'round', 'stroke-dasharray': ghost ? '6 4' : ''}, parent);
+      const joints = ghost ? [] : [0, 1, 2].map(() => draw('circle', {r: 4.5, class: 'dial'}, parent));
+      return angle => {
+        const u = g.radius * Math.cos(angle), v = g.radius * Math.sin(angle), x = u + Math.sqrt(g.rod ** 2 - (v - g.offset) ** 2);
+        place(crank, {x1: X(0, 0), y1: Y(0, 0), x2: X(u, v), y2: Y(u, v)});
+        place(rod, {x1: X(u, v), y1: Y(u, v), x2: X(x, g.offset), y2: Y(x, g.offset)});
+        const half = body * 0.58;
+        place(slider, {points: [[x - half, g.offset - half], [x + half, g.offset - half], [x + half, g.offset + half], [x - half, g.offset + half]].map(p => at2(...p)).join(' ')});
+        joints.forEach((joint, i) => place(joint, {cx: X(...[[0, 0], [u, v], [x, g.offset]][i]), cy: Y(...[[0, 0], [u, v], [x, g.offset]][i])}));
+        return x;
+      };
+    }
+    const main = linkage(svg, false);
+    const shadows = ghosts.map(() => linkage(svg, true));
+    const largest = front.force.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
+    const group = draw('g', {}, svg), shaft = draw('line', {class: 'arrow', 'stroke-width': 4}, group), head = draw('polygon', {class: 'head'}, group);
+    const text = draw('text', {class: 'load', 'text-anchor': 'end'}, group);
+    return (at, loads) => {
+      const x = main(at(front.angle));
+      ghosts.forEach((ghost, i) => shadows[i](at(ghost.angle)));
+      const force = at(front.force), shown = loads && Math.abs(force) > 1e-4 * largest;
+      group.setAttribute('visibility', shown ? 'visible' : 'hidden');
+      if (!shown) return;
+      // A push towards the crank ends at the slider's face, a pull begins there.
+      const face = x + body * 0.58, length = forceRoom * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
+      place(shaft, {x1: X(from, g.offset), y1: Y(from, g.offset), x2: X(to, g.offset), y2: Y(to, g.offset)});
+      drawArrowHead(shaft, head, X(to, g.offset), Y(to, g.offset), g.direction + (force < 0 ? Math.PI : 0), 9);
+      place(text, {x: W - 6, y: H - 8});
+      text.textContent = withPrefix(force, 'N');
+    };
+  }
+
+  // --- the page --------------------------------------------------------------------------------------------------------
+  make('h1', '', report.title, root);
+  if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
+  if (report.conclusion) make('p', 'conclusion' + (report.complete ? '' : ' incomplete'), report.conclusion, root);
+  const row = make('div', 'figures', null, root);
+  for (const figure of report.figures) {
+    const box = make('div', 'figure', null, row);
+    make('div', 'name', figure.name, box);
+    const value = make('div', 'value', figure.value + ' ', box);
+    make('span', 'unit', figure.unit, value);
+    if (figure.error) make('div', 'error', `${figure.error} ${figure.unit}`, box);
+    if (figure.note) make('div', 'note', figure.note, box);
+  }
+  const makers = {plot: addPlot, table: addTable, formula: addFormula, text: addText, machine: addMachine};
+  const machines = [];
+  for (const section of report.sections) {
+    if (section.title) make('h2', '', section.title, root);
+    const cards = make('div', 'cards', null, root);
+    for (const card of section.cards) {
+      const wide = card.kind === 'machine' || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
+      const long = card.kind === 'table' && card.rows.length > 25 || card.kind === 'text';
+      const element = make('section', 'card is-' + card.kind + (wide ? ' wide' : '') + (long ? ' long' : ''), null, cards);
+      makers[card.kind](card, element);
+    }
+  }
+  make('footer', '', report.footer, root);
+  requestAnimationFrame(() => setTimeout(drawInTurn, 0, 0));
+
+  // Colours follow the system; print is light and unfolded.
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
+  const print = matchMedia('print');
+  let opened = [];
+  function printing(on) {
+    if (on) {
+      opened = [...document.querySelectorAll('details:not([open]):not(.licence)')];
+      opened.forEach(details => { details.open = true; });
+    } else {
+      opened.forEach(details => { details.open = false; });
+      opened = [];
+    }
+    drawAll();
+  }
+  print.addEventListener('change', event => printing(event.matches));
+})();

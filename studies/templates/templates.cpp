@@ -1,0 +1,41 @@
+// templates.cpp — takes the scenes in as they are, by the assembler.
+#include "studies/templates/templates.h"
+
+#define KURBEL_SCENE(name, file)                       \
+  asm(".section .rodata\n"                             \
+      ".global kurbel_scene_" #name                    \
+      "_begin\n"                                       \
+      ".global kurbel_scene_" #name                    \
+      "_end\n"                                         \
+      "kurbel_scene_" #name                            \
+      "_begin:\n"                                      \
+      ".incbin \"" KURBEL_SCENES_FOLDER "/" file       \
+      "\"\n"                                           \
+      "kurbel_scene_" #name                            \
+      "_end:\n"                                        \
+      ".byte 0\n"                                      \
+      ".previous\n");                                  \
+  extern "C" const char kurbel_scene_##name##_begin[]; \
+  extern "C" const char kurbel_scene_##name##_end[];   \
+  static std::string_view name() { return {kurbel_scene_##name##_begin, kurbel_scene_##name##_end}; }
+
+KURBEL_SCENE(press, "crank_press.toml")
+KURBEL_SCENE(pump, "piston_pump.toml")
+KURBEL_SCENE(engine, "single_cylinder_engine.toml")
+KURBEL_SCENE(compressor, "compressor.toml")
+KURBEL_SCENE(chain, "six_inertia_chain.toml")
+
+namespace kurbel {
+
+const std::vector<SceneTemplate>& scene_templates() {
+  static const std::vector<SceneTemplate> templates = {
+      {"press", "crank press: motor, gearbox, flywheel, press force before the lower end", press()},
+      {"pump", "triplex plunger pump: motor, gearbox, indicator diagrams over travel", pump()},
+      {"engine", "single-cylinder four-stroke engine with generator: gas force over 720 deg", engine()},
+      {"compressor", "reciprocating compressor: polytropic indicator diagram, flywheel", compressor()},
+      {"chain", "six inertias on couplings: start of a fan", chain()},
+  };
+  return templates;
+}
+
+}  // namespace kurbel

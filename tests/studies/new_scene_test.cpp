@@ -1,0 +1,173 @@
+// new_scene_test.cpp — scenes to start from run and balance; what helps to write them is complete.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "studies/templates/templates.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Said {
+  int code = -1;
+  std::string text;  // both streams
+};
+
+class NewScene : public testing::Test {
+ protected:
+  NewScene() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("kurbel_new_" + name + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  ~NewScene() override { fs::remove_all(folder_); }
+
+  Said kurbel(const std::string& arguments) const {
+    return shell(std::string("'") + KURBEL_EXECUTABLE + "' " + arguments);
+  }
+  Said shell(const std::string& command) const {
+    FILE* pipe = popen(("cd '" + folder_.string() + "' && " + command + " 2>&1").c_str(), "r");
+    Said said;
+    std::array<char, 4096> buffer{};
+    for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) said.text.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return said;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(NewScene, IsWrittenOnceAndSaysWhatToDoNext) {
+  const Said first = kurbel("new press");
+  EXPECT_EQ(first.code, 0);
+  EXPECT_NE(first.text.find("kurbel compare press.toml"), std::string::npos) << first.text;
+  const std::string text = text_of(folder_ / "press.toml");
+  EXPECT_TRUE(text.starts_with("#:schema ./scene.schema.json\n# Crank press"));
+  EXPECT_TRUE(fs::exists(folder_ / "scene.schema.json"));
+  const Said second = kurbel("new press");
+  EXPECT_EQ(second.code, 2);
+  EXPECT_NE(second.text.find("press.toml exists already"), std::string::npos) << second.text;
+  EXPECT_EQ(text_of(folder_ / "press.toml"), text);
+}
+
+TEST_F(NewScene, MistypedKindIsGuessed) {
+  const Said said = kurbel("new compresor");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.text.find("did you mean \"compressor\"?"), std::string::npos) << said.text;
+  EXPECT_NE(kurbel("keys coupeling").text.find("did you mean \"coupling\"?"), std::string::npos);
+  EXPECT_EQ(kurbel("new press missing/press.toml").code, 2);
+}
+
+TEST_F(NewScene, EveryOneIsSound) {
+  for (const SceneTemplate& scene : scene_templates()) {
+    EXPECT_EQ(kurbel("new " + scene.name).code, 0);
+    const Said said = kurbel("check " + scene.name + ".toml");
+    EXPECT_EQ(said.code, 0) << said.text;
+  }
+}
+
+// Each scene reaches its accuracy, and its energy balance closes to ten times that.
+class ExampleScene : public testing::TestWithParam<const char*> {};
+TEST_P(ExampleScene, ReachesItsAccuracyAndBalances) {
+  const Scene scene = test::scene_file("scenes/" + std::string(GetParam()) + ".toml");
+  const Result result = test::run(scene);
+  EXPECT_TRUE(result.complete) << result.diagnosis;
+  EXPECT_TRUE(result.accuracy_confirmed) << result.measured_accuracy;
+  EXPECT_LE(result.energy.relative, 10 * scene.run.accuracy);
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, ExampleScene,
+                         testing::Values("piston_pump", "single_cylinder_engine", "four_cylinder_engine",
+                                         "compressor"));
+
+// W = ∮ p dV of the diagrams' closed forms.
+TEST(ExampleWork, OfTheCompressorIsThePolytropicOne) {
+  const Result result = test::run(test::scene_file("scenes/compressor.toml"));
+  const double n = 1.3, clearance = 0.05, ratio = 8, volume = M_PI / 4 * 0.16 * 0.16 * 0.11;
+  const double drawn = volume * (1 + clearance - clearance * std::pow(ratio, 1 / n));
+  const double work = n / (n - 1) * 1e5 * drawn * (std::pow(ratio, (n - 1) / n) - 1);
+  EXPECT_NEAR(-test::figure(result, "useful_work_per_cycle"), work, 0.01 * work);  // chords of a table
+}
+TEST(ExampleWork, OfThePumpIsPressureTimesVolume) {
+  const Result result = test::run(test::scene_file("scenes/piston_pump.toml"));
+  // 98 bar between delivery and suction over 70 mm, less half of the ramps of 3 mm and 2.5 mm.
+  EXPECT_NEAR(-test::figure(result, "useful_work_per_cycle"), 3 * (12441 - 126) * (0.070 - 0.5 * (0.003 + 0.0025)),
+              0.1);
+}
+
+TEST_F(NewScene, QuietPrintsOneLineAndVerboseLogsToTheErrorStream) {
+  kurbel("new chain");
+  const Said quiet = kurbel("run chain.toml --quiet --no-files --until '0.2 s'");
+  EXPECT_EQ(std::count(quiet.text.begin(), quiet.text.end(), '\n'), 1) << quiet.text;
+  const Said log = kurbel("run chain.toml --verbose --no-files --until '0.2 s' 2> log > /dev/null; cat log");
+  for (const char* word : {"read chain.toml", "coordinates", "tolerance", "events", "agree within"})
+    EXPECT_NE(log.text.find(word), std::string::npos) << log.text;
+  EXPECT_EQ(kurbel("run chain.toml --no-files --until '0.2 s'").text.find('\033'), std::string::npos)
+      << "colours belong on a terminal";
+}
+
+// A terminal of its own by util-linux' script.
+TEST_F(NewScene, ConclusionIsBoldOnATerminalUnlessColoursAreUnwanted) {
+  if (shell("command -v script").code != 0) GTEST_SKIP() << "no script(1) here to make a terminal";
+  kurbel("new chain");
+  const std::string command = " script -qec \"'" + std::string(KURBEL_EXECUTABLE) +
+                              "' compare chain.toml --no-files --until '0.2 s'\" /dev/null";
+  const Said bold = shell("TERM=xterm" + command), plain = shell("TERM=xterm NO_COLOR=1" + command);
+  EXPECT_NE(bold.text.find("\033[1mThe elastic model's"), std::string::npos) << bold.text;
+  EXPECT_EQ(plain.text.find("\033[1m"), std::string::npos) << plain.text;
+}
+
+// Man page and completion know every command and option that --help names.
+TEST_F(NewScene, ManPageAndCompletionNameEveryCommandAndOption) {
+  std::string man = std::regex_replace(text_of(test::source_path("docs/kurbel.1")), std::regex("\\\\-"), "-");
+  const std::string completion = text_of(test::source_path("scripts/kurbel.bash-completion"));
+  const std::string help = kurbel("--help").text;
+  std::set<std::string> names;
+  std::smatch found;
+  const std::string list = help.substr(help.find("Subcommands:"));
+  const std::regex command("\n  ([a-z]+) "), option("(--[a-z-]+)");
+  for (std::sregex_iterator it(list.begin(), list.end(), command), end; it != end; ++it) {
+    const std::string name = (*it)[1];
+    names.insert(name);
+    const std::string of_command = kurbel(name + " --help").text;
+    const std::string options = of_command.substr(of_command.find("Options:"));
+    for (std::sregex_iterator o(options.begin(), options.end(), option); o != end; ++o) names.insert((*o)[1]);
+  }
+  EXPECT_GE(names.size(), 15u);
+  for (const std::string& name : names) {
+    EXPECT_NE(man.find(name), std::string::npos) << "docs/kurbel.1 lacks " << name;
+    EXPECT_NE(completion.find(name), std::string::npos) << "scripts/kurbel.bash-completion lacks " << name;
+  }
+  for (const SceneTemplate& scene : scene_templates()) EXPECT_NE(completion.find(scene.name), std::string::npos);
+}
+
+// bash completes the components of a scene after --effects.
+TEST_F(NewScene, CompletionKnowsTheCouplingsOfAScene) {
+  kurbel("new press");
+  const Said said = shell(
+      "bash -c 'source \"" + test::source_path("scripts/kurbel.bash-completion") +
+      "\"; COMP_WORDS=(kurbel run press.toml --effects elasticity:m); COMP_CWORD=4; _kurbel; echo ${COMPREPLY[*]}'");
+  EXPECT_NE(said.text.find("elasticity:motor_coupling"), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("elasticity:main_coupling"), std::string::npos) << said.text;
+}
+
+}  // namespace
+}  // namespace kurbel

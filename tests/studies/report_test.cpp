@@ -1,0 +1,190 @@
+// report_test.cpp — a report is one self-contained page, keeps every peak, and stays small.
+#include "studies/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "studies/compare.h"
+#include "studies/kinds.h"
+#include "studies/report/run_report.h"
+#include "studies/report/thin.h"
+#include "studies/report/trace.h"
+
+namespace kurbel {
+namespace {
+
+// The data that the page's script reads.
+nlohmann::json data_of(const std::string& html) {
+  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = html.find(open) + open.size();
+  return nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
+const char* geared_train = R"(
+title = "Train </script><script>alert(1)</script>"
+line  = ["motor", "shaft", "gearbox", "fan"]
+motor   = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }
+shaft   = { kind = "coupling", stiffness = "5 kN*m/rad", damping = "1 N*m*s/rad" }
+gearbox = { kind = "gearbox", stages = [{ teeth = [20, 60], inertia = ["0.01 kg*m2", "0.1 kg*m2"] }] }
+fan     = { kind = "load", quadratic = "0.1 N*m*s2/rad2", inertia = "2 kg*m2" }
+run     = { start = "rest", until = "0.5 s", accuracy = 1e-5 }
+)";
+
+Comparison compared(const char* text) {
+  const Scene scene = parse_scene(text, "train.toml", all_kinds());
+  SimulateOptions options;
+  options.traces = true;
+  Effects elastic;
+  elastic.all_elastic = true;
+  return compare(scene, {}, "rigid", elastic, "elastic", options);
+}
+
+TEST(Thinning, KeepsEndsAndExtremes) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 1000000; ++i) {
+    x.push_back(1e-5 * i);
+    y.push_back(std::sin(1e-4 * i));
+  }
+  y[123457] = 7.5;  // peaks of a single sample
+  y[765431] = -3.25;
+  thin_by_extremes(x, y, 2000);
+  EXPECT_LE(x.size(), 2000u);
+  EXPECT_GT(x.size(), 1500u);
+  EXPECT_EQ(*std::max_element(y.begin(), y.end()), 7.5);
+  EXPECT_EQ(*std::min_element(y.begin(), y.end()), -3.25);
+  EXPECT_EQ(x[static_cast<std::size_t>(std::max_element(y.begin(), y.end()) - y.begin())], 1e-5 * 123457);
+  EXPECT_EQ(x.front(), 0);
+  EXPECT_EQ(x.back(), 1e-5 * 999999);
+  EXPECT_TRUE(std::is_sorted(x.begin(), x.end()));
+}
+
+// A trace is thinned whenever it is full: its early part must not grow coarser than its late part.
+TEST(Thinning, IsEvenWhenRepeated) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 200000; ++i) {
+    x.push_back(i);
+    y.push_back(std::sin(0.3 * i));
+    if (x.size() >= 2000) thin_by_extremes(x, y, 1000);
+  }
+  thin_by_extremes(x, y, 1000);
+  double widest = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) widest = std::max(widest, x[i] - x[i - 1]);
+  EXPECT_LT(widest, 4 * 200000.0 / 500);
+}
+
+TEST(Thinning, LeavesShortCurvesAlone) {
+  std::vector<double> x = {0, 1, 2}, y = {5, 6, 7};
+  thin_by_extremes(x, y, 4);
+  EXPECT_EQ(x.size(), 3u);
+}
+
+TEST(JsonString, ClosesNoScriptAndParsesBack) {
+  const std::string nasty = "</script><!-- \"quoted\" back\\slash\n\ttab \x01 µ·°";
+  const std::string json = json_string(nasty);
+  EXPECT_EQ(json.find('<'), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(json).get<std::string>(), nasty);
+}
+
+TEST(Rounded, ShowsTheDigitsThatTheErrorLeaves) {
+  EXPECT_EQ(rounded(6082.16283, 0.5), "6082.16");
+  EXPECT_EQ(rounded(6082.16283, 7e-5), "6082.163");
+  EXPECT_EQ(rounded(0.104382, 0.01), "0.104");
+  EXPECT_EQ(error_text(7.2e-5), "± 7e-05");
+}
+
+TEST(Report, LoadsNothingFromElsewhere) {
+  const std::string html = html_of(report_of(compared(geared_train)));
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+  // Of the page itself; Plotly's text holds addresses that it never calls, which the browser test sees to.
+  const std::size_t plotly = html.find("plotly.js");
+  const std::string own = html.substr(0, html.rfind("<script>", plotly)) + html.substr(html.find("</script>", plotly));
+  EXPECT_FALSE(std::regex_search(own, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
+  EXPECT_EQ(own.find("@import"), std::string::npos);
+  EXPECT_EQ(own.find("alert(1)</script>"), std::string::npos) << "a title is text";
+}
+
+TEST(Report, HoldsBothModelsAndTheMachine) {
+  const Comparison c = compared(geared_train);
+  const nlohmann::json data = data_of(html_of(report_of(c)));
+  EXPECT_EQ(data["conclusion"], c.conclusion);
+  int plots = 0, machines = 0;
+  for (const auto& section : data["sections"])
+    for (const auto& card : section["cards"]) {
+      if (card["kind"] == "machine") {
+        ++machines;
+        EXPECT_EQ(card["parts"].size(), 4u);
+        EXPECT_EQ(card["motions"].size(), 2u);
+        EXPECT_GT(card["enlargement"].get<double>(), 1);
+      }
+      if (card["kind"] != "plot") continue;
+      ++plots;
+      for (const auto& series : card["series"]) EXPECT_GT(series["y"].size(), 10u) << card["title"];
+    }
+  EXPECT_EQ(machines, 1);
+  EXPECT_GE(plots, 4);
+}
+
+TEST(Trace, PlotsReachThePeaksThatTheFiguresTell) {
+  const Comparison c = compared(geared_train);
+  const Trace* torque = c.b.traces->find("torque.shaft");
+  ASSERT_TRUE(torque);
+  const double drawn = *std::max_element(torque->y.begin(), torque->y.end()),
+               told = c.b.find("peak_torque.shaft")->value;
+  EXPECT_NEAR(drawn, told, 5e-3 * told);
+}
+
+// T + V − Σ work stays the same along the traces.
+TEST(Trace, EnergyTracesBalance) {
+  const Comparison c = compared(geared_train);
+  const auto last = [&](const char* name) {
+    return c.b.traces->find(name)->y.back() - c.b.traces->find(name)->y.front();
+  };
+  const double stored = last("kinetic_energy") + last("stored_energy");
+  const double work = last("work.driving") + last("work.useful") + last("work.harmful") + last("work.weight");
+  EXPECT_NEAR(stored, work, 1e-4 * std::abs(last("work.driving")));
+}
+
+TEST(Report, MillionSamplesStayBelowTenMegabytes) {
+  Report report{.title = "Long"};
+  ReportSection& section = report.add("Plots");
+  for (int p = 0; p < 12; ++p) {
+    Plot plot{.title = "Plot", .x = {"time", "s"}, .y = {"torque", "N·m"}, .series = {}};
+    for (int s = 0; s < 2; ++s) {
+      Series series{.name = "series", .role = s ? Role::elastic : Role::rigid, .x = {}, .y = {}};
+      for (int i = 0; i < 1000000 / (p ? 10 : 1); ++i) {
+        series.x.push_back(1e-6 * i);
+        series.y.push_back(std::sin(0.01 * i) * (p + 1) / 3);
+      }
+      plot.series.push_back(std::move(series));
+    }
+    for (int i = 0; i < 100000; ++i) plot.marks.push_back({1e-5 * i, "load edge"});
+    section.cards.push_back(std::move(plot));
+  }
+  EXPECT_LT(html_of(report).size(), 10'000'000u);
+}
+
+TEST(Report, WritesGnuplotFiles) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kurbel report's plots";
+  std::filesystem::remove_all(folder);
+  Report report{.title = "Gnuplot"};
+  report.add("").cards.push_back(
+      Plot{.title = "Torque, it's",
+           .x = {"time", "s"},
+           .y = {"torque", "N·m"},
+           .series = {{.name = "one's", .role = Role::elastic, .x = {0, 1, 2}, .y = {1, 4, 9}}}});
+  const int drawn = write_gnuplot(report, folder.string());
+  EXPECT_TRUE(std::filesystem::exists(folder / "torque_it_s.dat"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "torque_it_s.gp"));
+  if (drawn > 0) {
+    EXPECT_GT(std::filesystem::file_size(folder / "torque_it_s.svg"), 1000u);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace kurbel
