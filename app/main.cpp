@@ -34,7 +34,8 @@ struct Arguments {
   std::string scene, effects, against, out, method;
   std::optional<double> accuracy;
   std::string until;
-  bool json = false, no_error = false, explain = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
+  bool json = false, no_error = false, explain = false, quiet = false, no_files = false, open = false, plots = false,
+       verbose = false;
 };
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
@@ -76,9 +77,12 @@ kurbel::SimulateOptions simulate_options(const Arguments& arguments, Progress& p
     kurbel::UnitError error;
     const auto until = kurbel::parse_quantity(arguments.until, error);
     const auto second = kurbel::parse_unit("s", error);
-    if (!until) throw std::invalid_argument(fmt::format("--until {}: {}; write e.g. \"3 s\"", kurbel::in_quotes(arguments.until), error.text));
+    if (!until)
+      throw std::invalid_argument(
+          fmt::format("--until {}: {}; write e.g. \"3 s\"", kurbel::in_quotes(arguments.until), error.text));
     if (until->dimension != second->dimension || !(until->value > 0))
-      throw std::invalid_argument(fmt::format("--until {}: must be a time > 0 with its unit, e.g. \"3 s\"", kurbel::in_quotes(arguments.until)));
+      throw std::invalid_argument(fmt::format("--until {}: must be a time > 0 with its unit, e.g. \"3 s\"",
+                                              kurbel::in_quotes(arguments.until)));
     options.until = until->value;
   }
   return options;
@@ -101,7 +105,8 @@ void check_arguments(const Arguments& arguments, const kurbel::Scene& scene) {
   if (!std::filesystem::is_directory(existing, status))
     throw std::invalid_argument(fmt::format("--out {}: {} is a file; give a folder", folder, existing.string()));
   if (access(existing.c_str(), W_OK) != 0)
-    throw std::invalid_argument(fmt::format("--out {}: no permission to write in {}; give another folder, or --no-files", folder, existing.string()));
+    throw std::invalid_argument(fmt::format(
+        "--out {}: no permission to write in {}; give another folder, or --no-files", folder, existing.string()));
 }
 
 // A browser, where the desktop has one.
@@ -120,7 +125,9 @@ void show(const AnyResult& result, const Arguments& arguments) {
     fmt::print("{}\n", kurbel::app::conclusion_of(result));
   } else {
     const std::string table = kurbel::table_of(result);
-    fmt::print("{}", kurbel::app::wants_colour(STDOUT_FILENO) ? kurbel::app::coloured(table, kurbel::app::conclusion_of(result)) : table);
+    fmt::print("{}", kurbel::app::wants_colour(STDOUT_FILENO)
+                         ? kurbel::app::coloured(table, kurbel::app::conclusion_of(result))
+                         : table);
   }
   if (arguments.no_files) return;
   const std::filesystem::path folder = folder_of(arguments);
@@ -135,7 +142,8 @@ void show(const AnyResult& result, const Arguments& arguments) {
 
 void log_scene(const kurbel::Scene& scene, const Arguments& arguments) {
   if (const auto log = kurbel::app::make_log(arguments.verbose))
-    log(fmt::format("read {}: {} components on {} line{}, effects: {}", scene.file, scene.components.size(), scene.lines.size(), scene.lines.size() == 1 ? "" : "s", scene.effects.describe()));
+    log(fmt::format("read {}: {} components on {} line{}, effects: {}", scene.file, scene.components.size(),
+                    scene.lines.size(), scene.lines.size() == 1 ? "" : "s", scene.effects.describe()));
 }
 
 int end_of_run(bool complete, const std::string& diagnosis) {
@@ -147,7 +155,8 @@ int end_of_run(bool complete, const std::string& diagnosis) {
 int run(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
   log_scene(scene, arguments);
-  const kurbel::Effects effects = arguments.effects.empty() ? scene.effects : kurbel::parse_effects(arguments.effects, scene);
+  const kurbel::Effects effects =
+      arguments.effects.empty() ? scene.effects : kurbel::parse_effects(arguments.effects, scene);
   const auto model = kurbel::compile(scene, effects);
   if (arguments.explain) {
     fmt::print("{}", model->explain());
@@ -174,7 +183,9 @@ int compare(const Arguments& arguments) {
   Progress progress(arguments.quiet);
   const auto options = simulate_options(arguments, progress);
   const std::string full_label = full.describe() == "none" ? "rigid" : rigid ? "elastic" : "second";
-  if (full.describe() == simple.describe()) throw std::invalid_argument(fmt::format("both models have the same effects ({}); choose others with --effects and --against", full.describe()));
+  if (full.describe() == simple.describe())
+    throw std::invalid_argument(fmt::format(
+        "both models have the same effects ({}); choose others with --effects and --against", full.describe()));
   const kurbel::Comparison c = kurbel::compare(scene, simple, rigid ? "rigid" : "first", full, full_label, options);
   show(c, arguments);
   return end_of_run(c.a.complete && c.b.complete, c.a.complete ? c.b.diagnosis : c.a.diagnosis);
@@ -183,7 +194,9 @@ int compare(const Arguments& arguments) {
 int check(const Arguments& arguments) {
   const kurbel::Scene scene = kurbel::read_scene(arguments.scene, kurbel::all_kinds());
   const auto model = kurbel::compile(scene, scene.effects);
-  fmt::print("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", arguments.scene, scene.components.size(), scene.components.size() == 1 ? "" : "s", model->free_shafts + model->twist_count(), model->free_shafts + model->twist_count() == 1 ? "" : "s", scene.effects.describe());
+  fmt::print("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", arguments.scene, scene.components.size(),
+             scene.components.size() == 1 ? "" : "s", model->free_shafts + model->twist_count(),
+             model->free_shafts + model->twist_count() == 1 ? "" : "s", scene.effects.describe());
   return 0;
 }
 
@@ -194,14 +207,20 @@ int figures(const Arguments& arguments) {
   return 0;
 }
 
-void add_scene(CLI::App* command, Arguments& arguments) { command->add_option("scene", arguments.scene, "scene file (TOML)")->required(); }
+void add_scene(CLI::App* command, Arguments& arguments) {
+  command->add_option("scene", arguments.scene, "scene file (TOML)")->required();
+}
 void add_run_options(CLI::App* command, Arguments& arguments) {
   add_scene(command, arguments);
-  command->add_option("--effects", arguments.effects, "none, elasticity, or elasticity:COUPLING,… (overrides the scene)");
-  command->add_option("--accuracy", arguments.accuracy, "measured error of every figure over its scale (overrides the scene)");
+  command->add_option("--effects", arguments.effects,
+                      "none, elasticity, or elasticity:COUPLING,… (overrides the scene)");
+  command->add_option("--accuracy", arguments.accuracy,
+                      "measured error of every figure over its scale (overrides the scene)");
   command->add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
-  command->add_option("--method", arguments.method, "auto, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
-  command->add_option("--out", arguments.out, "folder for report.html, summary.json and trajectory.csv (default: results/SCENE)");
+  command->add_option("--method", arguments.method,
+                      "auto, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
+  command->add_option("--out", arguments.out,
+                      "folder for report.html, summary.json and trajectory.csv (default: results/SCENE)");
   command->add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
   command->add_flag("--no-files", arguments.no_files, "print only");
   command->add_flag("--open", arguments.open, "open the report in a browser");
@@ -234,11 +253,14 @@ int refuse_command(const CLI::App& app, const CLI::ParseError& error, int argc, 
     fmt::print(stderr, "kurbel: unknown command \"{}\"{}; allowed: {}. See kurbel --help\n", argv[1],
                near ? fmt::format(" — did you mean \"{}\"?", *near) : "", kurbel::listed(names));
   } else if (argc == 1) {
-    fmt::print(stderr, "kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n", kurbel::listed(names));
+    fmt::print(stderr, "kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n",
+               kurbel::listed(names));
   } else {
     std::string meant;
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) && argv[1][0] != '-') meant = option_meant(*app.get_subcommand(argv[1]), argc, argv);
-    fmt::print(stderr, "kurbel: {}{} See kurbel{} --help\n", error.what(), meant.empty() ? "." : meant, argv[1][0] == '-' ? "" : fmt::format(" {}", argv[1]));
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && argv[1][0] != '-')
+      meant = option_meant(*app.get_subcommand(argv[1]), argc, argv);
+    fmt::print(stderr, "kurbel: {}{} See kurbel{} --help\n", error.what(), meant.empty() ? "." : meant,
+               argv[1][0] == '-' ? "" : fmt::format(" {}", argv[1]));
   }
   return exit_user_error;
 }
@@ -246,9 +268,10 @@ int refuse_command(const CLI::App& app, const CLI::ParseError& error, int argc, 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"kurbel — dynamics of machine units: is the rigid model good enough, and if not, how far is it off?\n"
-               "begin with: kurbel new press\n"
-               "exit codes: 0 done, 2 the input is wrong, 3 a run failed, 130 interrupted"};
+  CLI::App app{
+      "kurbel — dynamics of machine units: is the rigid model good enough, and if not, how far is it off?\n"
+      "begin with: kurbel new press\n"
+      "exit codes: 0 done, 2 the input is wrong, 3 a run failed, 130 interrupted"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "kurbel 0.1.0");
   Arguments arguments;
@@ -260,8 +283,10 @@ int main(int argc, char** argv) {
   };
   CLI::App* run_command = add("run", "simulate a scene", run);
   add_run_options(run_command, arguments);
-  run_command->add_flag("--explain", arguments.explain, "print what is merged, the coordinates and their inertias, and stop");
-  CLI::App* compare_command = add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
+  run_command->add_flag("--explain", arguments.explain,
+                        "print what is merged, the coordinates and their inertias, and stop");
+  CLI::App* compare_command =
+      add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
   add_run_options(compare_command, arguments);
   compare_command->add_option("--against", arguments.against, "effects of the first model (default: none)");
   add_scene(add("check", "validate a scene", check), arguments);
@@ -269,9 +294,11 @@ int main(int argc, char** argv) {
   CLI::App* new_command = add("new", "write a commented scene to start from: press, pump, engine, compressor or chain",
                               [](const Arguments& a) { return kurbel::app::new_scene(a.kind, a.file); });
   new_command->add_option("kind", arguments.kind, "press, pump, engine, compressor or chain");
-  new_command->add_option("file", arguments.file, "file to write (default: KIND.toml); one that exists is never overwritten");
-  add("keys", "print the keys of one kind, or of a whole scene (Markdown)", [](const Arguments& a) { return kurbel::app::print_keys(a.kind); })
-      ->add_option("kind", arguments.kind, "e.g. coupling, \"induction motor\", run (default: all)");
+  new_command->add_option("file", arguments.file,
+                          "file to write (default: KIND.toml); one that exists is never overwritten");
+  add("keys", "print the keys of one kind, or of a whole scene (Markdown)", [](const Arguments& a) {
+    return kurbel::app::print_keys(a.kind);
+  })->add_option("kind", arguments.kind, "e.g. coupling, \"induction motor\", run (default: all)");
   add("schema", "print the JSON Schema of a scene, for editors", [](const Arguments&) {
     fmt::print("{}", kurbel::scene_schema());
     return 0;

@@ -43,9 +43,15 @@ inline std::shared_ptr<const Model> model_of(const std::string& scene) {
 }
 
 // A bare run: no audit, nobody watching.
-inline RunOutcome bare_run(const std::shared_ptr<const Model>& model, double tolerance, const std::string& method = "auto") {
+inline RunOutcome bare_run(const std::shared_ptr<const Model>& model, double tolerance,
+                           const std::string& method = "auto") {
   Equations equations(model, false);
-  RunOptions options{.tolerance = tolerance, .method = method, .until = model->scene.run.until, .budget = 600, .interrupted = nullptr, .progress = {}};
+  RunOptions options{.tolerance = tolerance,
+                     .method = method,
+                     .until = model->scene.run.until,
+                     .budget = 600,
+                     .interrupted = nullptr,
+                     .progress = {}};
   return integrate(equations, options, {});
 }
 
@@ -67,7 +73,12 @@ inline TimedRun timed(int repetitions, const std::function<RunOutcome()>& run) {
 
 inline double final_angle(const std::shared_ptr<const Model>& model, double tolerance) {
   Equations equations(model, false);
-  RunOptions options{.tolerance = tolerance, .method = "auto", .until = model->scene.run.until, .budget = 600, .interrupted = nullptr, .progress = {}};
+  RunOptions options{.tolerance = tolerance,
+                     .method = "auto",
+                     .until = model->scene.run.until,
+                     .budget = 600,
+                     .interrupted = nullptr,
+                     .progress = {}};
   const RunOutcome out = integrate(equations, options, {});
   return equations.angle_with_turns(static_cast<std::size_t>(model->reduction_angle), out.state);
 }

@@ -16,18 +16,26 @@ double r1_cost_at_1e6 = 0;
 
 void crank_problem(const char* name, const char* scene, double reference) {
   const auto model = model_of(scene);
-  std::printf("%s: error of the crank angle after 10 s against processor time\n  %-10s %12s %10s %8s\n", name, "tolerance", "error [rad]", "time [ms]", "steps");
+  std::printf("%s: error of the crank angle after 10 s against processor time\n  %-10s %12s %10s %8s\n", name,
+              "tolerance", "error [rad]", "time [ms]", "steps");
   for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8, 5e-9, 1e-9, 1e-10, 1e-11}) {
     const TimedRun t = timed(15, [&] { return bare_run(model, tolerance); });
     const double error = std::abs(final_angle(model, tolerance) - reference);
-    std::printf("  %-10.0e %12.2e %10.3f %8lld\n", tolerance, error, 1e3 * t.median_seconds, static_cast<long long>(t.outcome.statistics.stepper.steps));
+    std::printf("  %-10.0e %12.2e %10.3f %8lld\n", tolerance, error, 1e3 * t.median_seconds,
+                static_cast<long long>(t.outcome.statistics.stepper.steps));
     if (error <= 1e-6 && r1_cost_at_1e6 == 0 && std::string(name) == "R1") r1_cost_at_1e6 = t.median_seconds;
   }
 }
 
 void multibody() {
   MultibodyProblem problem;
-  problem.mechanism = {.radius = 0.1, .rod_length = 0.35, .crank_inertia = 0.55, .rod_mass = 2, .rod_com = 0.1225, .rod_inertia = 0.02, .slider_mass = 3};
+  problem.mechanism = {.radius = 0.1,
+                       .rod_length = 0.35,
+                       .crank_inertia = 0.55,
+                       .rod_mass = 2,
+                       .rod_com = 0.1225,
+                       .rod_inertia = 0.02,
+                       .slider_mass = 3};
   problem.omega0 = 30;
   problem.t_end = 10;
   problem.accuracy = 1e-8;
@@ -36,33 +44,44 @@ void multibody() {
   const MultibodyResult result = run_multibody(problem);
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
   const double seconds = static_cast<double>(b.tv_sec - a.tv_sec) + 1e-9 * static_cast<double>(b.tv_nsec - a.tv_nsec);
-  std::printf("R1 by Simbody's closed loop: error %.2e rad in %.2f s; the reduced machine to 1e-6 rad is %.0f times cheaper\n\n",
-              std::abs(result.samples.back().phi - 294.719373652657), seconds, seconds / r1_cost_at_1e6);
+  std::printf(
+      "R1 by Simbody's closed loop: error %.2e rad in %.2f s; the reduced machine to 1e-6 rad is %.0f times "
+      "cheaper\n\n",
+      std::abs(result.samples.back().phi - 294.719373652657), seconds, seconds / r1_cost_at_1e6);
 }
 
 void chain_e1() {
   const auto model = model_of("six_inertia_chain");
-  std::printf("E1: peak spring torque of c1 over 5 s (reference 290.808843395416 N·m at 15.016893772 ms)\n  %-10s %-22s %12s %14s %10s\n", "tolerance", "method", "error [N·m]", "time error [s]", "time [ms]");
+  std::printf(
+      "E1: peak spring torque of c1 over 5 s (reference 290.808843395416 N·m at 15.016893772 ms)\n  %-10s %-22s %12s "
+      "%14s %10s\n",
+      "tolerance", "method", "error [N·m]", "time error [s]", "time [ms]");
   for (const char* method : {"dop853", "dopri5", "esdirk", "bdf"})
     for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
       Equations equations(model, false);
       ExtremeRecorder peaks(extremes_of(*model));
-      RunOptions options{.tolerance = tolerance, .method = method, .until = 5, .budget = 600, .interrupted = nullptr, .progress = {}};
+      RunOptions options{
+          .tolerance = tolerance, .method = method, .until = 5, .budget = 600, .interrupted = nullptr, .progress = {}};
       const RunOutcome out = integrate(equations, options, {&peaks});
       const auto& found = peaks.found()[1];
-      std::printf("  %-10.0e %-22s %12.2e %14.2e %10.2f\n", tolerance, method, std::abs(found.value - 290.808843395416), std::abs(found.time - 0.015016893772), 1e3 * out.statistics.cpu_seconds);
+      std::printf("  %-10.0e %-22s %12.2e %14.2e %10.2f\n", tolerance, method, std::abs(found.value - 290.808843395416),
+                  std::abs(found.time - 0.015016893772), 1e3 * out.statistics.cpu_seconds);
     }
   std::printf("\n");
 }
 
 void chains_e2() {
-  std::printf("E2: chains of N equal inertias for 0.2 s; cost per step and inertia should not grow with N\n  %-8s %-8s %10s %10s %22s %14s %14s\n", "N", "torque", "steps", "time [ms]", "per step and inertia", "omega first", "omega last");
+  std::printf(
+      "E2: chains of N equal inertias for 0.2 s; cost per step and inertia should not grow with N\n  %-8s %-8s %10s "
+      "%10s %22s %14s %14s\n",
+      "N", "torque", "steps", "time [ms]", "per step and inertia", "omega first", "omega last");
   for (const bool spread : {false, true})
     for (const int n : {10, 100, 1000, 10000, 100000}) {
       const auto model = equal_chain(n, spread);
       const TimedRun t = timed(n >= 10000 ? 1 : 5, [&] { return bare_run(model, 1e-6, "dop853"); });
       const double steps = static_cast<double>(t.outcome.statistics.stepper.steps);
-      std::printf("  %-8d %-8s %10.0f %10.2f %19.1f ns %14.7f %14.7f\n", n, spread ? "spread" : "first", steps, 1e3 * t.median_seconds, 1e9 * t.median_seconds / steps / n,
+      std::printf("  %-8d %-8s %10.0f %10.2f %19.1f ns %14.7f %14.7f\n", n, spread ? "spread" : "first", steps,
+                  1e3 * t.median_seconds, 1e9 * t.median_seconds / steps / n,
                   t.outcome.state[static_cast<std::size_t>(n)], t.outcome.state[2 * static_cast<std::size_t>(n) - 1]);
     }
   std::printf("  reference: N = 10: 12.64599, 12.64191; N = 100: 2.09731, 1.81029\n\n");
@@ -83,12 +102,15 @@ Scene stiffened(Scene scene, double factor, bool damping_ratio) {
 
 // Couplings stiffened at constant damping ratio: smooth torques, a step torque, and a press with load edges.
 void rigid_limit() {
-  std::printf("Rigid limit: couplings stiffened, damping ratio kept, tolerance 1e-7\n  %-42s %-12s %10s %8s  %s\n", "machine", "stiffness ×", "time [ms]", "ratio", "method");
+  std::printf("Rigid limit: couplings stiffened, damping ratio kept, tolerance 1e-7\n  %-42s %-12s %10s %8s  %s\n",
+              "machine", "stiffness ×", "time [ms]", "ratio", "method");
   const std::string folder = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
   Scene smooth = read_scene(folder + "six_inertia_chain.toml", all_kinds()), step = smooth;
   smooth.run.start.equilibrium = true;
   const Scene press = read_scene(folder + "crank_press.toml", all_kinds());
-  const std::pair<const char*, const Scene*> cases[] = {{"chain E1 started in balance (smooth torques)", &smooth}, {"chain E1 from rest (step torque)", &step}, {"press (20 load edges that ring)", &press}};
+  const std::pair<const char*, const Scene*> cases[] = {{"chain E1 started in balance (smooth torques)", &smooth},
+                                                        {"chain E1 from rest (step torque)", &step},
+                                                        {"press (20 load edges that ring)", &press}};
   for (const auto& [name, scene] : cases) {
     double first = 0;
     for (const double factor : {1.0, 10.0, 100.0, 1000.0}) {
@@ -96,7 +118,9 @@ void rigid_limit() {
       const auto model = compile(stiff, stiff.effects);
       const TimedRun t = timed(5, [&] { return bare_run(model, 1e-7); });
       if (first == 0) first = t.median_seconds;
-      std::printf("  %-42s %-12.0f %10.2f %8.2f  %s, %lld steps\n", name, factor, 1e3 * t.median_seconds, t.median_seconds / first, t.outcome.statistics.method.c_str(), static_cast<long long>(t.outcome.statistics.stepper.steps));
+      std::printf("  %-42s %-12.0f %10.2f %8.2f  %s, %lld steps\n", name, factor, 1e3 * t.median_seconds,
+                  t.median_seconds / first, t.outcome.statistics.method.c_str(),
+                  static_cast<long long>(t.outcome.statistics.stepper.steps));
     }
   }
   std::printf("\n");
@@ -117,6 +141,9 @@ int main(int argc, char** argv) {
   chain_e1();
   chains_e2();
   rigid_limit();
-  std::printf("Conclusion: R1 to 1e-6 rad costs %.2f ms by time stepping; peaks of E1 are right to the tolerance's digits with every\n"
-              "method; cost grows linearly with the number of inertias.\n", 1e3 * r1_cost_at_1e6);
+  std::printf(
+      "Conclusion: R1 to 1e-6 rad costs %.2f ms by time stepping; peaks of E1 are right to the tolerance's digits with "
+      "every\n"
+      "method; cost grows linearly with the number of inertias.\n",
+      1e3 * r1_cost_at_1e6);
 }

@@ -50,10 +50,14 @@ struct CouplingData {
     const double natural = inertia > 0 ? std::sqrt(stiffness / inertia) : HUGE_VAL;
     const double per_unit = stiffness / (damping.frequency > 0 ? damping.frequency : natural);
     switch (damping.as) {
-      case Damping::As::ratio: return {stiffness, 2 * damping.value * per_unit};
-      case Damping::As::relative: return {stiffness, damping.value * per_unit / (2 * std::numbers::pi)};
-      case Damping::As::loss_factor: return {stiffness, damping.value * per_unit};
-      case Damping::As::viscous: break;
+      case Damping::As::ratio:
+        return {stiffness, 2 * damping.value * per_unit};
+      case Damping::As::relative:
+        return {stiffness, damping.value * per_unit / (2 * std::numbers::pi)};
+      case Damping::As::loss_factor:
+        return {stiffness, damping.value * per_unit};
+      case Damping::As::viscous:
+        break;
     }
     return {stiffness, 0};
   }

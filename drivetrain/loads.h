@@ -14,9 +14,9 @@ namespace kurbel {
 struct OpposingLoad {
   static constexpr bool directional = true;
   Account work_account = Account::useful;
-  double dry = 0;        // M₀ [N·m], ≥ 0
-  double viscous = 0;    // b [N·m·s/rad], ≥ 0
-  double quadratic = 0;  // q [N·m·s²/rad²], ≥ 0
+  double dry = 0;          // M₀ [N·m], ≥ 0
+  double viscous = 0;      // b [N·m·s/rad], ≥ 0
+  double quadratic = 0;    // q [N·m·s²/rad²], ≥ 0
   double rated_speed = 0;  // [rad/s], for error scales
 
   template <class T>

@@ -113,9 +113,7 @@ struct TorqueOverSpeed {
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.rate); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
   std::string mode_name(int) const { return {}; }
-  Rated rated() const {
-    return {curve.max_abs(), std::max(std::abs(curve.x().front()), std::abs(curve.x().back()))};
-  }
+  Rated rated() const { return {curve.max_abs(), std::max(std::abs(curve.x().front()), std::abs(curve.x().back()))}; }
 };
 
 }  // namespace kurbel

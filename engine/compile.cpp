@@ -92,7 +92,8 @@ class Compiler {
     if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
     const Merging all = merge(net(), [](const Network::Joint&) { return true; });
     if (all.groups > 1 || net().joints.size() + 1 != net().nodes.size())
-      throw SceneError({{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
+      throw SceneError(
+          {{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
   }
 
   // The reduction link is the crank of the first mechanism, else the first shaft of the line.
@@ -119,12 +120,16 @@ class Compiler {
     const Merging finest = merge(net(), [](const Network::Joint& joint) { return !joint.element; });
     std::vector<double> inertia(at(finest.groups), 0.0);
     for (std::size_t n = 0; n < net().nodes.size(); ++n)
-      inertia[at(finest.group[n])] += net().nodes[n].prescribed >= 0 ? HUGE_VAL : net().nodes[n].inertia * finest.gain[n] * finest.gain[n];
+      inertia[at(finest.group[n])] +=
+          net().nodes[n].prescribed >= 0 ? HUGE_VAL : net().nodes[n].inertia * finest.gain[n] * finest.gain[n];
     for (const Network::ShaftElement& e : net().elements)
-      inertia[at(finest.group[at(e.node)])] += e.element->mean_inertia() * finest.gain[at(e.node)] * finest.gain[at(e.node)];
+      inertia[at(finest.group[at(e.node)])] +=
+          e.element->mean_inertia() * finest.gain[at(e.node)] * finest.gain[at(e.node)];
     for (Network::Joint& joint : net().joints) {
       if (!joint.element) continue;
-      const auto own = [&](int node) { return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]); };
+      const auto own = [&](int node) {
+        return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]);
+      };
       const double compliance = 1 / own(joint.a) + joint.ratio * joint.ratio / own(joint.b);
       joint.element->settle(compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0);
     }
@@ -133,22 +138,27 @@ class Compiler {
   void switch_effects() {
     for (Network::Joint& joint : net().joints) {
       joint.elastic = joint.element && model_.effects.is_elastic(joint.component);
-      if (joint.element && !joint.elastic && (model_.merged.empty() || model_.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
-        model_.merged.push_back(fmt::format("\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
+      if (joint.element && !joint.elastic &&
+          (model_.merged.empty() || model_.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
+        model_.merged.push_back(fmt::format(
+            "\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
     }
   }
 
   void make_shafts() {
     const Merging merging = merge(net(), [](const Network::Joint& joint) { return !joint.elastic; });
     std::vector<Shaft> groups(at(merging.groups));
-    for (std::size_t n = 0; n < net().nodes.size(); ++n) groups[at(merging.group[n])].nodes.push_back(static_cast<int>(n));
+    for (std::size_t n = 0; n < net().nodes.size(); ++n)
+      groups[at(merging.group[n])].nodes.push_back(static_cast<int>(n));
     for (Shaft& shaft : groups) {
       shaft.reference = shaft.nodes.front();
       for (const int n : shaft.nodes) {
         if (net().nodes[at(n)].prescribed < 0) continue;
         if (shaft.prescribed >= 0)
-          messages_.add(location_of(net().nodes[at(n)].component), fmt::format("\"{}\" prescribes the speed of a shaft whose speed \"{}\" prescribes already; keep one, or put an elastic coupling between them",
-                        net().nodes[at(n)].component, net().nodes[at(shaft.reference)].component));
+          messages_.add(location_of(net().nodes[at(n)].component),
+                        fmt::format("\"{}\" prescribes the speed of a shaft whose speed \"{}\" prescribes already; "
+                                    "keep one, or put an elastic coupling between them",
+                                    net().nodes[at(n)].component, net().nodes[at(shaft.reference)].component));
         shaft.prescribed = net().nodes[at(n)].prescribed;
         shaft.reference = n;
       }
@@ -162,7 +172,8 @@ class Compiler {
       shaft.directional = shaft.directional || e.element->directional();
     }
     for (Shaft& shaft : groups) {
-      if (shaft.prescribed < 0 && std::count(shaft.nodes.begin(), shaft.nodes.end(), model_.reduction_node)) shaft.reference = model_.reduction_node;
+      if (shaft.prescribed < 0 && std::count(shaft.nodes.begin(), shaft.nodes.end(), model_.reduction_node))
+        shaft.reference = model_.reduction_node;
       const double reference = merging.gain[at(shaft.reference)];
       for (const int n : shaft.nodes) {
         const double gain = merging.gain[at(n)] / reference;
@@ -194,8 +205,9 @@ class Compiler {
     for (std::size_t j = 0; j < net().joints.size(); ++j) {
       const Network::Joint& joint = net().joints[j];
       if (!joint.elastic) continue;
-      model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)], model_.shaft_of_node[at(joint.b)],
-                                model_.gain_of_node[at(joint.a)], joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4});
+      model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)],
+                                model_.shaft_of_node[at(joint.b)], model_.gain_of_node[at(joint.a)],
+                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4});
     }
   }
 
@@ -209,8 +221,10 @@ class Compiler {
       std::set<std::string> names;
       for (const int n : shaft.nodes) names.insert(model_.node_label(n));
       messages_.add(location_of(net().nodes[at(shaft.nodes.front())].component),
-                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a component there an inertia (a coupling: inertia_in, inertia_out){}",
-                                listed({names.begin(), names.end()}, "and"), model_.elastic.empty() ? "" : ", or switch the elasticity beside it off"));
+                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a "
+                                "component there an inertia (a coupling: inertia_in, inertia_out){}",
+                                listed({names.begin(), names.end()}, "and"),
+                                model_.elastic.empty() ? "" : ", or switch the elasticity beside it off"));
     }
     messages_.throw_if_any();
   }
@@ -228,13 +242,16 @@ class Compiler {
     }
     if (mechanism && least < 1e-9 * shaft.mean_inertia)
       messages_.add(location_of(mechanism->component),
-                    fmt::format("\"{}\" has no inertia at a dead centre (its slider stands still there), so the crank's motion is undefined; give it a crank_inertia", mechanism->component));
+                    fmt::format("\"{}\" has no inertia at a dead centre (its slider stands still there), so the "
+                                "crank's motion is undefined; give it a crank_inertia",
+                                mechanism->component));
   }
 
   // Rated speed and torque, carried to the reduction link and from there to every shaft.
   void find_scales() {
     double speed = 0, torque = 0, resisting = 0, inertia = 0;
-    for (std::size_t n = 0; n < net().nodes.size(); ++n) inertia += net().nodes[n].inertia * model_.node_ratio[n] * model_.node_ratio[n];
+    for (std::size_t n = 0; n < net().nodes.size(); ++n)
+      inertia += net().nodes[n].inertia * model_.node_ratio[n] * model_.node_ratio[n];
     for (const Network::ShaftElement& e : net().elements) {
       const double ratio = std::abs(model_.node_ratio[at(e.node)]);
       const Rated rated = e.element->rated();
@@ -303,7 +320,9 @@ class Compiler {
     }
     for (std::size_t i = 0; i < net().elements.size(); ++i) {
       const Network::ShaftElement& e = net().elements[i];
-      ShaftPorts ports{.id = static_cast<int>(i), .shaft = model_.shaft_of_node[at(e.node)], .gain = model_.gain_of_node[at(e.node)]};
+      ShaftPorts ports{.id = static_cast<int>(i),
+                       .shaft = model_.shaft_of_node[at(e.node)],
+                       .gain = model_.gain_of_node[at(e.node)]};
       if (e.element->uses_angle()) {
         ports.angle = tracked(e.node);
         ports.phase = e.phase;
@@ -332,14 +351,17 @@ class Compiler {
       const int total = segments[joint.component], k = ++seen[joint.component];
       if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
       const std::string name = total == 1 ? joint.component : fmt::format("{}.{}", joint.component, k);
-      model_.torque_joints.push_back({name, static_cast<int>(j), index, model_.torque_scale / std::abs(model_.node_ratio[at(joint.a)])});
+      model_.torque_joints.push_back(
+          {name, static_cast<int>(j), index, model_.torque_scale / std::abs(model_.node_ratio[at(joint.a)])});
     }
   }
 
   // ω² ≤ max over elastic joints of the stiffness sums at their two shafts; likewise the damping rates.
   void estimate_fastest_rate() {
     std::vector<double> stiffness(model_.shafts.size(), 0.0), damping(model_.shafts.size(), 0.0);
-    const auto over = [&](int shaft, double x) { return model_.shafts[at(shaft)].prescribed >= 0 ? 0 : x / model_.shafts[at(shaft)].mean_inertia; };
+    const auto over = [&](int shaft, double x) {
+      return model_.shafts[at(shaft)].prescribed >= 0 ? 0 : x / model_.shafts[at(shaft)].mean_inertia;
+    };
     for (const ElasticJoint& e : model_.elastic) {
       const ConnectionMaker& element = *net().joints[at(e.joint)].element;
       stiffness[at(e.shaft_a)] += over(e.shaft_a, element.stiffness() * e.gain_a * e.gain_a);
@@ -348,8 +370,9 @@ class Compiler {
       damping[at(e.shaft_b)] += over(e.shaft_b, element.damping() * e.gain_b * e.gain_b);
     }
     for (const ElasticJoint& e : model_.elastic)
-      model_.fastest_rate = std::max({model_.fastest_rate, std::sqrt(stiffness[at(e.shaft_a)] + stiffness[at(e.shaft_b)]),
-                                      damping[at(e.shaft_a)] + damping[at(e.shaft_b)]});
+      model_.fastest_rate =
+          std::max({model_.fastest_rate, std::sqrt(stiffness[at(e.shaft_a)] + stiffness[at(e.shaft_b)]),
+                    damping[at(e.shaft_a)] + damping[at(e.shaft_b)]});
   }
 
   Model model_;
@@ -366,8 +389,9 @@ std::string Model::node_label(int node) const {
 std::string Model::explain() const {
   const std::size_t twists = elastic.size();
   std::string text = fmt::format("effects on: {}\n", effects.describe());
-  text += fmt::format("coordinates: {} = {} shaft speed{}{}; angles kept: {} (turns apart from the remainder)\n", free_shafts + twists, free_shafts,
-                      free_shafts == 1 ? "" : "s", twists ? fmt::format(" + {} twist{}", twists, twists == 1 ? "" : "s") : "", angles.size());
+  text += fmt::format("coordinates: {} = {} shaft speed{}{}; angles kept: {} (turns apart from the remainder)\n",
+                      free_shafts + twists, free_shafts, free_shafts == 1 ? "" : "s",
+                      twists ? fmt::format(" + {} twist{}", twists, twists == 1 ? "" : "s") : "", angles.size());
   text += fmt::format("reduction link: {}\n", node_label(reduction_node));
   const std::size_t shown = 40;
   for (std::size_t s = 0; s < shafts.size() && s < shown; ++s) {
@@ -377,22 +401,26 @@ std::string Model::explain() const {
       const double gain = gain_of_node[static_cast<std::size_t>(shaft.nodes[i])];
       names += (i ? ", " : "") + node_label(shaft.nodes[i]) + (gain == 1 ? "" : fmt::format(" (×{:.6g})", gain));
     }
-    text += fmt::format("  shaft {}: {}{}; on {}: {}\n", s + 1, with_unit(shaft.mean_inertia, "kg*m2"),
-                        shaft.variable ? " (mean; varies with the crank angle)" : "", node_label(shaft.reference), names);
+    text +=
+        fmt::format("  shaft {}: {}{}; on {}: {}\n", s + 1, with_unit(shaft.mean_inertia, "kg*m2"),
+                    shaft.variable ? " (mean; varies with the crank angle)" : "", node_label(shaft.reference), names);
     if (shaft.prescribed >= 0) text += "    its speed is prescribed\n";
   }
   if (shafts.size() > shown) text += fmt::format("  … and {} more shafts\n", shafts.size() - shown);
   for (std::size_t i = 0; i < elastic.size() && i < shown; ++i) {
     const Network::Joint& joint = network.joints[static_cast<std::size_t>(elastic[i].joint)];
-    text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component, with_unit(joint.element->stiffness(), "N*m/rad"),
-                        with_unit(joint.element->damping(), "N*m*s/rad"));
+    text +=
+        fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
+                    with_unit(joint.element->stiffness(), "N*m/rad"), with_unit(joint.element->damping(), "N*m*s/rad"));
   }
   for (const Network::ShaftElement& e : network.elements)
     if (const std::string words = e.element->describe(); !words.empty()) text += "  " + words + "\n";
   for (const std::string& line : merged) text += "  merged: " + line + "\n";
   for (const Network::Joint& joint : network.joints)
     if (!joint.element && joint.ratio != 1)
-      text += fmt::format("  merged: gear of \"{}\", ratio {:.6g}; inertias behind it count by the square of the ratio\n", joint.component, joint.ratio);
+      text +=
+          fmt::format("  merged: gear of \"{}\", ratio {:.6g}; inertias behind it count by the square of the ratio\n",
+                      joint.component, joint.ratio);
   return text;
 }
 

@@ -28,9 +28,7 @@ class Curve {
   double max_abs() const;
 
   // Piece that holds x (x already within the period).
-  int piece(double x) const {
-    return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
-  }
+  int piece(double x) const { return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1; }
   double piece_begin(int piece) const { return piece < 0 ? -HUGE_VAL : x_[static_cast<std::size_t>(piece)]; }
   double piece_end(int piece) const {
     return piece + 1 >= static_cast<int>(x_.size()) ? HUGE_VAL : x_[static_cast<std::size_t>(piece + 1)];

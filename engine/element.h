@@ -41,10 +41,14 @@ struct ShaftState {
 enum class Account { driving, useful, harmful, weight };
 inline const char* name_of(Account account) {
   switch (account) {
-    case Account::driving: return "driving";
-    case Account::useful: return "useful";
-    case Account::harmful: return "harmful";
-    case Account::weight: return "weight";
+    case Account::driving:
+      return "driving";
+    case Account::useful:
+      return "useful";
+    case Account::harmful:
+      return "harmful";
+    case Account::weight:
+      return "weight";
   }
   return "";
 }
@@ -66,12 +70,20 @@ struct Window {
 };
 
 template <class E>
-concept UsesAngle = requires { requires E::uses_angle; };
+concept UsesAngle = requires {
+  requires E::uses_angle;
+};
 template <class E>
-concept Directional = requires { requires E::directional; };
+concept Directional = requires {
+  requires E::directional;
+};
 template <class E>
-concept Guarded = requires { E::guards; };
+concept Guarded = requires {
+  E::guards;
+};
 template <class E>
-concept Timed = requires(const E& e) { e.next_edge(0.0); };
+concept Timed = requires(const E& e) {
+  e.next_edge(0.0);
+};
 
 }  // namespace kurbel

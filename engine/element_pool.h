@@ -1,4 +1,5 @@
-// element_pool.h — all elements of one type, evaluated in one loop behind one virtual call. No element, no pool, no cost.
+// element_pool.h — all elements of one type, evaluated in one loop behind one virtual call. No element, no pool, no
+// cost.
 #pragma once
 
 #include <array>
@@ -16,24 +17,24 @@ namespace kurbel {
 // Where the machine is. Arrays belong to the equations.
 struct Instant {
   double t;
-  const double* angle;     // per tracked angle
-  const double* twist;     // per elastic connection
-  const double* speed;     // per shaft
-  const int* mode;         // per element
-  const int* direction;    // per shaft
-  const char* active;      // per element: within its window of time
+  const double* angle;   // per tracked angle
+  const double* twist;   // per elastic connection
+  const double* speed;   // per shaft
+  const int* mode;       // per element
+  const int* direction;  // per shaft
+  const char* active;    // per element: within its window of time
 };
 
 // What the elements do to the machine at that instant.
 struct Sums {
-  double* torque;               // per shaft: sum of torques
-  double* inertia;              // per shaft: variable inertias are added to the constant ones
-  double* twist_rate;           // per elastic connection
-  double* connection_torque;    // per elastic connection: transmitted torque k θ + c θ̇
-  double* spring_torque;        // per elastic connection: spring torque k θ; written only when work_rate is wanted
-  double* element_torque;       // per shaft element
-  double* element_inertia;      // per shaft element: its variable inertia
-  double* work_rate;            // per work account, or null where nobody asks
+  double* torque;             // per shaft: sum of torques
+  double* inertia;            // per shaft: variable inertias are added to the constant ones
+  double* twist_rate;         // per elastic connection
+  double* connection_torque;  // per elastic connection: transmitted torque k θ + c θ̇
+  double* spring_torque;      // per elastic connection: spring torque k θ; written only when work_rate is wanted
+  double* element_torque;     // per shaft element
+  double* element_inertia;    // per shaft element: its variable inertia
+  double* work_rate;          // per work account, or null where nobody asks
 };
 
 // Registers the places of a sparse Jacobian; a column or row of −1 is a motion that is no state.
@@ -95,20 +96,20 @@ class ElementPool {
 
 // Where an element of the pool is connected.
 struct ConnectionPorts {
-  int id = 0;                  // index of the twist
+  int id = 0;  // index of the twist
   int shaft_a = 0, shaft_b = 0;
   double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
   int loss_account = 0;
 };
 
 struct ShaftPorts {
-  int id = 0;           // index among shaft elements
-  int mode = 0;         // first of its mode slots
+  int id = 0;    // index among shaft elements
+  int mode = 0;  // first of its mode slots
   int shaft = 0;
-  double gain = 1;      // speed of the element's own shaft over that of the merged one
-  int angle = -1;       // tracked angle
+  double gain = 1;  // speed of the element's own shaft over that of the merged one
+  int angle = -1;   // tracked angle
   int angle_shaft = 0;
-  double phase = 0;     // added to the tracked angle [rad]
+  double phase = 0;  // added to the tracked angle [rad]
   int account = 0;
 };
 
@@ -144,7 +145,8 @@ class ConnectionPool final : public ElementPool {
     slots_.clear();
     for (const Placed& p : placed_) {
       const int theta = pattern.twist(p.at.id), a = pattern.speed(p.at.shaft_a), b = pattern.speed(p.at.shaft_b);
-      slots_.push_back({pattern.entry(a, theta), pattern.entry(a, a), pattern.entry(a, b), pattern.entry(b, theta), pattern.entry(b, a), pattern.entry(b, b)});
+      slots_.push_back({pattern.entry(a, theta), pattern.entry(a, a), pattern.entry(a, b), pattern.entry(b, theta),
+                        pattern.entry(b, a), pattern.entry(b, b)});
     }
   }
 
@@ -226,8 +228,8 @@ class ShaftPool final : public ElementPool {
     for (const Placed& p : placed_) {
       if (!now.active[p.at.id]) continue;
       const ShaftState<double> x = state(p, now);
-      const auto torque = p.element.torque(ShaftState<Dual<2>>{
-          x.t, Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1), x.mode, x.direction});
+      const auto torque = p.element.torque(
+          ShaftState<Dual<2>>{x.t, Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1), x.mode, x.direction});
       if constexpr (UsesAngle<E>) slots[p.slot_angle] += p.at.gain * torque.d[0];
       slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
     }

@@ -120,7 +120,8 @@ double Equations::prescribed_acceleration(std::size_t shaft, double t) const {
 // Everything that changes at known times.
 void Equations::set_timed_modes(double t) {
   for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
-  for (std::size_t p = 0; p < prescribed_piece_.size(); ++p) prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
+  for (std::size_t p = 0; p < prescribed_piece_.size(); ++p)
+    prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
 }
 
 Instant Equations::instant(double t, std::span<const double> y) {
@@ -141,8 +142,9 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
   snapshot_.now = instant(t, y);
-  snapshot_.sums = {torque_.data(), inertia_.data(), twist_rate, connection_torque_.data(), spring_torque_.data(),
-                    element_torque_.data(), element_inertia_.data(), work_rate};
+  snapshot_.sums = {
+      torque_.data(),         inertia_.data(),         twist_rate, connection_torque_.data(), spring_torque_.data(),
+      element_torque_.data(), element_inertia_.data(), work_rate};
   for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
   for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
   for (const int s : variable_)
@@ -261,7 +263,8 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
 ErrorControl Equations::error_control(double tolerance) const {
   const Model& m = *model_;
   ErrorControl control{tolerance, {}};
-  for (const TrackedAngle& angle : m.angles) control.scale.push_back(std::max(1.0, std::abs(m.node_ratio[at(angle.node)])));
+  for (const TrackedAngle& angle : m.angles)
+    control.scale.push_back(std::max(1.0, std::abs(m.node_ratio[at(angle.node)])));
   for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
   control.scale.resize(size(), 0.0);
@@ -269,14 +272,16 @@ ErrorControl Equations::error_control(double tolerance) const {
   // Beside a prescribed motion the states may be smoother than the torques: only the quadratures keep the steps short.
   for (std::size_t k = 0; k < m.accounts.size(); ++k) control.scale[work_index(k)] = m.torque_scale;  // per radian
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
-    for (const bool spring : {false, true}) control.scale[square_index(i, spring)] = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
+    for (const bool spring : {false, true})
+      control.scale[square_index(i, spring)] = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
   return control;
 }
 
 std::string Equations::state_name(std::size_t state) const {
   const Model& m = *model_;
   if (state < m.angle_count()) return fmt::format("angle of {}", m.node_label(m.angles[state].node));
-  if (state < speed_index(0)) return fmt::format("twist of {}", m.network.joints[at(m.elastic[state - twists_begin()].joint)].component);
+  if (state < speed_index(0))
+    return fmt::format("twist of {}", m.network.joints[at(m.elastic[state - twists_begin()].joint)].component);
   if (state < states_) return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
   if (state < states_ + m.accounts.size()) return fmt::format("work of {}", m.accounts[state - states_].name);
   return "a squared torque";
@@ -303,7 +308,8 @@ std::vector<double> Equations::start_angles(std::vector<double>& twists) {
   const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
   const double reduction_angle = start.angle / m.node_ratio[at(on)];
   std::vector<double> angles(m.shafts.size());
-  for (std::size_t s = 0; s < m.shafts.size(); ++s) angles[s] = m.node_ratio[at(m.shafts[s].reference)] * reduction_angle;
+  for (std::size_t s = 0; s < m.shafts.size(); ++s)
+    angles[s] = m.node_ratio[at(m.shafts[s].reference)] * reduction_angle;
   bool given = false;
   for (const auto& [component, c] : start.components) {
     if (!c.angle) continue;
@@ -334,7 +340,8 @@ std::vector<double> Equations::start(double t) {
   for (std::size_t i = 0; i < twists.size(); ++i) y[twists_begin() + i] = twists[i];
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
   for (std::size_t s = 0; s < m.free_shafts; ++s)
-    y[speed_index(static_cast<int>(s))] = settings.speed * m.node_ratio[at(m.shafts[s].reference)] / m.node_ratio[at(on)];
+    y[speed_index(static_cast<int>(s))] =
+        settings.speed * m.node_ratio[at(m.shafts[s].reference)] / m.node_ratio[at(on)];
   for (const auto& [component, c] : settings.components) {
     if (!c.speed) continue;
     const int node = m.network.ports.at(component).in;
@@ -362,7 +369,8 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   const Model& m = *model_;
   std::vector<double> y(size(), 0.0);
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * reduction_angle;
-  for (std::size_t s = 0; s < m.free_shafts; ++s) y[speed_index(static_cast<int>(s))] = reduction_speed * m.node_ratio[at(m.shafts[s].reference)];
+  for (std::size_t s = 0; s < m.free_shafts; ++s)
+    y[speed_index(static_cast<int>(s))] = reduction_speed * m.node_ratio[at(m.shafts[s].reference)];
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
   set_timed_modes(t);
@@ -397,7 +405,8 @@ void Equations::balance_twists(std::span<double> y, double t) {
   std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
   std::fill(element_hold_.begin(), element_hold_.end(), Hold{});
   for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
-  const bool still = std::all_of(y.begin() + static_cast<std::ptrdiff_t>(speed_index(0)), y.begin() + static_cast<std::ptrdiff_t>(states_), [](double w) { return w == 0; });
+  const bool still = std::all_of(y.begin() + static_cast<std::ptrdiff_t>(speed_index(0)),
+                                 y.begin() + static_cast<std::ptrdiff_t>(states_), [](double w) { return w == 0; });
   if (still)
     for (std::size_t e = 0; e < net.elements.size(); ++e) {
       hold_low += element_hold_[e].low * m.node_ratio[at(net.elements[e].node)];
@@ -461,7 +470,8 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
   if (directional_.empty()) return;
-  const bool still = std::any_of(directional_.begin(), directional_.end(), [&](int s) { return direction_[at(s)] == 0; });
+  const bool still =
+      std::any_of(directional_.begin(), directional_.end(), [&](int s) { return direction_[at(s)] == 0; });
   if (still) {
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
@@ -498,7 +508,8 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
       } else {
         // Breaks away on the side whose guard fired: just there the push still equals what can be held.
         direction_[s] = (guard - directions_begin) % 2 == 0 ? -1 : 1;
-        log.push_back({t, m.node_label(m.shafts[s].reference), direction_[s] > 0 ? "moves forwards" : "moves backwards"});
+        log.push_back(
+            {t, m.node_label(m.shafts[s].reference), direction_[s] > 0 ? "moves forwards" : "moves backwards"});
       }
       continue;
     }
@@ -515,7 +526,8 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
 }
 
 // A shaft at standstill stays there while its opposing elements can hold it; else it moves the way it is pushed.
-void Equations::settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts, std::vector<Event>* log) {
+void Equations::settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts,
+                                  std::vector<Event>* log) {
   const Model& m = *model_;
   for (const std::size_t s : shafts) {
     if (s >= m.free_shafts) continue;
@@ -581,7 +593,8 @@ bool Equations::wrap(std::span<double> y) {
 }
 
 double Equations::angle_with_turns(std::size_t tracked, std::span<const double> y) const {
-  return static_cast<double>(static_cast<long double>(turns_[tracked]) * 4 * std::numbers::pi_v<long double> + y[tracked]);
+  return static_cast<double>(static_cast<long double>(turns_[tracked]) * 4 * std::numbers::pi_v<long double> +
+                             y[tracked]);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -595,7 +608,8 @@ const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
   const TrackedAngle& reference = m.angles[at(m.reduction_angle)];
   shaft_angle_[at(reference.shaft)] = angle_with_turns(at(m.reduction_angle), y) / reference.gain;
   set_shaft_angles(snapshot_.now.twist, shaft_angle_);
-  for (std::size_t n = 0; n < node_angle_.size(); ++n) node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
+  for (std::size_t n = 0; n < node_angle_.size(); ++n)
+    node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
   snapshot_.alpha = alpha_.data();
   snapshot_.joint_torque = joint_torque_.data();
   snapshot_.node_angle = node_angle_.data();
@@ -606,14 +620,16 @@ const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
 double Equations::kinetic_energy(double t, std::span<const double> y) {
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
   double sum = 0;
-  for (std::size_t s = 0; s < model_->shafts.size(); ++s) sum += 0.5 * inertia_[s] * snapshot_.now.speed[s] * snapshot_.now.speed[s];
+  for (std::size_t s = 0; s < model_->shafts.size(); ++s)
+    sum += 0.5 * inertia_[s] * snapshot_.now.speed[s] * snapshot_.now.speed[s];
   return sum;
 }
 
 double Equations::kinetic_energy_of_bodies(double t, std::span<const double> y) {
   const Instant now = instant(t, y);
   double sum = 0;
-  for (std::size_t s = 0; s < model_->shafts.size(); ++s) sum += 0.5 * constant_inertia_[s] * now.speed[s] * now.speed[s];
+  for (std::size_t s = 0; s < model_->shafts.size(); ++s)
+    sum += 0.5 * constant_inertia_[s] * now.speed[s] * now.speed[s];
   for (const auto& pool : model_->pools) sum += pool->kinetic_energy_of_bodies(now);
   return sum;
 }

@@ -71,7 +71,9 @@ class Equations final : public OdeSystem {
   std::size_t square_index(std::size_t torque_joint, bool spring) const {
     return states_ + model_->accounts.size() + 2 * torque_joint + (spring ? 1 : 0);
   }
-  std::size_t speed_index(int shaft) const { return twists_begin() + model_->twist_count() + static_cast<std::size_t>(shaft); }
+  std::size_t speed_index(int shaft) const {
+    return twists_begin() + model_->twist_count() + static_cast<std::size_t>(shaft);
+  }
   std::size_t twist_index(int elastic) const { return twists_begin() + static_cast<std::size_t>(elastic); }
 
  private:
@@ -93,15 +95,16 @@ class Equations final : public OdeSystem {
   void write_quadratures(double* rate);
   void list_rigid_trees();
   void list_elastic_tree();
-  void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts, std::vector<Event>* log);
+  void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts,
+                         std::vector<Event>* log);
   std::vector<double> start_angles(std::vector<double>& twists);
   void balance_twists(std::span<double> y, double t);
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
 
   std::shared_ptr<const Model> model_;
   std::size_t states_ = 0, quadratures_ = 0, guard_count_ = 0;
-  std::vector<std::size_t> guard_begin_;      // per pool
-  std::vector<int> directional_;              // shafts that carry elements opposing motion
+  std::vector<std::size_t> guard_begin_;  // per pool
+  std::vector<int> directional_;          // shafts that carry elements opposing motion
   std::vector<double> constant_inertia_, inverse_inertia_, inertia_;
   std::vector<int> variable_;
   std::vector<RigidStep> rigid_steps_;
@@ -110,7 +113,7 @@ class Equations final : public OdeSystem {
   // modes, fixed between events
   std::vector<int> mode_, direction_, prescribed_piece_;
   std::vector<char> active_;
-  std::vector<double> turns_;                 // per tracked angle, in units of two turns
+  std::vector<double> turns_;  // per tracked angle, in units of two turns
 
   // working arrays
   std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_;

@@ -191,7 +191,8 @@ ExplicitRungeKutta::Aim ExplicitRungeKutta::aim(double h, double t_limit) const 
 
 void ExplicitRungeKutta::retake(double t) {
   if (t == t_) return;
-  if (!(t <= step_end_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
+  if (!(t <= step_end_))
+    throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
   t_ = std::max(t, t_previous_);
   dense_is_ready_ = false;
   take(t_ - t_previous_);

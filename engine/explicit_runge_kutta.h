@@ -64,7 +64,7 @@ class ExplicitRungeKutta final : public Stepper {
 
   double t_ = 0, t_previous_ = 0;
   double step_end_ = 0;  // of the last step as it was accepted
-  double h_next_ = 0;  // 0: not known yet
+  double h_next_ = 0;    // 0: not known yet
   double previous_error_ = 1e-4;
   int stiff_steps_ = 0, mild_steps_ = 0;
   bool started_ = false;

@@ -47,7 +47,8 @@ JacobianLayout lay_out_jacobian(const Model& model) {
 
   std::vector<std::size_t> order(record.places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return record.places[a] < record.places[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return record.places[a] < record.places[b]; });
   JacobianLayout layout;
   layout.pattern.size = model.state_count();
   layout.pattern.column_start.assign(model.state_count() + 1, 0);
@@ -73,7 +74,8 @@ JacobianLayout lay_out_jacobian(const Model& model) {
     layout.pattern.column_start[c + 1] += layout.pattern.column_start[c];
   for (const std::size_t slot : stateless) layout.slot_position[slot] = layout.pattern.row.size();
   for (const auto& [slot, value] : kinematic)
-    if (layout.slot_position[slot] < layout.pattern.row.size()) layout.constant.emplace_back(layout.slot_position[slot], value);
+    if (layout.slot_position[slot] < layout.pattern.row.size())
+      layout.constant.emplace_back(layout.slot_position[slot], value);
   return layout;
 }
 

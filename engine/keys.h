@@ -48,8 +48,8 @@ struct Key {
   Domain domain = any_number;
   std::string doc = "";
   bool required = false;
-  std::vector<std::string> choices = {};         // of a text; of a curve: what it may be given over
-  const std::vector<Kind>* nested = nullptr;     // of sections
+  std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
+  const std::vector<Kind>* nested = nullptr;  // of sections
 };
 
 // How a kind of component stands in a machine.

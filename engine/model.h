@@ -14,15 +14,15 @@ namespace kurbel {
 
 // One coordinate: all nodes that are rigidly joined, reduced to one of them.
 struct Shaft {
-  int reference = 0;          // node whose speed is the shaft's speed ω
+  int reference = 0;  // node whose speed is the shaft's speed ω
   std::vector<int> nodes;
-  double inertia = 0;         // constant part, on the reference node [kg·m²]
-  double mean_inertia = 0;    // with the mean of the mechanisms
-  bool variable = false;      // carries a mechanism
-  bool directional = false;   // carries an element that opposes motion
-  int prescribed = -1;        // its speed is given
-  double speed_scale = 1;     // [rad/s]
-  double torque_scale = 1;    // [N·m]
+  double inertia = 0;        // constant part, on the reference node [kg·m²]
+  double mean_inertia = 0;   // with the mean of the mechanisms
+  bool variable = false;     // carries a mechanism
+  bool directional = false;  // carries an element that opposes motion
+  int prescribed = -1;       // its speed is given
+  double speed_scale = 1;    // [rad/s]
+  double torque_scale = 1;   // [N·m]
 };
 
 // A joint that stayed elastic. θ = gain_a φ_A − gain_b φ_B over the merged shafts A, B.
@@ -43,8 +43,8 @@ struct TrackedAngle {
 struct TorqueJoint {
   std::string component;
   int joint = 0;
-  int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
-  double torque_scale = 1;    // [N·m]
+  int elastic = -1;         // index of the elastic joint; −1: merged, torque by d'Alembert
+  double torque_scale = 1;  // [N·m]
 };
 
 struct WorkAccount {
@@ -55,16 +55,16 @@ struct WorkAccount {
 // Where the derivatives of the elements go in the sparse Jacobian of the states (quadratures not counted).
 struct JacobianLayout {
   SparsityPattern pattern;
-  std::vector<std::size_t> slot_position;                      // per slot: stored entry; one past the end: no state
-  std::vector<std::pair<std::size_t, double>> constant;        // kinematic entries: stored entry, value
-  std::vector<int> row_shaft;                                  // per stored entry: shaft of a speed's row, else −1
+  std::vector<std::size_t> slot_position;                // per slot: stored entry; one past the end: no state
+  std::vector<std::pair<std::size_t, double>> constant;  // kinematic entries: stored entry, value
+  std::vector<int> row_shaft;                            // per stored entry: shaft of a speed's row, else −1
 };
 
 struct Model {
   Scene scene;
   Effects effects;
   Network network;
-  std::vector<Shaft> shafts;        // free ones first, prescribed ones last
+  std::vector<Shaft> shafts;  // free ones first, prescribed ones last
   std::size_t free_shafts = 0;
   std::vector<int> shaft_of_node;
   std::vector<double> gain_of_node;  // ω_node = gain · ω_shaft
@@ -76,15 +76,15 @@ struct Model {
   std::vector<std::unique_ptr<ElementPool>> pools;
   std::vector<Channel> pool_channels;
   std::size_t mode_slots = 0;
-  std::vector<std::string> merged;   // what was merged and why, a line each
+  std::vector<std::string> merged;  // what was merged and why, a line each
 
-  int reduction_node = 0;            // crank of the first mechanism, else the line's first shaft
-  int reduction_angle = 0;           // its tracked angle
-  double cycle = 0;                  // angle of one cycle of the reduction link [rad]; 0: none
-  int reduction_element = -1;        // first mechanism among the elements
+  int reduction_node = 0;                    // crank of the first mechanism, else the line's first shaft
+  int reduction_angle = 0;                   // its tracked angle
+  double cycle = 0;                          // angle of one cycle of the reduction link [rad]; 0: none
+  int reduction_element = -1;                // first mechanism among the elements
   double speed_scale = 1, torque_scale = 1;  // of the reduction link
   JacobianLayout jacobian;
-  double fastest_rate = 0;           // upper bound of the linearised drive's eigenvalues [1/s]
+  double fastest_rate = 0;  // upper bound of the linearised drive's eigenvalues [1/s]
 
   std::size_t angle_count() const { return angles.size(); }
   std::size_t twist_count() const { return elastic.size(); }

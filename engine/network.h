@@ -56,9 +56,7 @@ class ConnectionMakerOf final : public ConnectionMaker {
     if constexpr (!std::is_same_v<E, Specification>) element_ = given_.settled(inertia);
   }
   double stiffness() const override { return element_.stiffness_at_rest(); }
-  double damping() const override {
-    return element_.torque(Twist<Dual<1>>{Dual<1>(0.0), Dual<1>::input(0.0, 0)}).d[0];
-  }
+  double damping() const override { return element_.torque(Twist<Dual<1>>{Dual<1>(0.0), Dual<1>::input(0.0, 0)}).d[0]; }
   double twist_at(double torque) const override { return element_.twist_at(torque); }
   double torque(double twist, double rate) const override { return element_.torque(Twist<double>{twist, rate}); }
   double torque_rate(double twist, double rate, double acceleration) const override {
@@ -86,7 +84,7 @@ class ShaftElementMaker {
   virtual Account account() const = 0;
   virtual double mean_inertia() const { return 0; }   // of a mechanism, on its own shaft
   virtual double least_inertia() const { return 0; }  // over a turn
-  virtual double cycle() const { return 0; }         // angle of one cycle of a mechanism [rad]
+  virtual double cycle() const { return 0; }          // angle of one cycle of a mechanism [rad]
   virtual int mode_count() const { return 1; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
@@ -102,8 +100,10 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
   bool directional() const override { return Directional<E>; }
   Rated rated() const override { return element_.rated(); }
   Account account() const override {
-    if constexpr (requires { element_.work_account; }) return element_.work_account;
-    else return E::account;
+    if constexpr (requires { element_.work_account; })
+      return element_.work_account;
+    else
+      return E::account;
   }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
     pools.of<ShaftPool<E>>().place(element_, ports, label);
@@ -115,7 +115,7 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
 
 // A speed that is given as a function of time.
 struct PrescribedSpeed {
-  std::vector<double> time, speed;  // straight between the points; constant before and after [s, rad/s]
+  std::vector<double> time, speed;                 // straight between the points; constant before and after [s, rad/s]
   double amplitude = 0, frequency = 0, phase = 0;  // + amplitude sin(2π f t + phase) [rad/s, Hz, rad]
   // The piece in force is a mode: within a step the law goes on smoothly beyond its end.
   int piece(double t) const;
@@ -155,7 +155,8 @@ class Network {
   template <class E>
   void connect(int a, int b, double ratio, const std::string& component, E element) {
     if constexpr (requires { typename E::Element; }) {
-      joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<typename E::Element, E>>(std::move(element)), false});
+      joints.push_back({a, b, ratio, component,
+                        std::make_shared<ConnectionMakerOf<typename E::Element, E>>(std::move(element)), false});
     } else {
       joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false});
     }
@@ -164,15 +165,16 @@ class Network {
   void put(int node, const std::string& component, E element, Window window = {}) {
     put_made(node, component, std::make_shared<ShaftElementMakerOf<E>>(std::move(element)), window, 0);
   }
-  void put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window, double phase);
+  void put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window,
+                double phase);
   void prescribe(int node, PrescribedSpeed speed);
 
   std::vector<Node> nodes;
   std::vector<Joint> joints;
   std::vector<ShaftElement> elements;
   std::vector<PrescribedSpeed> prescribed;
-  std::map<std::string, Ports> ports;            // of each component
-  std::vector<std::string> components;           // canonical order
+  std::map<std::string, Ports> ports;   // of each component
+  std::vector<std::string> components;  // canonical order
 };
 
 }  // namespace kurbel

@@ -34,7 +34,8 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     const int shaft = model.shaft_of_node[at(node)];
     const double gain = model.gain_of_node[at(node)];
     channels.push_back({"angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; }});
-    channels.push_back({"speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; }});
+    channels.push_back(
+        {"speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; }});
   };
   for (const std::string& component : model.network.components) {
     if (!is_wanted(wanted, component)) continue;
@@ -47,7 +48,8 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     }
     std::vector<std::size_t> own;
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
-      if (model.network.elements[e].component == component && model.network.elements[e].element->cycle() == 0) own.push_back(e);
+      if (model.network.elements[e].component == component && model.network.elements[e].element->cycle() == 0)
+        own.push_back(e);
     if (!own.empty())
       channels.push_back({"torque." + component, "N*m", [own](const Snapshot& s) {
                             double sum = 0;
@@ -60,7 +62,8 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     const int j = joint.joint, e = joint.elastic;
     channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
     if (e < 0) continue;
-    channels.push_back({"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
+    channels.push_back(
+        {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
     channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
   }
   for (const Channel& channel : model.pool_channels)
@@ -87,7 +90,8 @@ void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& e
 
 void TrajectoryRecorder::step(StepView& view) {
   while (time_.size() < at(rows_)) {
-    const double next = time_.size() + 1 == at(rows_) ? until_ : until_ * static_cast<double>(time_.size()) / (rows_ - 1);
+    const double next =
+        time_.size() + 1 == at(rows_) ? until_ : until_ * static_cast<double>(time_.size()) / (rows_ - 1);
     if (next > view.t()) return;
     record(next, view.snapshot(next));
   }
@@ -100,14 +104,18 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   const auto shared = &model;  // outlives the run
   for (const TorqueJoint& joint : model.torque_joints) {
     const int j = joint.joint, e = joint.elastic;
-    ExtremeOf transmitted{.name = "peak_torque." + joint.component, .unit = "N*m", .scale = joint.torque_scale,
-                          .value = [j](const Snapshot& s) { return s.joint_torque[j]; }, .rate = {}};
+    ExtremeOf transmitted{.name = "peak_torque." + joint.component,
+                          .unit = "N*m",
+                          .scale = joint.torque_scale,
+                          .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
+                          .rate = {}};
     ExtremeOf spring = transmitted;
     spring.name = "peak_spring_torque." + joint.component;
     if (e >= 0) {
       const ElasticJoint elastic = model.elastic[at(e)];
       transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
-        const double acceleration = elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
+        const double acceleration =
+            elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
         return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
       };
       spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
@@ -120,7 +128,10 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;
-  ExtremeOf speed{.name = "max_speed." + link, .unit = "rad/s", .scale = model.speed_scale, .which = ExtremeOf::Which::maximum,
+  ExtremeOf speed{.name = "max_speed." + link,
+                  .unit = "rad/s",
+                  .scale = model.speed_scale,
+                  .which = ExtremeOf::Which::maximum,
                   .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
   wanted.push_back(speed);
@@ -137,9 +148,12 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
 
 double ExtremeRecorder::merit(std::size_t i, double value) const {
   switch (wanted_[i].which) {
-    case ExtremeOf::Which::largest_magnitude: return std::abs(value);
-    case ExtremeOf::Which::maximum: return value;
-    case ExtremeOf::Which::minimum: return -value;
+    case ExtremeOf::Which::largest_magnitude:
+      return std::abs(value);
+    case ExtremeOf::Which::maximum:
+      return value;
+    case ExtremeOf::Which::minimum:
+      return -value;
   }
   return value;
 }
@@ -217,7 +231,8 @@ void CycleRecorder::begin(double, std::span<const double> y, Equations& equation
     work_at_begin_.assign(m.accounts.size(), 0.0);
     next_angle_ += cycle_;
   }
-  const double omega = m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  const double omega =
+      m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
   max_ = min_ = omega;
 }
 
@@ -295,7 +310,8 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
   stored_end = stored;
   largest_kinetic = std::max(largest_kinetic, bodies);
   largest_residual = std::max(largest_residual, std::abs(bodies + stored - start_ - sum));
-  if (bodies > 1e-9 * largest_kinetic) reduction_residual = std::max(reduction_residual, std::abs(reduced / bodies - 1));
+  if (bodies > 1e-9 * largest_kinetic)
+    reduction_residual = std::max(reduction_residual, std::abs(reduced / bodies - 1));
   work = std::move(now);
   ++checked;
 }

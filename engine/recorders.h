@@ -77,9 +77,9 @@ class ExtremeRecorder final : public Observer {
 
 // One cycle of the reduction link.
 struct CycleRecord {
-  double begin = 0, end = 0;             // [s]
-  double omega_max = 0, omega_min = 0;   // of the reduction link [rad/s]
-  std::vector<double> work;              // per account [J]
+  double begin = 0, end = 0;            // [s]
+  double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
+  std::vector<double> work;             // per account [J]
   double mean_speed() const { return 0.5 * (omega_max + omega_min); }
   double delta() const { return (omega_max - omega_min) / mean_speed(); }  // (2.6)
 };
@@ -108,12 +108,12 @@ class EnergyAudit final : public Observer {
   void step(StepView& view) override;
 
   double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0;
-  double largest_residual = 0;       // [J]
-  double reduction_residual = 0;     // largest relative difference of T from bodies and from I_r
-  double turnover = 0;               // Σ |work| between checks [J]
+  double largest_residual = 0;    // [J]
+  double reduction_residual = 0;  // largest relative difference of T from bodies and from I_r
+  double turnover = 0;            // Σ |work| between checks [J]
   double largest_kinetic = 0;
   int checked = 0;
-  std::vector<double> work;          // per account at the last check [J]
+  std::vector<double> work;  // per account at the last check [J]
   // Residual over max(turnover, largest T); 0 for a machine that never had energy.
   double relative() const;
 

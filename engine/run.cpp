@@ -27,11 +27,12 @@ Method method_named(const std::string& name) {
   if (name == "esdirk") return Method::esdirk_43;
   if (name == "bdf") return Method::bdf;
   if (name == "adams") return Method::adams;
-  throw std::invalid_argument(fmt::format("method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
+  throw std::invalid_argument(fmt::format(
+      "method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
 }
 
-// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a run
-// they count as zero.
+// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
+// run they count as zero.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
@@ -59,7 +60,12 @@ constexpr double implicit_step_cost = 3;
 class Loop {
  public:
   Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
-      : equations_(equations), options_(options), observers_(observers), view_(equations), guard_(equations.guard_count()), guard_before_(guard_.size()) {}
+      : equations_(equations),
+        options_(options),
+        observers_(observers),
+        view_(equations),
+        guard_(equations.guard_count()),
+        guard_before_(guard_.size()) {}
 
   RunOutcome run() {
     begin_ = cpu_now();
@@ -69,7 +75,10 @@ class Loop {
       }
       out_.complete = out_.diagnosis.empty();
     } catch (const StepFailure& failure) {
-      fail(failure.time, fmt::format("{}; worst: {}. Try another method, a looser accuracy, or a smaller stiffness or load step there", failure.what(), equations_.state_name(failure.state)));
+      fail(
+          failure.time,
+          fmt::format("{}; worst: {}. Try another method, a looser accuracy, or a smaller stiffness or load step there",
+                      failure.what(), equations_.state_name(failure.state)));
     }
     finish();
     return std::move(out_);
@@ -134,7 +143,8 @@ class Loop {
     return true;
   }
 
-  // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back unseen.
+  // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back
+  // unseen.
   double limit() const {
     double t = std::min(options_.until, edge_);
     const Model& m = equations_.model();
@@ -164,8 +174,8 @@ class Loop {
         if (guard_[i] < fired_below) below.push_back(i);
       if (below.empty()) return fired;
       const double t0 = stepper_->t_previous(), t1 = stepper_->t();
-      // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was wrong
-      // from the step's begin: nothing to find, take the whole step back.
+      // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was
+      // wrong from the step's begin: nothing to find, take the whole step back.
       fired.clear();
       std::vector<double> from(below.size(), t0), value(below.size());
       for (std::size_t k = 0; k < below.size(); ++k) {
@@ -226,7 +236,9 @@ class Loop {
     events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
     last_event_ = time;
     if (events_here_ > most_events_at_once) {
-      fail(time, fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge (rise) or its friction", most_events_at_once));
+      fail(time, fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge "
+                             "(rise) or its friction",
+                             most_events_at_once));
       return false;
     }
     ++out_.statistics.events;
@@ -246,7 +258,8 @@ class Loop {
       if (held_ < held_needed_ || left < 5 * held_steps_before_trial * h) return;
       explicit_step_ = h;
       implicit_steps_ = held_ = 0;
-      change_method(Method::esdirk_43, fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
+      change_method(Method::esdirk_43,
+                    fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
       return;
     }
     // After the trial the check goes on, over ever new windows of steps.
@@ -257,7 +270,9 @@ class Loop {
     implicit_steps_ = trial_warm_up;
     if (mean >= implicit_step_cost * explicit_step_) return;
     held_needed_ *= 4;
-    change_method(Method::dormand_prince_853, fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s", mean, explicit_step_));
+    change_method(Method::dormand_prince_853,
+                  fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s",
+                              mean, explicit_step_));
   }
 
   void change_method(Method method, const std::string& reason) {
@@ -265,7 +280,8 @@ class Loop {
     const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
     make(method, t, y);
     ++changes_;
-    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(Method::dormand_prince_853), name_of(method), changes_, changes_ == 1 ? "" : "s");
+    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(Method::dormand_prince_853),
+                                         name_of(method), changes_, changes_ == 1 ? "" : "s");
     out_.statistics.reason = fmt::format("at {:.4g} s: {}", t, reason);
   }
 
@@ -278,7 +294,9 @@ class Loop {
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
     if (cpu_now() - begin_ < options_.budget) return false;
     const double h = stepper_->t() - stepper_->t_previous();
-    fail(stepper_->t(), fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). Raise `budget`, loosen `accuracy`, or switch an effect off", options_.budget, h));
+    fail(stepper_->t(), fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). "
+                                    "Raise `budget`, loosen `accuracy`, or switch an effect off",
+                                    options_.budget, h));
     return true;
   }
 

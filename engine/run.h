@@ -13,10 +13,10 @@
 namespace kurbel {
 
 struct RunOptions {
-  double tolerance = 1e-8;                  // local, over the scale of each state
-  std::string method = "auto";              // auto, dopri5, dop853, esdirk, bdf, adams
-  double until = 1;                         // [s]
-  double budget = 300;                      // processor time [s]
+  double tolerance = 1e-8;      // local, over the scale of each state
+  std::string method = "auto";  // auto, dopri5, dop853, esdirk, bdf, adams
+  double until = 1;             // [s]
+  double budget = 300;          // processor time [s]
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double fraction)> progress;
 };

@@ -30,7 +30,8 @@ class OdeSystem {
 };
 
 // Local error control in the maximum norm: a step is accepted when |error_i| ≤ tolerance · scale_i for every i.
-// A scale of 0 leaves a state out of the control (quadratures). The maximum norm sees one lively state among 10⁵ at rest.
+// A scale of 0 leaves a state out of the control (quadratures). The maximum norm sees one lively state among 10⁵ at
+// rest.
 struct ErrorControl {
   double tolerance = 1e-8;
   std::vector<double> scale;  // per state, in the state's own unit, ≥ 0
@@ -48,13 +49,15 @@ struct StepFailure : std::runtime_error {
   std::size_t state;
 };
 
-// One integrator at work. After step() the solution is known at t_previous() and t(), and between them by interpolate().
+// One integrator at work. After step() the solution is known at t_previous() and t(), and between them by
+// interpolate().
 class Stepper {
  public:
   virtual ~Stepper() = default;
   // Begins, or begins anew after an event that changed f or y. Keeps the last good step size as a first guess.
   virtual void start(double t, std::span<const double> y) = 0;
-  // One accepted step, ending at t_limit at the latest (lands on t_limit exactly when it reaches it). Throws StepFailure.
+  // One accepted step, ending at t_limit at the latest (lands on t_limit exactly when it reaches it). Throws
+  // StepFailure.
   virtual void step(double t_limit) = 0;
   // Takes the last step back and integrates from t_previous() so as to land on t exactly; t lies within the step as it
   // was accepted, so several retakes may close in on an event from either side.

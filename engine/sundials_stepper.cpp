@@ -291,7 +291,8 @@ void SundialsStepper::jump(double t_limit) {
 
 void SundialsStepper::retake(double t) {
   if (t == t_) return;
-  if (!(t <= step_end_)) throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
+  if (!(t <= step_end_))
+    throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
   slope_.known = false;
   restart_ = true;
   lost_state_.reset();

@@ -30,7 +30,8 @@ inertia   = "1.5 kg*m2"
 
 [run]
 until = "1 s"
-)", "two_masses.toml", kurbel::all_kinds());
+)",
+                                                  "two_masses.toml", kurbel::all_kinds());
 
   kurbel::Effects rigid, elastic;
   elastic.all_elastic = true;

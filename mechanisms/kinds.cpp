@@ -15,10 +15,18 @@ namespace kurbel {
 namespace {
 
 Key working_end_key() {
-  return {.name = "working_end", .type = KeyType::text, .fallback = "\"extended\"", .doc = "end of the stroke that the distance is counted from", .choices = {"extended", "folded"}};
+  return {.name = "working_end",
+          .type = KeyType::text,
+          .fallback = "\"extended\"",
+          .doc = "end of the stroke that the distance is counted from",
+          .choices = {"extended", "folded"}};
 }
 Key work_key(const char* fallback) {
-  return {.name = "work", .type = KeyType::text, .fallback = fallback, .doc = "line of the energy balance", .choices = {"useful", "harmful", "driving"}};
+  return {.name = "work",
+          .type = KeyType::text,
+          .fallback = fallback,
+          .doc = "line of the energy balance",
+          .choices = {"useful", "harmful", "driving"}};
 }
 
 Account account_of(const Section& s) {
@@ -33,21 +41,32 @@ WorkingEnd working_end(const Section& s, const SliderCrank& crank) {
 
 std::string mm(double metres) { return fmt::format("{:.6g} mm", metres * 1e3); }
 
-bool read_press(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages, SliderLoad& load) {
-  const double travel = s.number("nominal_travel"), rise = s.number("rise"), through = s.number("breakthrough"), drop = s.number("drop");
+bool read_press(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages,
+                SliderLoad& load) {
+  const double travel = s.number("nominal_travel"), rise = s.number("rise"), through = s.number("breakthrough"),
+               drop = s.number("drop");
   const std::size_t before = messages.all().size();
   if (travel > crank.stroke())
-    messages.add(s.where("nominal_travel"), fmt::format("{}: nominal_travel = {}; must be ≤ the stroke of {}", what, mm(travel), mm(crank.stroke())));
-  if (rise > travel) messages.add(s.where("rise"), fmt::format("{}: rise = {}; must be ≤ nominal_travel = {}", what, mm(rise), mm(travel)));
+    messages.add(s.where("nominal_travel"), fmt::format("{}: nominal_travel = {}; must be ≤ the stroke of {}", what,
+                                                        mm(travel), mm(crank.stroke())));
+  if (rise > travel)
+    messages.add(s.where("rise"),
+                 fmt::format("{}: rise = {}; must be ≤ nominal_travel = {}", what, mm(rise), mm(travel)));
   if (through >= travel - rise && through > 0 && rise <= travel)
-    messages.add(s.where("breakthrough"), fmt::format("{}: breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands", what, mm(through), mm(travel - rise)));
-  if (drop > through) messages.add(s.where("drop"), fmt::format("{}: drop = {}; must be ≤ breakthrough = {}", what, mm(drop), mm(through)));
+    messages.add(s.where("breakthrough"),
+                 fmt::format("{}: breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands",
+                             what, mm(through), mm(travel - rise)));
+  if (drop > through)
+    messages.add(s.where("drop"),
+                 fmt::format("{}: drop = {}; must be ≤ breakthrough = {}", what, mm(drop), mm(through)));
   if (messages.all().size() > before) return false;
-  load.law = PressForce::make(working_end(s, crank), crank.stroke(), s.number("nominal_force"), travel, rise, through, drop);
+  load.law =
+      PressForce::make(working_end(s, crank), crank.stroke(), s.number("nominal_force"), travel, rise, through, drop);
   return true;
 }
 
-bool read_table(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages, SliderLoad& load) {
+bool read_table(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages,
+                SliderLoad& load) {
   CurveData data = s["force"].curve;
   const auto refuse = [&](const std::string& text) {
     messages.add(s.where("force"), fmt::format("{}: {}", what, text));
@@ -61,7 +80,9 @@ bool read_table(const Section& s, const SliderCrank& crank, const std::string& w
       load.law = std::move(law);
     } else {
       if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-      if (data.period == 0) data.period = data.x.back() - data.x.front() > 2 * std::numbers::pi * 1.0001 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
+      if (data.period == 0)
+        data.period = data.x.back() - data.x.front() > 2 * std::numbers::pi * 1.0001 ? 4 * std::numbers::pi
+                                                                                     : 2 * std::numbers::pi;
       load.law = AngleForce{working_end(s, crank), Curve(data.x, data.y, data.form, data.period)};
     }
   } catch (const std::invalid_argument& error) {
@@ -70,7 +91,8 @@ bool read_table(const Section& s, const SliderCrank& crank, const std::string& w
   return true;
 }
 
-bool read_load(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages, SliderLoad& load) {
+bool read_load(const Section& s, const SliderCrank& crank, const std::string& what, Messages& messages,
+               SliderLoad& load) {
   const std::string& kind = s.kind->name;
   load.account = account_of(s);
   if (kind == "press") return read_press(s, crank, what, messages, load);
@@ -86,11 +108,14 @@ bool check_geometry(const Section& s, const SliderCrankData& d, Messages& messag
   const std::size_t before = messages.all().size();
   const double reach = d.radius + std::abs(d.offset);
   if (!(d.rod_length > reach))
-    messages.add(s.where("rod"), fmt::format("slider-crank \"{}\": rod = {}; must be > radius + |offset| = {} + {} = {}, else the crank cannot turn fully; lengthen the rod or shorten the crank",
-                                             s.name, mm(d.rod_length), mm(d.radius), mm(std::abs(d.offset)), mm(reach)));
+    messages.add(s.where("rod"),
+                 fmt::format("slider-crank \"{}\": rod = {}; must be > radius + |offset| = {} + {} = {}, else the "
+                             "crank cannot turn fully; lengthen the rod or shorten the crank",
+                             s.name, mm(d.rod_length), mm(d.radius), mm(std::abs(d.offset)), mm(reach)));
   const double least = d.crank_mass * d.crank_com * d.crank_com;
   if (d.crank_inertia < least * (1 - 1e-12))
-    messages.add(s.where("crank_inertia"), fmt::format("slider-crank \"{}\": crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ crank_mass · crank_com² = {:.6g} kg·m²",
+    messages.add(s.where("crank_inertia"), fmt::format("slider-crank \"{}\": crank_inertia = {:.6g} kg·m²; is about "
+                                                       "the axis and must be ≥ crank_mass · crank_com² = {:.6g} kg·m²",
                                                        s.name, d.crank_inertia, least));
   return messages.all().size() == before;
 }
@@ -99,7 +124,8 @@ bool check_geometry(const Section& s, const SliderCrankData& d, Messages& messag
 // lies at a dead centre where the slider stands still.
 void find_inertias(SliderCrank& crank, const SliderCrankGeometry& geometry) {
   constexpr int n = 256;
-  crank.least_inertia = std::min(crank.reduced->inertia(geometry.extended_angle()).value, crank.reduced->inertia(geometry.folded_angle()).value);
+  crank.least_inertia = std::min(crank.reduced->inertia(geometry.extended_angle()).value,
+                                 crank.reduced->inertia(geometry.folded_angle()).value);
   for (int i = 0; i < n; ++i) {
     const double inertia = crank.reduced->inertia(2 * std::numbers::pi * i / n).value;
     crank.mean_inertia += inertia / n;
@@ -134,7 +160,9 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
     const std::vector<Section>& loads = s["load"].sections;
     for (std::size_t k = 0; k < loads.size(); ++k) {
       SliderLoad load{ConstantForce{}, loads.size() == 1 ? s.name + ".load" : fmt::format("{}.load{}", s.name, k + 1)};
-      if (loads[k].sound && read_load(loads[k], crank, fmt::format("slider-crank \"{}\": load", s.name), messages, load)) crank.loads.push_back(std::move(load));
+      if (loads[k].sound &&
+          read_load(loads[k], crank, fmt::format("slider-crank \"{}\": load", s.name), messages, load))
+        crank.loads.push_back(std::move(load));
     }
   }
   if (!messages.empty()) return;  // extraction is the slow part
@@ -142,7 +170,8 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
     crank.reduced = reduce_slider_crank(d);
     crank.bodies = std::make_shared<SliderCrankBodies>(d);
   } catch (const std::exception&) {  // Simbody's own checks, which speak of matrices
-    messages.add(s.at, fmt::format("slider-crank \"{}\": its lengths, masses and inertias lie too far apart to be computed together (crank {:g} kg, rod {:g} kg, slider {:g} kg); check their units",
+    messages.add(s.at, fmt::format("slider-crank \"{}\": its lengths, masses and inertias lie too far apart to be "
+                                   "computed together (crank {:g} kg, rod {:g} kg, slider {:g} kg); check their units",
                                    s.name, d.crank_mass, d.rod_mass, d.slider_mass));
     return;
   }
@@ -155,47 +184,133 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
 
 const std::vector<Kind>& slider_load_kinds() {
   static const std::vector<Kind> kinds = {
-      {.name = "press", .doc = "nominal force before the working end, on the working stroke only, then break-through", .placement = Placement::nested,
-       .keys = {{.name = "nominal_force", .unit = "N", .domain = not_negative, .doc = "force F_n against the motion", .required = true},
-                {.name = "nominal_travel", .unit = "m", .domain = positive, .doc = "distance before the working end where the force begins", .required = true},
-                {.name = "rise", .unit = "m", .fallback = "\"0 mm\"", .domain = not_negative, .doc = "travel within which the force rises; 0: an edge"},
-                {.name = "breakthrough", .unit = "m", .fallback = "\"0 mm\"", .domain = not_negative, .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
-                {.name = "drop", .unit = "m", .fallback = "\"0 mm\"", .domain = not_negative, .doc = "travel within which the force falls after break-through"},
-                working_end_key(), work_key("\"useful\"")}},
-      {.name = "constant", .doc = "force along the stroke, whatever the motion", .placement = Placement::nested,
-       .keys = {{.name = "force", .unit = "N", .doc = "positive towards the extended end", .required = true}, work_key("\"useful\"")}},
-      {.name = "opposing", .doc = "constant force against the motion; holds at standstill", .placement = Placement::nested,
-       .keys = {{.name = "force", .unit = "N", .domain = not_negative, .doc = "magnitude", .required = true}, work_key("\"useful\"")}},
-      {.name = "medium", .doc = "resistance of the medium, F = c v + q v |v|", .placement = Placement::nested,
-       .keys = {{.name = "viscous", .unit = "N*s/m", .fallback = "\"0 N*s/m\"", .domain = not_negative, .doc = "c"},
-                {.name = "quadratic", .unit = "N*s2/m2", .fallback = "\"0 N*s2/m2\"", .domain = not_negative, .doc = "q"}, work_key("\"useful\"")}},
-      {.name = "table", .doc = "force by table over travel or crank angle (indicator diagram)", .placement = Placement::nested,
-       .keys = {{.name = "force", .type = KeyType::curve, .unit = "N",
-                 .doc = "positive pushes the slider away from the working end; over the distance to that end (return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or 720 deg for four strokes)",
-                 .required = true, .choices = {"travel", "angle"}},
-                working_end_key(), work_key("\"useful\"")}},
+      {.name = "press",
+       .doc = "nominal force before the working end, on the working stroke only, then break-through",
+       .placement = Placement::nested,
+       .keys = {{.name = "nominal_force",
+                 .unit = "N",
+                 .domain = not_negative,
+                 .doc = "force F_n against the motion",
+                 .required = true},
+                {.name = "nominal_travel",
+                 .unit = "m",
+                 .domain = positive,
+                 .doc = "distance before the working end where the force begins",
+                 .required = true},
+                {.name = "rise",
+                 .unit = "m",
+                 .fallback = "\"0 mm\"",
+                 .domain = not_negative,
+                 .doc = "travel within which the force rises; 0: an edge"},
+                {.name = "breakthrough",
+                 .unit = "m",
+                 .fallback = "\"0 mm\"",
+                 .domain = not_negative,
+                 .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
+                {.name = "drop",
+                 .unit = "m",
+                 .fallback = "\"0 mm\"",
+                 .domain = not_negative,
+                 .doc = "travel within which the force falls after break-through"},
+                working_end_key(),
+                work_key("\"useful\"")}},
+      {.name = "constant",
+       .doc = "force along the stroke, whatever the motion",
+       .placement = Placement::nested,
+       .keys = {{.name = "force", .unit = "N", .doc = "positive towards the extended end", .required = true},
+                work_key("\"useful\"")}},
+      {.name = "opposing",
+       .doc = "constant force against the motion; holds at standstill",
+       .placement = Placement::nested,
+       .keys = {{.name = "force", .unit = "N", .domain = not_negative, .doc = "magnitude", .required = true},
+                work_key("\"useful\"")}},
+      {.name = "medium",
+       .doc = "resistance of the medium, F = c v + q v |v|",
+       .placement = Placement::nested,
+       .keys =
+           {{.name = "viscous", .unit = "N*s/m", .fallback = "\"0 N*s/m\"", .domain = not_negative, .doc = "c"},
+            {.name = "quadratic", .unit = "N*s2/m2", .fallback = "\"0 N*s2/m2\"", .domain = not_negative, .doc = "q"},
+            work_key("\"useful\"")}},
+      {.name = "table",
+       .doc = "force by table over travel or crank angle (indicator diagram)",
+       .placement = Placement::nested,
+       .keys = {{.name = "force",
+                 .type = KeyType::curve,
+                 .unit = "N",
+                 .doc = "positive pushes the slider away from the working end; over the distance to that end "
+                        "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
+                        "720 deg for four strokes)",
+                 .required = true,
+                 .choices = {"travel", "angle"}},
+                working_end_key(),
+                work_key("\"useful\"")}},
   };
   return kinds;
 }
 
 std::vector<Kind> mechanism_kinds() {
-  return {{.name = "slider-crank",
-           .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
-           .keys = {{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
-                    {.name = "rod", .unit = "m", .domain = positive, .doc = "rod length l, > radius + |offset|", .required = true},
-                    {.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
-                    {.name = "crank_mass", .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = "mass of the crank"},
-                    {.name = "crank_com", .unit = "m", .fallback = "\"0 m\"", .doc = "its centre of mass from the axis towards the pin; negative: counterweighted"},
-                    {.name = "crank_inertia", .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = "about the crank's axis"},
-                    {.name = "rod_mass", .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = "mass of the rod"},
-                    {.name = "rod_com", .unit = "m", .doc = "its centre of mass from the crank pin along the rod; default: half the rod"},
-                    {.name = "rod_inertia", .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = "about its centre of mass"},
-                    {.name = "slider_mass", .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = "mass of slider and what moves with it"},
-                    {.name = "gravity", .unit = "m/s2", .fallback = "\"0 m/s2\"", .domain = not_negative, .doc = "0: weight is neglected"},
-                    {.name = "stroke_angle", .unit = "rad", .fallback = "\"0 deg\"", .doc = "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg top-driven press"},
-                    {.name = "phase", .unit = "rad", .fallback = "\"0 deg\"", .doc = "crank angle ahead of the shaft's angle (several cylinders)"},
-                    {.name = "load", .type = KeyType::sections, .doc = "force on the slider, or a list of them", .nested = &slider_load_kinds()}},
-           .build = build_slider_crank}};
+  return {
+      {.name = "slider-crank",
+       .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
+       .keys =
+           {{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
+            {.name = "rod",
+             .unit = "m",
+             .domain = positive,
+             .doc = "rod length l, > radius + |offset|",
+             .required = true},
+            {.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
+            {.name = "crank_mass",
+             .unit = "kg",
+             .fallback = "\"0 kg\"",
+             .domain = not_negative,
+             .doc = "mass of the crank"},
+            {.name = "crank_com",
+             .unit = "m",
+             .fallback = "\"0 m\"",
+             .doc = "its centre of mass from the axis towards the pin; negative: counterweighted"},
+            {.name = "crank_inertia",
+             .unit = "kg*m2",
+             .fallback = "\"0 kg*m2\"",
+             .domain = not_negative,
+             .doc = "about the crank's axis"},
+            {.name = "rod_mass",
+             .unit = "kg",
+             .fallback = "\"0 kg\"",
+             .domain = not_negative,
+             .doc = "mass of the rod"},
+            {.name = "rod_com",
+             .unit = "m",
+             .doc = "its centre of mass from the crank pin along the rod; default: half the rod"},
+            {.name = "rod_inertia",
+             .unit = "kg*m2",
+             .fallback = "\"0 kg*m2\"",
+             .domain = not_negative,
+             .doc = "about its centre of mass"},
+            {.name = "slider_mass",
+             .unit = "kg",
+             .fallback = "\"0 kg\"",
+             .domain = not_negative,
+             .doc = "mass of slider and what moves with it"},
+            {.name = "gravity",
+             .unit = "m/s2",
+             .fallback = "\"0 m/s2\"",
+             .domain = not_negative,
+             .doc = "0: weight is neglected"},
+            {.name = "stroke_angle",
+             .unit = "rad",
+             .fallback = "\"0 deg\"",
+             .doc = "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg "
+                    "top-driven press"},
+            {.name = "phase",
+             .unit = "rad",
+             .fallback = "\"0 deg\"",
+             .doc = "crank angle ahead of the shaft's angle (several cylinders)"},
+            {.name = "load",
+             .type = KeyType::sections,
+             .doc = "force on the slider, or a list of them",
+             .nested = &slider_load_kinds()}},
+       .build = build_slider_crank}};
 }
 
 }  // namespace kurbel

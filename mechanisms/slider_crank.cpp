@@ -11,14 +11,17 @@ namespace kurbel {
 namespace {
 
 template <class L>
-constexpr bool has_pieces = requires(const L& l, SliderState<double> s) { l.first_mode(s); };
+constexpr bool has_pieces = requires(const L& l, SliderState<double> s) {
+  l.first_mode(s);
+};
 
 double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
 
 }  // namespace
 
 bool SliderCrankMaker::directional() const {
-  return std::any_of(crank_.loads.begin(), crank_.loads.end(), [](const SliderLoad& l) { return l.depends_on_travel(); });
+  return std::any_of(crank_.loads.begin(), crank_.loads.end(),
+                     [](const SliderLoad& l) { return l.depends_on_travel(); });
 }
 
 // Loads give a scale of torque: greatest force times crank radius.
@@ -36,8 +39,10 @@ double SliderCrankMaker::cycle() const {
 
 std::string SliderCrankMaker::describe() const {
   const TableReport& report = crank_.reduced->report();
-  std::string text = fmt::format("table of {}: {} pieces from {} samples of Simbody, errors", crank_.name, report.pieces, report.samples);
-  for (const TableReport::Channel& channel : report.channels) text += fmt::format(" {} {:.0e},", channel.name, channel.error);
+  std::string text = fmt::format("table of {}: {} pieces from {} samples of Simbody, errors", crank_.name,
+                                 report.pieces, report.samples);
+  for (const TableReport::Channel& channel : report.channels)
+    text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';
   return text + (report.converged ? "(relative)" : " the tolerance was not reached");
 }
@@ -48,20 +53,25 @@ std::vector<std::pair<std::string, Account>> SliderCrankMaker::further_accounts(
   return accounts;
 }
 
-void SliderCrankMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const { pools.of<SliderCrankPool>().place(crank_, ports); }
+void SliderCrankMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
+  pools.of<SliderCrankPool>().place(crank_, ports);
+}
 
 void SliderCrankPool::place(SliderCrank crank, ShaftPorts at) {
   Placed placed{std::move(crank), std::move(at)};
-  for (const SliderLoad& load : placed.crank.loads) placed.watches_travel = placed.watches_travel || load.depends_on_travel();
+  for (const SliderLoad& load : placed.crank.loads)
+    placed.watches_travel = placed.watches_travel || load.depends_on_travel();
   const std::size_t index = placed_.size();
   if (placed.watches_travel) owners_.push_back({index, -1, 0});
   for (std::size_t k = 0; k < placed.crank.loads.size(); ++k)
-    std::visit([&](const auto& law) {
-      if constexpr (has_pieces<std::decay_t<decltype(law)>>) {
-        owners_.push_back({index, static_cast<int>(k), 0});
-        owners_.push_back({index, static_cast<int>(k), 1});
-      }
-    }, placed.crank.loads[k].law);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>) {
+            owners_.push_back({index, static_cast<int>(k), 0});
+            owners_.push_back({index, static_cast<int>(k), 1});
+          }
+        },
+        placed.crank.loads[k].law);
   guards_ = static_cast<int>(owners_.size());
   placed_.push_back(std::move(placed));
 }
@@ -157,9 +167,11 @@ void SliderCrankPool::guards(const Instant& now, double* g) const {
     }
     const auto load = static_cast<std::size_t>(owner.load);
     const SliderState<double> s = slider(p, now, load);
-    std::visit([&](const auto& law) {
-      if constexpr (has_pieces<std::decay_t<decltype(law)>>) law.guard(s, g + i);
-    }, p.crank.loads[load].law);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>) law.guard(s, g + i);
+        },
+        p.crank.loads[load].law);
     ++i;  // both ends of the piece were written
   }
 }
@@ -170,9 +182,12 @@ void SliderCrankPool::fire(const Instant& now, int guard, int* mode) const {
   if (owner.load >= 0) {
     const auto load = static_cast<std::size_t>(owner.load);
     const SliderState<double> s = slider(p, now, load);
-    std::visit([&](const auto& law) {
-      if constexpr (has_pieces<std::decay_t<decltype(law)>>) mode[p.at.mode + 1 + owner.load] = law.next_mode(s, owner.which);
-    }, p.crank.loads[load].law);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+            mode[p.at.mode + 1 + owner.load] = law.next_mode(s, owner.which);
+        },
+        p.crank.loads[load].law);
     return;
   }
   // Dead centre: the slider turns round, and each load takes up the branch of the other stroke.
@@ -181,9 +196,12 @@ void SliderCrankPool::fire(const Instant& now, int guard, int* mode) const {
     if (!p.crank.loads[k].depends_on_travel()) continue;
     SliderState<double> s = slider(p, now, k);
     s.travel = mode[p.at.mode] * now.direction[p.at.shaft];
-    std::visit([&](const auto& law) {
-      if constexpr (has_pieces<std::decay_t<decltype(law)>>) mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
-    }, p.crank.loads[k].law);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+            mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
+        },
+        p.crank.loads[k].law);
   }
 }
 
@@ -195,9 +213,11 @@ GuardLabel SliderCrankPool::label(int guard, const int* mode) const {
   SliderState<double> s{};
   s.mode = mode[p.at.mode + 1 + owner.load];
   std::string what;
-  std::visit([&](const auto& law) {
-    if constexpr (has_pieces<std::decay_t<decltype(law)>>) what = law.mode_name(s);
-  }, load.law);
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (has_pieces<std::decay_t<decltype(law)>>) what = law.mode_name(s);
+      },
+      load.law);
   return {load.name, what};
 }
 
@@ -206,13 +226,17 @@ void SliderCrankPool::first_modes(const Instant& now, int* mode) const {
     const auto here = p.crank.reduced->at(angle_of(p.at, now));
     double ratio = here.slider_position().slope;
     // On a dead centre the sign is that of the motion to come.
-    if (std::abs(ratio) < 1e-12 * p.crank.data.radius) ratio = here.slider_velocity().slope * (now.direction[p.at.shaft] >= 0 ? 1 : -1);
+    if (std::abs(ratio) < 1e-12 * p.crank.data.radius)
+      ratio = here.slider_velocity().slope * (now.direction[p.at.shaft] >= 0 ? 1 : -1);
     mode[p.at.mode] = ratio >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.crank.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);
-      std::visit([&](const auto& law) {
-        if constexpr (has_pieces<std::decay_t<decltype(law)>>) mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
-      }, p.crank.loads[k].law);
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+              mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
+          },
+          p.crank.loads[k].law);
     }
   }
 }
@@ -222,40 +246,49 @@ void SliderCrankPool::add_holds(const Instant& now, Hold* shaft, Hold* element) 
     const double ratio = p.crank.reduced->at(angle_of(p.at, now)).slider_position().slope;
     for (std::size_t k = 0; k < p.crank.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);
-      std::visit([&](const auto& law) {
-        if constexpr (Directional<std::decay_t<decltype(law)>>) {
-          const Hold force = law.hold(s);
-          const Hold torque = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio} : Hold{force.high * ratio, force.low * ratio};
-          element[p.at.id].low += torque.low;
-          element[p.at.id].high += torque.high;
-          shaft[p.at.shaft].low += p.at.gain * torque.low;
-          shaft[p.at.shaft].high += p.at.gain * torque.high;
-        }
-      }, p.crank.loads[k].law);
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (Directional<std::decay_t<decltype(law)>>) {
+              const Hold force = law.hold(s);
+              const Hold torque = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio}
+                                             : Hold{force.high * ratio, force.low * ratio};
+              element[p.at.id].low += torque.low;
+              element[p.at.id].high += torque.high;
+              shaft[p.at.shaft].low += p.at.gain * torque.low;
+              shaft[p.at.shaft].high += p.at.gain * torque.high;
+            }
+          },
+          p.crank.loads[k].law);
     }
   }
 }
 
 double SliderCrankPool::kinetic_energy_of_bodies(const Instant& now) const {
   double sum = 0;
-  for (const Placed& p : placed_) sum += p.crank.bodies->kinetic_energy(angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft]);
+  for (const Placed& p : placed_)
+    sum += p.crank.bodies->kinetic_energy(angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft]);
   return sum;
 }
 
 void SliderCrankPool::add_channels(std::vector<Channel>& channels) const {
   for (std::size_t i = 0; i < placed_.size(); ++i) {
-    const auto here = [this, i](const Snapshot& s) { return placed_[i].crank.reduced->at(angle_of(placed_[i].at, s.now)); };
+    const auto here = [this, i](const Snapshot& s) {
+      return placed_[i].crank.reduced->at(angle_of(placed_[i].at, s.now));
+    };
     const auto omega = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.now.speed[placed_[i].at.shaft]; };
     const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
     const std::string& name = placed_[i].crank.name;
-    channels.push_back({"position." + name, "m", [here](const Snapshot& s) { return here(s).slider_position().value; }});
-    channels.push_back({"velocity." + name, "m/s", [=](const Snapshot& s) { return here(s).slider_position().slope * omega(s); }});
+    channels.push_back(
+        {"position." + name, "m", [here](const Snapshot& s) { return here(s).slider_position().value; }});
+    channels.push_back(
+        {"velocity." + name, "m/s", [=](const Snapshot& s) { return here(s).slider_position().slope * omega(s); }});
     channels.push_back({"acceleration." + name, "m/s2", [=](const Snapshot& s) {
                           const auto [ratio, second] = here(s).slider_velocity();
                           return second * omega(s) * omega(s) + ratio * alpha(s);
                         }});
     if (!placed_[i].crank.loads.empty())
-      channels.push_back({"force." + name, "N", [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
+      channels.push_back(
+          {"force." + name, "N", [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
   }
 }
 

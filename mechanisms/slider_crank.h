@@ -19,9 +19,9 @@ struct SliderCrank {
   std::shared_ptr<SliderCrankBodies> bodies;  // for the independent kinetic energy
   std::vector<SliderLoad> loads;
   double x_min = 0, x_max = 0;
-  double mean_inertia = 0;   // of I_r over a turn [kg·m²]
+  double mean_inertia = 0;  // of I_r over a turn [kg·m²]
   double least_inertia = 0;
-  double phase = 0;         // added to the shaft's angle [rad]
+  double phase = 0;  // added to the shaft's angle [rad]
 
   bool has_weight() const { return data.gravity != 0; }
   double stroke() const { return x_max - x_min; }

@@ -1,8 +1,8 @@
 // slider_loads.h — forces on the slider, each a page of physics over the slider's motion.
 //
-// F is positive along +x, towards the extended end. Tables and profiles are given over the distance d to the working end
-// and are positive where they push the slider away from it; d = x_end − x at an extended working end, x − x_end at a
-// folded one.
+// F is positive along +x, towards the extended end. Tables and profiles are given over the distance d to the working
+// end and are positive where they push the slider away from it; d = x_end − x at an extended working end, x − x_end at
+// a folded one.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ namespace kurbel {
 // Motion of the slider as its loads see it.
 template <class T>
 struct SliderState {
-  T phi;              // crank angle [rad]
-  T x;                // position from the crank axis [m]
-  T v;                // speed [m/s]
-  int travel = 0;     // sign of v, fixed between events; 0 = crank at standstill
-  int mode = 0;       // piece of the load's law, fixed between events
+  T phi;           // crank angle [rad]
+  T x;             // position from the crank axis [m]
+  T v;             // speed [m/s]
+  int travel = 0;  // sign of v, fixed between events; 0 = crank at standstill
+  int mode = 0;    // piece of the load's law, fixed between events
 };
 
 // Where the working end lies.
@@ -73,12 +73,16 @@ struct MediumResistance {
 
 // Straight pieces with jumps between them; numbered as a Curve's.
 struct Profile {
-  std::vector<double> knot;          // ascending [m]
-  std::vector<double> left, right;   // value at the begin and at the end of each inner piece [N]
+  std::vector<double> knot;         // ascending [m]
+  std::vector<double> left, right;  // value at the begin and at the end of each inner piece [N]
 
-  int piece(double d) const { return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1; }
+  int piece(double d) const {
+    return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1;
+  }
   double piece_begin(int p) const { return p < 0 ? -HUGE_VAL : knot[static_cast<std::size_t>(p)]; }
-  double piece_end(int p) const { return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(p + 1)]; }
+  double piece_end(int p) const {
+    return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(p + 1)];
+  }
   template <class T>
   T value_in(int p, const T& d) const {
     if (p < 0 || p + 1 >= static_cast<int>(knot.size())) return T(0.0);
@@ -96,7 +100,8 @@ struct PressForce {
   double stroke = 1;
 
   // nominal force F from d = travel on, reached within `rise`; drops to zero over `drop` from d = breakthrough on.
-  static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough, double drop) {
+  static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough,
+                         double drop) {
     PressForce press{end, {}, stroke};
     const auto add = [&](double from, double to, double at_from, double at_to) {
       if (to <= from) return;
@@ -138,7 +143,8 @@ struct PressForce {
     return "load edge";
   }
   double greatest() const {
-    return std::max(*std::max_element(profile.left.begin(), profile.left.end()), *std::max_element(profile.right.begin(), profile.right.end()));
+    return std::max(*std::max_element(profile.left.begin(), profile.left.end()),
+                    *std::max_element(profile.right.begin(), profile.right.end()));
   }
 };
 
@@ -157,7 +163,9 @@ struct TravelForce {
     PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
   }
   int first_mode(const SliderState<double>& s) const { return branch(s.travel).piece(end.distance(s.x)); }
-  int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(branch(s.travel), s.mode, which); }
+  int next_mode(const SliderState<double>& s, int which) const {
+    return PieceGuard::next(branch(s.travel), s.mode, which);
+  }
   std::string mode_name(const SliderState<double>&) const { return {}; }
 };
 
@@ -170,7 +178,9 @@ struct AngleForce {
     const double moved = PieceGuard::near_piece(curve, s.mode, value_of(s.phi)) - value_of(s.phi);
     return -static_cast<double>(end.side) * curve.value_in(s.mode, s.phi + moved);
   }
-  void guard(const SliderState<double>& s, double* g) const { PieceGuard::guard(curve, s.mode, value_of(s.phi), 1.0, g); }
+  void guard(const SliderState<double>& s, double* g) const {
+    PieceGuard::guard(curve, s.mode, value_of(s.phi), 1.0, g);
+  }
   int first_mode(const SliderState<double>& s) const { return PieceGuard::first(curve, s.phi); }
   int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(curve, s.mode, which); }
   std::string mode_name(const SliderState<double>&) const { return {}; }
@@ -182,11 +192,13 @@ struct SliderLoad {
   Account account = Account::useful;
 
   bool depends_on_travel() const {  // on the sign of the slider's speed
-    return std::visit([](const auto& l) {
-      using L = std::decay_t<decltype(l)>;
-      if constexpr (std::is_same_v<L, TravelForce>) return !l.retreat.empty();
-      return Directional<L>;
-    }, law);
+    return std::visit(
+        [](const auto& l) {
+          using L = std::decay_t<decltype(l)>;
+          if constexpr (std::is_same_v<L, TravelForce>) return !l.retreat.empty();
+          return Directional<L>;
+        },
+        law);
   }
   bool directional() const {
     return std::visit([](const auto& l) { return Directional<std::decay_t<decltype(l)>>; }, law);

@@ -25,7 +25,8 @@ void add_rows(Comparison& c) {
   for (const ComparisonRow& row : c.rows) {
     const std::string prefix = "peak_torque.";
     if (!row.name.starts_with(prefix) || !row.ratio) continue;
-    ComparisonRow factor{"amplification." + row.name.substr(prefix.size()), "", {}, {}, std::abs(*row.ratio), {}, 0, {}};
+    ComparisonRow factor{
+        "amplification." + row.name.substr(prefix.size()), "", {}, {}, std::abs(*row.ratio), {}, 0, {}};
     if (row.a_error && row.b_error)
       factor.b_error = std::abs(*row.ratio) * (*row.a_error / std::abs(*row.a) + *row.b_error / std::abs(*row.b));
     c.amplification.push_back(std::move(factor));
@@ -48,18 +49,24 @@ void note_sudden_loads(Comparison& c) {
     const auto rigid = at_start(c.a, "torque." + joint), elastic = at_start(c.b, "torque." + joint);
     const Figure* peak = c.a.find("peak_torque." + joint);
     if (rigid && elastic && peak && std::abs(*rigid - *elastic) > 0.05 * std::abs(peak->value))
-      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(*elastic, "N*m", 4), with_unit(*rigid, "N*m", 4)));
+      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(*elastic, "N*m", 4),
+                                   with_unit(*rigid, "N*m", 4)));
   }
-  const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) { return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off"; });
+  const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) {
+    return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off";
+  });
   if (edges > 0) sudden.push_back(fmt::format("{} load edges or switchings", edges));
   if (sudden.empty()) return;
   std::string text = "sudden loads (";
   for (std::size_t i = 0; i < sudden.size() && i < 3; ++i) text += (i ? "; " : "") + sudden[i];
-  c.notes.push_back(text + "): however stiff the drive, its peak torque after a step tends to twice the rigid one, not to the rigid one; the motion does converge");
+  c.notes.push_back(text +
+                    "): however stiff the drive, its peak torque after a step tends to twice the rigid one, not to the "
+                    "rigid one; the motion does converge");
 }
 
 std::string sure(double value, const std::optional<double>& error, const std::string& unit) {
-  return error ? fmt::format("{} ± {}", with_unit(value, "", 6), with_unit(*error, unit, 2)) : with_unit(value, unit, 6);
+  return error ? fmt::format("{} ± {}", with_unit(value, "", 6), with_unit(*error, unit, 2))
+               : with_unit(value, unit, 6);
 }
 
 void conclude(Comparison& c) {
@@ -67,9 +74,10 @@ void conclude(Comparison& c) {
     c.conclusion = fmt::format("A model did not run to the end: {}", c.a.complete ? c.b.diagnosis : c.a.diagnosis);
     return;
   }
-  const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(), [](const ComparisonRow& x, const ComparisonRow& y) {
-    return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
-  });
+  const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(),
+                                      [](const ComparisonRow& x, const ComparisonRow& y) {
+                                        return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
+                                      });
   if (worst != c.amplification.end()) {
     const std::string joint = worst->name.substr(std::string("amplification.").size());
     const Figure* peak = c.b.find("peak_torque." + joint);
@@ -78,9 +86,12 @@ void conclude(Comparison& c) {
   }
   for (const ComparisonRow& row : c.rows)
     if (row.name.starts_with("delta.") && row.ratio)
-      c.conclusion += (c.conclusion.empty() ? "" : "; ") + (*row.ratio > 2 ? fmt::format("δ is {:.3g} × as great", *row.ratio) : fmt::format("δ changes by {:+.2g} %", 100 * (*row.ratio - 1)));
+      c.conclusion += (c.conclusion.empty() ? "" : "; ") +
+                      (*row.ratio > 2 ? fmt::format("δ is {:.3g} × as great", *row.ratio)
+                                      : fmt::format("δ changes by {:+.2g} %", 100 * (*row.ratio - 1)));
   if (c.conclusion.empty()) c.conclusion = "The two models have no torque or cycle in common to compare";
-  c.conclusion += fmt::format("; it costs {:.3g} × the time.", c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
+  c.conclusion += fmt::format("; it costs {:.3g} × the time.",
+                              c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
 }
 
 }  // namespace

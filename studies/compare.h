@@ -8,8 +8,8 @@ namespace kurbel {
 struct ComparisonRow {
   std::string name, unit;
   std::optional<double> a, a_error, b, b_error;
-  double difference = 0;             // b − a
-  std::optional<double> ratio;       // b/a
+  double difference = 0;        // b − a
+  std::optional<double> ratio;  // b/a
 };
 
 struct Comparison {

@@ -16,20 +16,29 @@ namespace {
 
 std::string type_of(const Key& key) {
   switch (key.type) {
-    case KeyType::quantity: return key.unit.empty() ? "number" : pretty_unit(key.unit);
-    case KeyType::quantities: return fmt::format("list of {}", pretty_unit(key.unit));
-    case KeyType::integers: return "list of whole numbers";
-    case KeyType::integer: return "whole number";
-    case KeyType::flag: return "true or false";
-    case KeyType::text: return key.choices.empty() ? "text" : listed(key.choices);
-    case KeyType::curve: return fmt::format("table over {} → {}", listed(key.choices), pretty_unit(key.unit));
-    case KeyType::sections: return "table(s)";
+    case KeyType::quantity:
+      return key.unit.empty() ? "number" : pretty_unit(key.unit);
+    case KeyType::quantities:
+      return fmt::format("list of {}", pretty_unit(key.unit));
+    case KeyType::integers:
+      return "list of whole numbers";
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::flag:
+      return "true or false";
+    case KeyType::text:
+      return key.choices.empty() ? "text" : listed(key.choices);
+    case KeyType::curve:
+      return fmt::format("table over {} → {}", listed(key.choices), pretty_unit(key.unit));
+    case KeyType::sections:
+      return "table(s)";
   }
   return "";
 }
 
 std::string domain_of(const Key& key) {
-  const bool number = key.type == KeyType::quantity || key.type == KeyType::quantities || key.type == KeyType::integer || key.type == KeyType::integers;
+  const bool number = key.type == KeyType::quantity || key.type == KeyType::quantities ||
+                      key.type == KeyType::integer || key.type == KeyType::integers;
   return number ? key.domain.describe("") : "";
 }
 
@@ -37,7 +46,10 @@ std::string rows(const std::vector<Key>& keys) {
   std::string text = "| key | unit or values | default | domain | meaning |\n|---|---|---|---|---|\n";
   for (const Key& key : keys)
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, type_of(key),
-                        key.required ? "**required**" : key.fallback.empty() ? "—" : fmt::format("`{}`", key.fallback), domain_of(key), key.doc);
+                        key.required           ? "**required**"
+                        : key.fallback.empty() ? "—"
+                                               : fmt::format("`{}`", key.fallback),
+                        domain_of(key), key.doc);
   return text;
 }
 
@@ -54,13 +66,19 @@ std::string chapter(const Kind& kind, const char* level) {
 
 // Columns a terminal needs for a text: UTF-8 continuation bytes take none.
 std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 // Columns below each other.
 std::string aligned(const std::vector<Key>& keys) {
   std::vector<std::vector<std::string>> cells = {{"key", "unit or values", "default", "domain", "meaning"}};
-  for (const Key& key : keys) cells.push_back({key.name, type_of(key), key.required ? "required" : key.fallback.empty() ? "—" : key.fallback, domain_of(key), key.doc});
+  for (const Key& key : keys)
+    cells.push_back({key.name, type_of(key),
+                     key.required           ? "required"
+                     : key.fallback.empty() ? "—"
+                                            : key.fallback,
+                     domain_of(key), key.doc});
   constexpr std::size_t widest = 30;
   std::vector<std::size_t> widths(4, 0);
   for (const auto& row : cells)
@@ -113,8 +131,11 @@ std::string keys_of(const std::string& name) {
   for (const Kind* kind : kinds_with_nested()) {
     if (kind->name != name) continue;
     const bool nested = kind->placement == Placement::nested;
-    text += fmt::format("{}{} — {}.{}{}\n\n", text.empty() ? "" : "\n", kind->name, kind->doc, kind->elastic ? " Its elasticity is an effect." : "",
-                        nested ? " Stands inside a component." : kind->placement == Placement::inline_two ? " Two shafts: .in and .out." : "");
+    text += fmt::format("{}{} — {}.{}{}\n\n", text.empty() ? "" : "\n", kind->name, kind->doc,
+                        kind->elastic ? " Its elasticity is an effect." : "",
+                        nested                                     ? " Stands inside a component."
+                        : kind->placement == Placement::inline_two ? " Two shafts: .in and .out."
+                                                                   : "");
     text += aligned(kind->keys);
     for (const Key& key : kind->keys)
       if (key.nested) {
@@ -140,10 +161,12 @@ std::string keys_in_markdown() {
   std::string text =
       "# Keys of a scene\n\n"
       "Printed by `kurbel keys`, from the same table that the reader uses; a test holds this file against it.\n\n"
-      "Quantities are texts with a unit (\"1500 rpm\", \"4 kN*m/rad\", \"12 mm\"); the angle is a dimension of its own. Plain\n"
+      "Quantities are texts with a unit (\"1500 rpm\", \"4 kN*m/rad\", \"12 mm\"); the angle is a dimension of its "
+      "own. Plain\n"
       "numbers stand only where a value has no unit. A component's table may carry `on = \"component\"` in place of a\n"
       "position in a line. A characteristic (\"table over …\") is written\n"
-      "`{ over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 0], [90, 12]] }` or with `file = \"data.csv\"` (two columns,\n"
+      "`{ over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 0], [90, 12]] }` or with `file = \"data.csv\"` "
+      "(two columns,\n"
       "`columns = [1, 2]`), `interpolation = \"linear\"` or `\"smooth\"`, and `period` where it repeats.\n\n"
       "## At the top\n\n"
       "| key | meaning |\n|---|---|\n"
@@ -156,10 +179,14 @@ std::string keys_in_markdown() {
   text +=
       "| `output` | list of names | all | | components in trajectory.csv |\n"
       "| `start` | \"rest\", \"equilibrium\" or a table | `\"rest\"` | | see below |\n\n"
-      "`start = { speed = \"300 rpm\", angle = \"0 deg\", on = \"motor\", equilibrium = true, press = { speed = \"3 rad/s\" }, "
-      "main_coupling = { twist = \"0.1 deg\" } }`: `speed` and `angle` belong to the reduction link (the first mechanism's crank, "
-      "else the first shaft of the line) or to the component named by `on`; the rest of the machine follows rigidly unless "
-      "components say otherwise. `equilibrium` gives each elastic element the twist that carries the torque which the rigid "
+      "`start = { speed = \"300 rpm\", angle = \"0 deg\", on = \"motor\", equilibrium = true, press = { speed = \"3 "
+      "rad/s\" }, "
+      "main_coupling = { twist = \"0.1 deg\" } }`: `speed` and `angle` belong to the reduction link (the first "
+      "mechanism's crank, "
+      "else the first shaft of the line) or to the component named by `on`; the rest of the machine follows rigidly "
+      "unless "
+      "components say otherwise. `equilibrium` gives each elastic element the twist that carries the torque which the "
+      "rigid "
       "machine would transmit there at that moment.\n\n"
       "## Components\n\n";
   for (const Kind& kind : all_kinds()) text += chapter(kind, "###");

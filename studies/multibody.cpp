@@ -45,7 +45,8 @@ class ShaftTorque {
     const Snapshot& s = equations_.snapshot(t, y);
     double sum = 0;
     for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-      if (static_cast<int>(e) != m.reduction_element) sum += m.gain_of_node[at(m.network.elements[e].node)] * s.sums.element_torque[e];
+      if (static_cast<int>(e) != m.reduction_element)
+        sum += m.gain_of_node[at(m.network.elements[e].node)] * s.sums.element_torque[e];
     return sum;
   }
 
@@ -58,25 +59,30 @@ double slider_force(const SliderCrank& crank, double phi, double x, double v) {
   double sum = 0;
   for (const SliderLoad& load : crank.loads) {
     SliderState<double> s{phi, x, v, v > 0 ? 1 : v < 0 ? -1 : 0, 0};
-    sum += std::visit([&](const auto& law) {
-      if constexpr (requires { law.first_mode(s); }) s.mode = law.first_mode(s);
-      return law.value(s);
-    }, load.law);
+    sum += std::visit(
+        [&](const auto& law) {
+          if constexpr (requires { law.first_mode(s); }) s.mode = law.first_mode(s);
+          return law.value(s);
+        },
+        load.law);
   }
   return sum;
 }
 
 }  // namespace
 
-Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label, const SimulateOptions& options) {
+Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label,
+                          const SimulateOptions& options) {
   const Model& model = *shared;
   const RunSettings& settings = model.scene.run;
   const SliderCrankMaker* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
-    throw SceneError({{model.scene.file, settings.start.at, fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
+    throw SceneError({{model.scene.file, settings.start.at,
+                       fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
   if (!mechanism) refuse("needs exactly one slider-crank");
-  if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0) refuse("runs rigid scenes with one free shaft (effects: none)");
+  if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
+    refuse("runs rigid scenes with one free shaft (effects: none)");
   const SliderCrank& crank = mechanism->crank();
   const auto torque = std::make_shared<ShaftTorque>(shared);
   Equations equations(shared, false);
@@ -92,7 +98,9 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     return (*torque)(t, phi - phase, omega);
   };
   if (!crank.loads.empty())
-    problem.slider_force = [&crank, phi_now](double, double x, double v) { return slider_force(crank, *phi_now, x, v); };
+    problem.slider_force = [&crank, phi_now](double, double x, double v) {
+      return slider_force(crank, *phi_now, x, v);
+    };
   problem.phi0 = equations.angle_with_turns(at(model.reduction_angle), start) + crank.phase;
   problem.omega0 = start[equations.speed_index(0)];
   problem.t_end = options.until.value_or(settings.until);
@@ -154,10 +162,12 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};
     result.energy.kinetic_start = fine.samples.front().kinetic_energy;
     result.energy.kinetic_end = b.kinetic_energy;
-    result.notes.push_back(fmt::format("multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
+    result.notes.push_back(fmt::format(
+        "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
   } catch (const std::runtime_error& error) {
     result.complete = false;
-    result.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy", error.what(), listed(integrators));
+    result.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy",
+                                   error.what(), listed(integrators));
   }
   result.statistics.method = "Simbody " + problem.integrator;
   result.statistics.reason = "model = \"multibody\"";

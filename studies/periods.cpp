@@ -61,7 +61,9 @@ struct SpeedSeries {
 std::optional<SpeedSeries> speed_series(const Model& model, const TrajectoryRecorder& trajectory) {
   const std::string& component = model.network.nodes[static_cast<std::size_t>(model.reduction_node)].component;
   for (std::size_t k = 0; k < trajectory.channels().size(); ++k)
-    if (trajectory.channels()[k].name == "speed." + component || trajectory.channels()[k].name == "speed." + component + ".in") return SpeedSeries{trajectory, k};
+    if (trajectory.channels()[k].name == "speed." + component ||
+        trajectory.channels()[k].name == "speed." + component + ".in")
+      return SpeedSeries{trajectory, k};
   return {};
 }
 
@@ -86,7 +88,8 @@ std::optional<Band> band_of_cycles(const std::vector<CycleRecord>& cycles, Perio
 std::optional<Band> band_of_speed(const SpeedSeries& speed, std::size_t last, Periods& periods) {
   if (last < 20) return {};
   periods.steady_speed = speed.at(last);
-  periods.steady = periods.steady_speed != 0 && std::abs(speed.at(last - last / 20) / periods.steady_speed - 1) < same_cycle;
+  periods.steady =
+      periods.steady_speed != 0 && std::abs(speed.at(last - last / 20) / periods.steady_speed - 1) < same_cycle;
   const double margin = near_steady * std::abs(periods.steady_speed);
   return Band{periods.steady_speed - margin, periods.steady_speed + margin};
 }
@@ -112,7 +115,8 @@ Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles,
   if (speed) {
     std::size_t last = 0;
     while (last + 1 < speed->rows() && speed->time(last + 1) <= periods.run_down_begin.value_or(outcome.t)) ++last;
-    const std::optional<Band> band = cycles.size() >= 2 ? band_of_cycles(cycles, periods) : band_of_speed(*speed, last, periods);
+    const std::optional<Band> band =
+        cycles.size() >= 2 ? band_of_cycles(cycles, periods) : band_of_speed(*speed, last, periods);
     if (band && periods.steady) find_run_up(*speed, last, *band, periods);
   }
   if (!periods.run_down_begin || !speed) return periods;
@@ -123,7 +127,8 @@ Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles,
       return periods;
     }
   for (std::size_t row = 1; row < speed->rows(); ++row)
-    if (speed->time(row) > *periods.run_down_begin && std::abs(speed->at(row)) < at_rest * std::max(std::abs(periods.steady_speed), at_rest * model.speed_scale)) {
+    if (speed->time(row) > *periods.run_down_begin &&
+        std::abs(speed->at(row)) < at_rest * std::max(std::abs(periods.steady_speed), at_rest * model.speed_scale)) {
       periods.standstill = speed->time(row);
       periods.standstill_resolution = speed->time(row) - speed->time(row - 1);
       break;

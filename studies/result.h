@@ -14,8 +14,8 @@ namespace kurbel {
 class TraceRecorder;
 
 struct Figure {
-  std::string name;             // dotted and stable: "peak_torque.main_coupling"
-  double value = 0;             // SI
+  std::string name;  // dotted and stable: "peak_torque.main_coupling"
+  double value = 0;  // SI
   std::string unit;
   std::optional<double> error;  // measured: difference to a run with tolerances 30 × looser
   std::optional<double> at;     // time it belongs to [s]
@@ -24,18 +24,18 @@ struct Figure {
 };
 
 struct ComponentState {
-  double angle = 0, speed = 0;          // of its (driving) shaft [rad, rad/s]
+  double angle = 0, speed = 0;                 // of its (driving) shaft [rad, rad/s]
   std::optional<double> angle_out, speed_out;  // of its driven shaft, where it has two
 };
 
 // Run-up, steady motion and run-down of the reduction link; times in s.
 struct Periods {
-  std::optional<double> run_up_end;      // from here on within the range of the steady cycle, ± 1 %
-  std::optional<double> run_down_begin;  // the last source went off
-  std::optional<double> standstill;      // came to rest
+  std::optional<double> run_up_end;                         // from here on within the range of the steady cycle, ± 1 %
+  std::optional<double> run_down_begin;                     // the last source went off
+  std::optional<double> standstill;                         // came to rest
   double run_up_resolution = 0, standstill_resolution = 0;  // what the samples leave open [s]
-  double steady_speed = 0;               // [rad/s]
-  bool steady = false;                   // the last two cycles agree to 0.1 %
+  double steady_speed = 0;                                  // [rad/s]
+  bool steady = false;                                      // the last two cycles agree to 0.1 %
 };
 
 struct EnergyBalance {
@@ -47,13 +47,13 @@ struct EnergyBalance {
 };
 
 struct Result {
-  std::string title, label;   // label: "rigid", "elastic"
+  std::string title, label;  // label: "rigid", "elastic"
   std::string scene_file;
   bool complete = true;
-  std::string diagnosis;      // of an incomplete run
+  std::string diagnosis;  // of an incomplete run
   std::string effects;
   std::size_t coordinates = 0, states = 0;
-  std::string explanation;    // what was merged, and why
+  std::string explanation;  // what was merged, and why
   double until = 0, accuracy = 0;
   double measured_accuracy = 0;  // largest error over its scale; 0 with errors not measured
   bool accuracy_confirmed = false, errors_measured = false;
@@ -66,7 +66,7 @@ struct Result {
   std::vector<CycleRecord> cycles;
   EnergyBalance energy;
   RunStatistics statistics;
-  double cpu_total = 0;       // of all runs, errors included [s]
+  double cpu_total = 0;  // of all runs, errors included [s]
   std::vector<std::string> notes;
   std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
   std::shared_ptr<const TraceRecorder> traces;           // for plots; null unless asked for

@@ -43,7 +43,8 @@ class Figures {
   }
 
  private:
-  void add(const std::string& name, double value, const std::string& unit, double scale, std::optional<double> time = {}) {
+  void add(const std::string& name, double value, const std::string& unit, double scale,
+           std::optional<double> time = {}) {
     run_.figures.push_back({name, value, unit, {}, time, scale, 0});
   }
   void add_sampled(const std::string& name, double value, double resolution) {
@@ -56,7 +57,8 @@ class Figures {
     for (std::size_t i = 0; i < run_.extremes->wanted().size(); ++i) {
       const ExtremeOf& wanted = run_.extremes->wanted()[i];
       const ExtremeRecorder::Found& found = run_.extremes->found()[i];
-      if (found.any) add(wanted.name, found.value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(found.value), found.time);
+      if (found.any)
+        add(wanted.name, found.value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(found.value), found.time);
     }
   }
   void collect_rms() {
@@ -64,8 +66,8 @@ class Figures {
     for (std::size_t i = 0; i < model_.torque_joints.size(); ++i)
       for (const bool spring : {false, true}) {
         const double square = run_.outcome.state[equations_.square_index(i, spring)];
-        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component, std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m",
-            model_.torque_joints[i].torque_scale);
+        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component,
+            std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
       }
   }
   void collect_final() {
@@ -76,8 +78,8 @@ class Figures {
       const int node = ports.out;
       const double ratio = std::abs(model_.node_ratio[at(node)]);
       add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
-      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]], "rad/s",
-          model_.speed_scale * ratio, run_.outcome.t);
+      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
+          "rad/s", model_.speed_scale * ratio, run_.outcome.t);
     }
   }
   // Of the last complete cycle of steady motion, or the last one before run-down.
@@ -99,9 +101,11 @@ class Figures {
   }
   void collect_periods() {
     if (run_.periods.run_up_end) add_sampled("run_up_time", *run_.periods.run_up_end, run_.periods.run_up_resolution);
-    if (run_.periods.steady_speed != 0) add("steady_speed." + link(), run_.periods.steady_speed, "rad/s", model_.speed_scale);
+    if (run_.periods.steady_speed != 0)
+      add("steady_speed." + link(), run_.periods.steady_speed, "rad/s", model_.speed_scale);
     if (run_.periods.run_down_begin && run_.periods.standstill)
-      add_sampled("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin, run_.periods.standstill_resolution);
+      add_sampled("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin,
+                  run_.periods.standstill_resolution);
   }
   void collect_work() {
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
@@ -130,7 +134,9 @@ class Simulation {
 
   // Tolerances are tightened until two runs agree within the accuracy.
   Result run() {
-    log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label, model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(), settings_.until));
+    log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
+                    model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(),
+                    settings_.until));
     double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
     result_.runs = 1;
@@ -140,23 +146,29 @@ class Simulation {
       fine = one_run(tolerance);
       ++result_.runs;
       if (!fine->outcome.complete) {
-        result_.notes.push_back(fmt::format("the confirming run failed ({}); figures are those of the looser run, without errors", fine->outcome.diagnosis));
+        result_.notes.push_back(
+            fmt::format("the confirming run failed ({}); figures are those of the looser run, without errors",
+                        fine->outcome.diagnosis));
         fine = std::move(coarse);
         if (options_.interrupted && options_.interrupted->load()) {
           fine->outcome.complete = false;
-          fine->outcome.diagnosis = "interrupted in the run that measures the errors; the figures are whole, but without errors";
+          fine->outcome.diagnosis =
+              "interrupted in the run that measures the errors; the figures are whole, but without errors";
         }
         break;
       }
       result_.measured_accuracy = measure_errors(*coarse, *fine);
       result_.errors_measured = true;
       result_.accuracy_confirmed = result_.measured_accuracy <= settings_.accuracy;
-      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}; {:.1e} asked for: {}", tolerance * tolerance_step, tolerance, result_.measured_accuracy,
-                      settings_.accuracy, result_.accuracy_confirmed ? "reached" : "go on"));
+      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}; {:.1e} asked for: {}",
+                      tolerance * tolerance_step, tolerance, result_.measured_accuracy, settings_.accuracy,
+                      result_.accuracy_confirmed ? "reached" : "go on"));
       if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
     }
     if (result_.errors_measured && !result_.accuracy_confirmed)
-      result_.notes.push_back(fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached: the tolerances cannot be tightened further", settings_.accuracy, result_.measured_accuracy));
+      result_.notes.push_back(
+          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached: the tolerances cannot be tightened further",
+                      settings_.accuracy, result_.measured_accuracy));
     fill(*fine, tolerance);
     return std::move(result_);
   }
@@ -168,13 +180,20 @@ class Simulation {
 
   std::unique_ptr<OneRun> one_run(double tolerance) {
     auto run = std::make_unique<OneRun>();
-    run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until, settings_.samples);
+    run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until,
+                                                           settings_.samples);
     run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(*model_));
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
-    RunOptions options{.tolerance = tolerance, .method = settings_.method, .until = settings_.until, .budget = settings_.budget,
-                       .interrupted = options_.interrupted, .progress = {}};
+    RunOptions options{.tolerance = tolerance,
+                       .method = settings_.method,
+                       .until = settings_.until,
+                       .budget = settings_.budget,
+                       .interrupted = options_.interrupted,
+                       .progress = {}};
     if (options_.progress)
-      options.progress = [&](double fraction) { options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction); };
+      options.progress = [&](double fraction) {
+        options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
+      };
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()};
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
@@ -186,8 +205,9 @@ class Simulation {
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     if (!run->outcome.state.empty()) Figures(*model_, equations_, *run).collect();
     const RunStatistics& s = run->outcome.statistics;
-    log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance, s.stepper.steps, s.stepper.rejected, s.events,
-                    1e3 * s.cpu_seconds, run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
+    log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
+                    s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
+                    run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
     if (result_.runs == 0) log(fmt::format("  chosen because: {}", s.reason));
     return run;
   }
@@ -196,7 +216,8 @@ class Simulation {
   double measure_errors(const OneRun& coarse, OneRun& fine) const {
     double worst = 0;
     for (Figure& figure : fine.figures) {
-      const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(), [&](const Figure& f) { return f.name == figure.name; });
+      const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(),
+                                      [&](const Figure& f) { return f.name == figure.name; });
       if (other == coarse.figures.end()) continue;
       const double difference = std::abs(figure.value - other->value);
       if (figure.scale > 0) worst = std::max(worst, difference / figure.scale);
@@ -283,7 +304,9 @@ Result simulate(const Scene& scene, const Effects& effects, const std::string& l
 
 std::vector<Figure> figure_list(const Model& model) {
   std::vector<Figure> list;
-  const auto add = [&](const std::string& name, const std::string& unit) { list.push_back({name, 0, unit, {}, {}, 0, 0}); };
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    list.push_back({name, 0, unit, {}, {}, 0, 0});
+  };
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
   for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
   for (const TorqueJoint& joint : model.torque_joints) {

@@ -11,8 +11,8 @@ namespace kurbel {
 
 struct SimulateOptions {
   bool measure_error = true;
-  bool traces = false;                 // follow everything along the steps, for a report's plots
-  std::optional<std::string> method;   // overrides the scene's
+  bool traces = false;                // follow everything along the steps, for a report's plots
+  std::optional<std::string> method;  // overrides the scene's
   std::optional<double> accuracy, until;
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress;

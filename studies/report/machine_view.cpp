@@ -10,9 +10,9 @@
 namespace kurbel {
 namespace {
 
-constexpr double frames_per_turn = 40;
+constexpr double frames_per_turn = 240, fewest_per_turn = 60;
 constexpr int fewest_frames = 400, most_frames = 3000;
-constexpr double turns_shown = most_frames / frames_per_turn;
+constexpr double turns_shown = most_frames / fewest_per_turn;
 constexpr std::size_t most_parts = 60;
 constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]

@@ -299,7 +299,7 @@
           if (p.elastic) draw('polyline', {points: [-12, -8, -4, 0, 4, 8, 12].map((d, j) => `${middle + d},${y - 24 + (j % 2 ? -5 : 5)}`).join(' '), class: 'front', 'stroke-width': 1.6}, svg);
           else draw('rect', {x: middle - 12, y: y - 27, width: 24, height: 6, class: 'shaft'}, svg);
         } else {
-          const height = /flywheel/.test(kind) ? 150 : /motor|turbine/.test(kind) ? 92 : kind === 'slider-crank' ? 72 : kind === 'load' ? 84 : 84;
+          const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : kind === 'slider-crank' ? 72 : kind === 'load' ? 84 : 84;
           const thick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : kind === 'slider-crank' ? 0 : 26;
           if (thick) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
           if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) draw('line', {x1: middle - thick / 2 + 8, x2: middle + thick / 2 - 8, y1: y - height / 2 + j * height / 6, y2: y - height / 2 + j * height / 6, stroke: 'var(--metal-edge)', 'stroke-width': .6}, svg);

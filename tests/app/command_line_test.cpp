@@ -202,7 +202,9 @@ TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
   EXPECT_FALSE(nlohmann::json::parse(text_of(folder_ / "out/summary.json"))["complete"]);
   EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: "));
   for (const auto& entry : fs::directory_iterator(folder_ / "out"))
-    EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv" || entry.path().extension() == ".html") << entry.path();
+    EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv" ||
+                entry.path().extension() == ".html")
+        << entry.path();
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ void expect_exact_derivatives(const E& element, double speed) {
     x.direction = x.rate > 0 ? 1 : -1;
     if constexpr (Guarded<E>) x.mode = element.first_mode(x);
     if constexpr (Timed<E>) x.mode = element.mode_at(x.t);
-    const Dual<2> dual = element.torque(ShaftState<Dual<2>>{x.t, Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1), x.mode, x.direction});
+    const Dual<2> dual = element.torque(
+        ShaftState<Dual<2>>{x.t, Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1), x.mode, x.direction});
     EXPECT_EQ(dual.value, element.torque(x));
     const auto difference = [&](double angle, double rate) {
       ShaftState<double> up = x, down = x;
@@ -49,9 +50,12 @@ TEST(ShaftElements, DerivativesAreExact) {
   expect_exact_derivatives(InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0.7, 0.9), 300);
   expect_exact_derivatives(SpeedLoad{Account::useful, 0.3, 0.02}, 100);
   expect_exact_derivatives(OpposingLoad{Account::useful, 5, 0.3, 0.02, 0}, 100);
-  expect_exact_derivatives(TorqueOverSpeed{Account::driving, Curve({-100, 0, 30, 100}, {4, 5, 9, 0}, Curve::Form::smooth), 1}, 100);
-  expect_exact_derivatives(TorqueOverAngle{Account::driving, Curve({0, 1, 2.5, 5}, {4, -1, 3, 0}, Curve::Form::smooth, 2 * M_PI), -1}, 100);
-  expect_exact_derivatives(TorqueOverTime{Account::driving, Curve({0, 1, 1.5}, {4, -1, 3}, Curve::Form::linear), 1}, 100);
+  expect_exact_derivatives(
+      TorqueOverSpeed{Account::driving, Curve({-100, 0, 30, 100}, {4, 5, 9, 0}, Curve::Form::smooth), 1}, 100);
+  expect_exact_derivatives(
+      TorqueOverAngle{Account::driving, Curve({0, 1, 2.5, 5}, {4, -1, 3, 0}, Curve::Form::smooth, 2 * M_PI), -1}, 100);
+  expect_exact_derivatives(TorqueOverTime{Account::driving, Curve({0, 1, 1.5}, {4, -1, 3}, Curve::Form::linear), 1},
+                           100);
 }
 
 // Resistances never drive, in either direction and at any speed.
@@ -62,7 +66,8 @@ TEST(Loads, OnlyTakePower) {
     const double omega = some(-50, 50);
     EXPECT_LT(dry.torque(ShaftState<double>{0, 0, omega, 0, omega > 0 ? 1 : -1}) * omega, 0);
     EXPECT_LT(smooth.torque(ShaftState<double>{0, 0, omega, 0, 1}) * omega, 0);
-    EXPECT_NEAR(smooth.torque(ShaftState<double>{0, 0, omega, 0, 1}), -(0.3 * omega + 0.02 * omega * std::abs(omega)), 1e-12);
+    EXPECT_NEAR(smooth.torque(ShaftState<double>{0, 0, omega, 0, 1}), -(0.3 * omega + 0.02 * omega * std::abs(omega)),
+                1e-12);
   }
 }
 
@@ -72,7 +77,8 @@ TEST(Coupling, TorquesBalanceAndPowerIsStoredOrLost) {
   for (int i = 0; i < 100; ++i) {
     const double k = some(1e2, 1e6), c = some(0, 1e3), gain_a = some(0.2, 5), gain_b = some(0.2, 5);
     ConnectionPool<Coupling> pool;
-    pool.place(Coupling{k, c}, {.id = 0, .shaft_a = 0, .shaft_b = 1, .gain_a = gain_a, .gain_b = gain_b, .loss_account = 0});
+    pool.place(Coupling{k, c},
+               {.id = 0, .shaft_a = 0, .shaft_b = 1, .gain_a = gain_a, .gain_b = gain_b, .loss_account = 0});
     const double theta = some(-0.1, 0.1), speed[2] = {some(-50, 50), some(-50, 50)};
     double torque[2] = {0, 0}, inertia[2] = {0, 0}, rate = 0, transmitted = 0, spring = 0, work = 0;
     const Instant now{0, nullptr, &theta, speed, nullptr, nullptr, nullptr};
@@ -81,7 +87,8 @@ TEST(Coupling, TorquesBalanceAndPowerIsStoredOrLost) {
     EXPECT_NEAR(rate, gain_a * speed[0] - gain_b * speed[1], 1e-12 * 500);
     EXPECT_NEAR(torque[0] / gain_a, -torque[1] / gain_b, 1e-12 * std::abs(transmitted));
     const double power = torque[0] * speed[0] + torque[1] * speed[1];
-    EXPECT_NEAR(power, -k * theta * rate - c * rate * rate, 1e-11 * (std::abs(power) + std::abs(transmitted * speed[0])));
+    EXPECT_NEAR(power, -k * theta * rate - c * rate * rate,
+                1e-11 * (std::abs(power) + std::abs(transmitted * speed[0])));
     EXPECT_NEAR(work, -c * rate * rate, 1e-9 * (c * rate * rate + std::abs(transmitted * rate)));
     EXPECT_NEAR(pool.energy(now), 0.5 * k * theta * theta, 1e-12 * k * theta * theta);
     EXPECT_GT(-torque[0] * transmitted, 0);  // positive τ brakes a …
@@ -138,10 +145,12 @@ kind = "inertia"
 inertia = "1 kg*m2"
 [effects]
 elasticity = true
-)"), Effects{true, {}});
+)"),
+                             Effects{true, {}});
   const double polar = M_PI / 32 * std::pow(0.05, 4);
   ASSERT_EQ(model->elastic.size(), 1u);
-  EXPECT_NEAR(model->network.joints[static_cast<std::size_t>(model->elastic[0].joint)].element->stiffness(), 79.3e9 * polar, 1e-6);
+  EXPECT_NEAR(model->network.joints[static_cast<std::size_t>(model->elastic[0].joint)].element->stiffness(),
+              79.3e9 * polar, 1e-6);
   EXPECT_NEAR(model->shafts[0].inertia + model->shafts[1].inertia, 2 + 7850 * polar, 1e-12);
   EXPECT_NEAR(79.3e9 * polar, 48658, 1);
 }
@@ -208,10 +217,13 @@ TEST(DcShuntMotor, IsTheStraightLineBetweenStallAndNoLoad) {
 
 // Ramp: J ω̇ = M t/T until T, then M: ω(2 T) = (½ + 1) M T/J. Sine: ω = M/(J 2πf) (1 − cos 2πf t).
 TEST(TorqueSource, RampAndSineIntegrateToTheirClosedForms) {
-  const std::string rotor = "line = [\"rotor\"]\n[rotor]\nkind = \"inertia\"\ninertia = \"2 kg*m2\"\n[drive]\nkind = \"torque source\"\non = \"rotor\"\n";
+  const std::string rotor =
+      "line = [\"rotor\"]\n[rotor]\nkind = \"inertia\"\ninertia = \"2 kg*m2\"\n[drive]\nkind = \"torque source\"\non = "
+      "\"rotor\"\n";
   const Result ramp = run(rotor + "torque = \"6 N*m\"\nramp = \"0.4 s\"\n[run]\nuntil = \"0.8 s\"\n");
   EXPECT_NEAR(figure(ramp, "final_speed.rotor"), 1.5 * 6 * 0.4 / 2, 1e-12);
-  const Result sine = run(rotor + "amplitude = \"6 N*m\"\nfrequency = \"3 Hz\"\n[run]\nuntil = \"0.41 s\"\naccuracy = 1e-10\n");
+  const Result sine =
+      run(rotor + "amplitude = \"6 N*m\"\nfrequency = \"3 Hz\"\n[run]\nuntil = \"0.41 s\"\naccuracy = 1e-10\n");
   const double w = 6 * M_PI;
   EXPECT_NEAR(figure(sine, "final_speed.rotor"), 6 / (2 * w) * (1 - std::cos(w * 0.41)), 1e-10);
 }
@@ -273,10 +285,14 @@ until = "0.1 s"
 
 // Two cylinders 180° apart on one rigid crank: sum of both reduced inertias, and a start at another angle mirrors them.
 TEST(SeveralMechanisms, KeepTheirPhases) {
-  const std::string crank = "kind = \"slider-crank\"\nradius = \"50 mm\"\nrod = \"170 mm\"\ncrank_inertia = \"0.02 kg*m2\"\nslider_mass = \"2 kg\"\n";
+  const std::string crank =
+      "kind = \"slider-crank\"\nradius = \"50 mm\"\nrod = \"170 mm\"\ncrank_inertia = \"0.02 kg*m2\"\nslider_mass = "
+      "\"2 kg\"\n";
   const auto speed_after = [&](const std::string& angle, const std::string& phase1, const std::string& phase2) {
-    return figure(run("line = [\"one\", \"two\"]\n[one]\n" + crank + "phase = \"" + phase1 + "\"\n[two]\n" + crank + "phase = \"" + phase2 +
-                      "\"\n[run]\nuntil = \"0.3 s\"\naccuracy = 1e-9\nstart = { speed = \"40 rad/s\", angle = \"" + angle + "\" }\n"),
+    return figure(run("line = [\"one\", \"two\"]\n[one]\n" + crank + "phase = \"" + phase1 + "\"\n[two]\n" + crank +
+                      "phase = \"" + phase2 +
+                      "\"\n[run]\nuntil = \"0.3 s\"\naccuracy = 1e-9\nstart = { speed = \"40 rad/s\", angle = \"" +
+                      angle + "\" }\n"),
                   "final_speed.one");
   };
   const double reference = speed_after("10 deg", "0 deg", "120 deg");

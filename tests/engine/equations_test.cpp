@@ -100,7 +100,8 @@ std::vector<double> moved_state(Equations& equations) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> some(-1, 1);
   const ErrorControl control = equations.error_control(1);
-  for (std::size_t i = equations.model().angle_count(); i < equations.model().state_count(); ++i) y[i] += 0.02 * control.scale[i] * some(random);
+  for (std::size_t i = equations.model().angle_count(); i < equations.model().state_count(); ++i)
+    y[i] += 0.02 * control.scale[i] * some(random);
   return y;
 }
 
@@ -108,7 +109,8 @@ class JacobianOf : public ::testing::TestWithParam<const char*> {};
 
 // ∂f/∂y from dual numbers against central differences, every entry, relative to the largest of its row.
 TEST_P(JacobianOf, EqualsDifferences) {
-  const Scene scene = std::string(GetParam()).find('\n') == std::string::npos ? test::scene_file(GetParam()) : scene_from(GetParam());
+  const Scene scene =
+      std::string(GetParam()).find('\n') == std::string::npos ? test::scene_file(GetParam()) : scene_from(GetParam());
   Equations equations(compile(scene, scene.effects), false);
   const std::vector<double> y = moved_state(equations);
   const std::size_t n = equations.size();
@@ -116,7 +118,8 @@ TEST_P(JacobianOf, EqualsDifferences) {
   std::vector<double> values(pattern.row.size()), dense(n * n, 0.0);
   equations.jacobian(0.1, y, values);
   for (std::size_t c = 0; c < n; ++c)
-    for (auto k = static_cast<std::size_t>(pattern.column_start[c]); k < static_cast<std::size_t>(pattern.column_start[c + 1]); ++k)
+    for (auto k = static_cast<std::size_t>(pattern.column_start[c]);
+         k < static_cast<std::size_t>(pattern.column_start[c + 1]); ++k)
       dense[static_cast<std::size_t>(pattern.row[k]) * n + c] += values[k];
   const ErrorControl control = equations.error_control(1);
   std::vector<double> up(n), down(n), difference(n * n);
@@ -131,12 +134,16 @@ TEST_P(JacobianOf, EqualsDifferences) {
   }
   for (std::size_t r = 0; r < n; ++r) {
     double row_scale = 0;
-    for (std::size_t c = 0; c < n; ++c) row_scale = std::max(row_scale, std::abs(difference[r * n + c] * control.scale[c]));
     for (std::size_t c = 0; c < n; ++c)
-      EXPECT_NEAR(dense[r * n + c] * control.scale[c], difference[r * n + c] * control.scale[c], 2e-7 * row_scale) << equations.state_name(r) << " by " << equations.state_name(c);
+      row_scale = std::max(row_scale, std::abs(difference[r * n + c] * control.scale[c]));
+    for (std::size_t c = 0; c < n; ++c)
+      EXPECT_NEAR(dense[r * n + c] * control.scale[c], difference[r * n + c] * control.scale[c], 2e-7 * row_scale)
+          << equations.state_name(r) << " by " << equations.state_name(c);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, JacobianOf, ::testing::Values("scenes/crank_press.toml", "scenes/driven_slider_crank.toml", "scenes/six_inertia_chain.toml", everything));
+INSTANTIATE_TEST_SUITE_P(Scenes, JacobianOf,
+                         ::testing::Values("scenes/crank_press.toml", "scenes/driven_slider_crank.toml",
+                                           "scenes/six_inertia_chain.toml", everything));
 
 TEST(Compile, RigidMachineHasOneCoordinateWithInertiasBySquareOfRatio) {
   const Scene scene = scene_from(everything);
@@ -152,10 +159,14 @@ TEST(Compile, RigidMachineHasOneCoordinateWithInertiasBySquareOfRatio) {
 }
 
 TEST(Compile, SwitchedOffElasticityLeavesNoTrace) {
-  // The coupling's stiffness may stay in the file; states, Jacobian entries and results are those of a scene without it.
-  const std::string rest = "[a]\nkind = \"inertia\"\ninertia = \"1 kg*m2\"\n[b]\nkind = \"load\"\nquadratic = \"0.1 N*m*s2/rad2\"\ninertia = \"2 kg*m2\"\n"
-                           "[drive]\nkind = \"torque source\"\ntorque = \"5 N*m\"\non = \"a\"\n[run]\nuntil = \"1 s\"\n";
-  const Scene with = scene_from("line = [\"a\", \"c\", \"b\"]\n" + rest + "[c]\nkind = \"coupling\"\nstiffness = \"1 kN*m/rad\"\ndamping_ratio = 0.1\n");
+  // The coupling's stiffness may stay in the file; states, Jacobian entries and results are those of a scene without
+  // it.
+  const std::string rest =
+      "[a]\nkind = \"inertia\"\ninertia = \"1 kg*m2\"\n[b]\nkind = \"load\"\nquadratic = \"0.1 N*m*s2/rad2\"\ninertia "
+      "= \"2 kg*m2\"\n"
+      "[drive]\nkind = \"torque source\"\ntorque = \"5 N*m\"\non = \"a\"\n[run]\nuntil = \"1 s\"\n";
+  const Scene with = scene_from("line = [\"a\", \"c\", \"b\"]\n" + rest +
+                                "[c]\nkind = \"coupling\"\nstiffness = \"1 kN*m/rad\"\ndamping_ratio = 0.1\n");
   const Scene without = scene_from("line = [\"a\", \"b\"]\n" + rest);
   const auto off = compile(with, with.effects), absent = compile(without, without.effects);
   EXPECT_EQ(off->state_count(), absent->state_count());
@@ -225,7 +236,8 @@ TEST(TwoMasses, StartInEquilibriumDoesNotRing) {
   EXPECT_NEAR(figure(r, "rms_torque.c"), 6.0, 1e-8);
 }
 
-// J ω̇ = −M_dry holds until rest; a torque below the limit then moves nothing, above it the rest of the ramp accelerates.
+// J ω̇ = −M_dry holds until rest; a torque below the limit then moves nothing, above it the rest of the ramp
+// accelerates.
 TEST(Standstill, HeldUntilTheTorqueExceedsTheLimit) {
   const Result r = run(R"(
 line = ["rotor"]
@@ -322,7 +334,8 @@ accuracy = 1e-8
   EXPECT_NEAR(figure(r, "peak_torque.c"), 2 * 20 + 3, 1e-6);  // at the end of the ramp
 }
 
-// Work of a torque over the angle in one turn is the integral of its table: two periods of 90·4/2 + 30·4 + 60·4/2 degrees.
+// Work of a torque over the angle in one turn is the integral of its table: two periods of 90·4/2 + 30·4 + 60·4/2
+// degrees.
 TEST(TableOverAngle, DoesTheWorkOfItsArea) {
   const Result r = run(R"(
 line = ["rotor"]
@@ -338,11 +351,15 @@ start = { speed = "6 rad/s" }
 until = "10 s"
 accuracy = 1e-9
 )");
-  // Energy integral: ½ J (ω² − ω₀²) = turns · area + the part of the last period, checked over whole periods by the mean.
+  // Energy integral: ½ J (ω² − ω₀²) = turns · area + the part of the last period, checked over whole periods by the
+  // mean.
   const double area = (90 * 4 / 2.0 + 30 * 4 + 60 * 4 / 2.0) * M_PI / 180;
-  const double angle = figure(r, "final_angle.rotor"), turned = std::fmod(angle, M_PI), periods = std::floor(angle / M_PI);
+  const double angle = figure(r, "final_angle.rotor"), turned = std::fmod(angle, M_PI),
+               periods = std::floor(angle / M_PI);
   const double deg = turned * 180 / M_PI;
-  const double part = deg < 90 ? deg * deg * 4 / 90 / 2 : deg < 120 ? 180 + (deg - 90) * 4 : 300 + (deg - 120) * 4 - (deg - 120) * (deg - 120) * 4 / 60 / 2;
+  const double part = deg < 90    ? deg * deg * 4 / 90 / 2
+                      : deg < 120 ? 180 + (deg - 90) * 4
+                                  : 300 + (deg - 120) * 4 - (deg - 120) * (deg - 120) * 4 / 60 / 2;
   EXPECT_NEAR(figure(r, "work.driving"), periods * area + part * M_PI / 180, 1e-7);
   EXPECT_LE(r.energy.relative, 1e-9);
 }

@@ -6,9 +6,9 @@
 namespace kurbel {
 namespace {
 
-// A load by table with its knot exactly at the mean speed: the slider-crank's inertia carries the speed across it twice in
-// every turn, with crossings that come back within a step. The table is a straight line in two pieces, so the motion must
-// be that of the viscous load with the same slope.
+// A load by table with its knot exactly at the mean speed: the slider-crank's inertia carries the speed across it twice
+// in every turn, with crossings that come back within a step. The table is a straight line in two pieces, so the motion
+// must be that of the viscous load with the same slope.
 TEST(CharacteristicOverSpeed, KnotInSteadyMotionIsCrossedWithoutChatter) {
   const std::string machine = R"(
 line = ["motor", "crank", "brake"]
@@ -30,7 +30,8 @@ accuracy = 1e-8
 [brake]
 kind = "load"
 )";
-  const Result table = test::run(machine + "table = { over = \"speed\", unit = [\"rad/s\", \"N*m\"], points = [[0, 0], [40, 10], [80, 20]] }\n");
+  const Result table = test::run(
+      machine + "table = { over = \"speed\", unit = [\"rad/s\", \"N*m\"], points = [[0, 0], [40, 10], [80, 20]] }\n");
   const Result straight = test::run(machine + "damping = \"0.25 N*m*s/rad\"\n");
   ASSERT_TRUE(table.complete) << table.diagnosis;
   EXPECT_NEAR(test::figure(table, "final_angle.crank"), test::figure(straight, "final_angle.crank"), 1e-7);

@@ -13,8 +13,11 @@ using test::run;
 
 // A crank at prescribed speed, r = 50 mm, stroke 100 mm; useful work of one turn.
 Result turning(const std::string& load, const std::string& more = "") {
-  return run("line = [\"drive\", \"crank\"]\n[drive]\nkind = \"prescribed speed\"\nspeed = \"10 rad/s\"\n[crank]\nkind = \"slider-crank\"\nradius = \"50 mm\"\n"
-             "rod = \"200 mm\"\nslider_mass = \"2 kg\"\n" + more + "load = " + load + "\n[run]\nuntil = \"3 s\"\naccuracy = 1e-8\n");
+  return run(
+      "line = [\"drive\", \"crank\"]\n[drive]\nkind = \"prescribed speed\"\nspeed = \"10 rad/s\"\n[crank]\nkind = "
+      "\"slider-crank\"\nradius = \"50 mm\"\n"
+      "rod = \"200 mm\"\nslider_mass = \"2 kg\"\n" +
+      more + "load = " + load + "\n[run]\nuntil = \"3 s\"\naccuracy = 1e-8\n");
 }
 
 TEST(SliderLoads, ConstantForceDoesNoWorkInATurn) {
@@ -32,32 +35,44 @@ TEST(SliderLoads, MediumTakesTheIntegralOfSpeedSquared) {
     const double ratio = -0.05 * (s + lambda * s * c / std::sqrt(1 - lambda * lambda * s * s));
     square += ratio * ratio * 2 * M_PI / n;
   }
-  EXPECT_NEAR(figure(turning("{ kind = \"medium\", viscous = \"90 N*s/m\" }"), "useful_work_per_cycle"), -90 * 10 * square, 1e-7);
+  EXPECT_NEAR(figure(turning("{ kind = \"medium\", viscous = \"90 N*s/m\" }"), "useful_work_per_cycle"),
+              -90 * 10 * square, 1e-7);
 }
 // Ends: with the force on the working stroke only, either end may be the working one; the area is the same.
 TEST(SliderLoads, PressTakesItsAreaAtEitherEnd) {
   for (const char* end : {"extended", "folded"}) {
-    const Result r = turning(std::string("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\", rise = \"4 mm\", breakthrough = \"6 mm\", drop = \"2 mm\", working_end = \"") + end + "\" }");
+    const Result r =
+        turning(std::string("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\", rise = \"4 "
+                            "mm\", breakthrough = \"6 mm\", drop = \"2 mm\", working_end = \"") +
+                end + "\" }");
     EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -8e3 * (0.002 + 0.010 + 0.001), 1e-6) << end;
-    const Result sharp = turning(std::string("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\", working_end = \"") + end + "\" }");
+    const Result sharp = turning(
+        std::string("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\", working_end = \"") +
+        end + "\" }");
     EXPECT_NEAR(figure(sharp, "useful_work_per_cycle"), -8e3 * 0.020, 1e-6) << end;
   }
 }
 // The loop of two branches over travel: area between them.
 TEST(SliderLoads, TravelTableWithTwoBranchesTakesTheAreaBetween) {
-  const Result r = turning("{ kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"N\"], points = [[0, 900], [40, 500], [100, 100]], return_points = [[0, 300], [100, 100]] } }");
+  const Result r = turning(
+      "{ kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"N\"], points = [[0, 900], [40, 500], [100, "
+      "100]], return_points = [[0, 300], [100, 100]] } }");
   const double approach = 0.04 * 700 + 0.06 * 300, retreat = 0.1 * 200;
   EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -(approach - retreat), 1e-7);
 }
 // One branch for both strokes is a spring: no work in a turn.
 TEST(SliderLoads, TravelTableWithOneBranchDoesNoWork) {
-  const Result r = turning("{ kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"N\"], points = [[0, 900], [40, 500], [100, 100]] } }");
+  const Result r = turning(
+      "{ kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"N\"], points = [[0, 900], [40, 500], [100, "
+      "100]] } }");
   EXPECT_NEAR(figure(r, "useful_work_per_cycle"), 0, 1e-6);
 }
 // Four-stroke: a cycle is two turns, and a force over 0…720° works over its own branch in each turn:
 // 1 kN away from the extended end from 0 to 180° (outwards expansion) drives with 1 kN · stroke.
 TEST(SliderLoads, FourStrokeCycleIsTwoTurns) {
-  const Result r = turning("{ kind = \"table\", work = \"driving\", force = { over = \"angle\", unit = [\"deg\", \"N\"], points = [[0, 1000], [180, 1000], [180.001, 0], [719.999, 0]] } }");
+  const Result r = turning(
+      "{ kind = \"table\", work = \"driving\", force = { over = \"angle\", unit = [\"deg\", \"N\"], points = [[0, "
+      "1000], [180, 1000], [180.001, 0], [719.999, 0]] } }");
   EXPECT_NEAR(figure(r, "cycle_time.crank"), 4 * M_PI / 10, 1e-9);
   // The driving account also holds the prescribed motion, which takes what the gas gives.
   // 30 rad hold the first halves of three such turns whole.
@@ -66,7 +81,8 @@ TEST(SliderLoads, FourStrokeCycleIsTwoTurns) {
 // The load edge lies where the slider is 20 mm before its end, to round-off: φ from the closed form.
 TEST(SliderLoads, PressEdgeIsLocatedOnItsTravel) {
   const Result r = turning("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\" }");
-  const auto edge = std::find_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.what == "load edge"; });
+  const auto edge =
+      std::find_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.what == "load edge"; });
   ASSERT_NE(edge, r.events.end());
   const double phi = 10 * edge->t;
   EXPECT_NEAR(0.05 * std::cos(phi) + std::sqrt(0.04 - std::pow(0.05 * std::sin(phi), 2)), 0.25 - 0.02, 1e-12);

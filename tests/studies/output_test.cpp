@@ -49,7 +49,8 @@ TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
     EXPECT_TRUE(j.at("final").at(component).at("angle").is_number());
     EXPECT_TRUE(j.at("final").at(component).at("speed").is_number());
   }
-  // From 90° on in 2.5 s: two working strokes with four knees of the force each, two extended, three folded dead centres.
+  // From 90° on in 2.5 s: two working strokes with four knees of the force each, two extended, three folded dead
+  // centres.
   EXPECT_EQ(j.at("events").size(), 13u);
   EXPECT_LE(j.at("energy_balance").at("relative").get<double>(), 1e-5);
   EXPECT_GT(j.at("statistics").at("steps").get<int>(), 0);
@@ -68,7 +69,8 @@ TEST(Figures, AreListedBeforeTheyAreRun) {
   const Scene scene = press_at_speed();
   std::vector<std::string> listed;
   for (const Figure& f : figure_list(*compile(scene, scene.effects))) listed.push_back(f.name);
-  for (const Figure& f : run(scene).figures) EXPECT_NE(std::find(listed.begin(), listed.end(), f.name), listed.end()) << f.name;
+  for (const Figure& f : run(scene).figures)
+    EXPECT_NE(std::find(listed.begin(), listed.end(), f.name), listed.end()) << f.name;
 }
 
 TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
@@ -97,8 +99,8 @@ TEST(Press, UsefulWorkPerCycleIsTheAreaOfItsProfile) {
   EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -630e3 * (0.5e-3 / 2 + 2.5e-3 + 0.2e-3 / 2), 1e-6);
 }
 
-// Switched on at rest with the crank exactly on a dead centre, where nothing pushes it yet: it starts all the same, rigid
-// and elastic, and the run-up raises the elastic torque far above the rigid one.
+// Switched on at rest with the crank exactly on a dead centre, where nothing pushes it yet: it starts all the same,
+// rigid and elastic, and the run-up raises the elastic torque far above the rigid one.
 TEST(Press, StartsFromRestOnADeadCentre) {
   for (const double angle : {0.0, M_PI}) {
     Scene scene = test::scene_file("scenes/crank_press.toml");
@@ -174,8 +176,8 @@ inertia = "1 kg*m2"
 until = "30 s"
 accuracy = 1e-7
 )");
-  // ω = 80 (1 − e^(−t/2)): within 1 % of ω(20) at t = −2 ln(1 − 0.99 (1 − e^(−10))); then 2 ω̇ = −20 from 80 rad/s: stops
-  // 8 s after the motor.
+  // ω = 80 (1 − e^(−t/2)): within 1 % of ω(20) at t = −2 ln(1 − 0.99 (1 − e^(−10))); then 2 ω̇ = −20 from 80 rad/s:
+  // stops 8 s after the motor.
   ASSERT_TRUE(r.periods.run_up_end && r.periods.run_down_begin && r.periods.standstill);
   EXPECT_NEAR(*r.periods.run_up_end, -2 * std::log(1 - 0.99 * (1 - std::exp(-10.0))), 1e-6);
   EXPECT_LT(*r.find("run_up_time")->error, 1e-4);
