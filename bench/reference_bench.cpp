@@ -110,7 +110,7 @@ void rigid_limit() {
   const Scene press = read_scene(folder + "crank_press.toml", all_kinds());
   const std::pair<const char*, const Scene*> cases[] = {{"chain E1 started in balance (smooth torques)", &smooth},
                                                         {"chain E1 from rest (step torque)", &step},
-                                                        {"press (20 load edges that ring)", &press}};
+                                                        {"press (load edges that ring)", &press}};
   for (const auto& [name, scene] : cases) {
     double first = 0;
     for (const double factor : {1.0, 10.0, 100.0, 1000.0}) {
