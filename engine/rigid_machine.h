@@ -1,0 +1,61 @@
+// rigid_machine.h — the machine with everything rigid: inertia and torques as functions of its link's angle and speed.
+//
+//     I_r(φ) ε + ½ I_r′ ω² = M(φ, ω) = Σ shares,   M = M_d − M_c                                  (THEORY 2.1, 2.2, 2.4)
+// All is reduced to the model's reduction link (the first mechanism's crank, else the line's first shaft).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/equations.h"
+#include "engine/model.h"
+
+namespace kurbel {
+
+class RigidMachine {
+ public:
+  // Compiles the scene with elasticity off. Throws SceneError where it makes no machine; std::invalid_argument in words
+  // where it has no free coordinate (a prescribed speed).
+  explicit RigidMachine(const Scene& scene);
+
+  const Model& model() const { return *model_; }
+  // Angle of one cycle of the link [rad]: 2π; 4π where a four-stroke load says so; 2π for machines without a mechanism.
+  double cycle() const;
+  // Some torque depends on time (sources over time, windows of action): then angle and speed are not the whole truth.
+  bool uses_time() const;
+  // Some torque depends on speed (motors, fans, medium).
+  bool uses_speed() const;
+  // No torque depends on the direction of motion and none on speed: M is a function of φ alone for either direction.
+
+  // Inertia of everything that turns at a constant ratio, on the link [kg·m²]: motor, flywheel, gears …
+  double constant_inertia() const;
+  // I_em: reduced inertia of the executive mechanisms, on the link [kg·m²], and its derivative by the link's angle.
+  struct Inertia {
+    double value = 0, slope = 0;
+  };
+  Inertia mechanism_inertia(double phi) const;
+
+  // --- torques ---
+  // Chooses the piece of every piecewise law for motion through phi with speed omega ≠ 0; at an edge, the piece that
+  // lies ahead. They then hold until the next call.
+  void set_modes(double phi, double omega);
+  struct At {
+    double inertia = 0, slope = 0;   // I_r, I_r′ of the whole machine [kg·m²], [kg·m²/rad]
+    double torque = 0;               // M = Σ shares [N·m]
+    std::span<const double> share;   // per entry of model().accounts, reduced to the link [N·m]; empty unless asked for
+  };
+  // With the modes that hold. Smooth in phi and omega. share is valid until the next call and needs omega ≠ 0.
+  At at(double phi, double omega, bool shares = false);
+
+  // Angles within [0, cycle()) where some torque's law changes when the link turns in this direction (±1): load edges,
+  // knots of tables over angle or travel, dead centres of loads that oppose; ascending, located to 1e-13 rad.
+  std::vector<double> edges(int direction);
+
+ private:
+  std::shared_ptr<const Model> model_;
+  Equations equations_;
+  std::vector<double> state_;
+};
+
+}  // namespace kurbel
