@@ -24,10 +24,10 @@ std::vector<Key> link_keys(const std::string& name, const std::string& com_doc, 
 // "crank 2 kg, rod 1 kg"
 std::string masses_of(const Section& s) {
   std::string text;
-  for (const Setting& setting : s.settings)
-    if (setting.key.ends_with("_mass"))
-      text += fmt::format("{}{} {:g} kg", text.empty() ? "" : ", ", setting.key.substr(0, setting.key.size() - 5),
-                          setting.number);
+  for (const Key& key : s.kind->keys)
+    if (key.name.ends_with("_mass"))
+      text += fmt::format("{}{} {:g} kg", text.empty() ? "" : ", ", key.name.substr(0, key.name.size() - 5),
+                          s.number(key.name));
   return text;
 }
 
