@@ -84,6 +84,12 @@ bool MechanismMaker::directional() const {
                      [](const SliderLoad& l) { return l.depends_on_travel(); });
 }
 
+// Weight and forces over travel depend on the angle alone; so does I_r.
+bool MechanismMaker::uses_speed() const {
+  return std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
+                     [](const SliderLoad& l) { return l.uses_speed(); });
+}
+
 // Loads give a scale of torque: greatest force times half the stroke.
 Rated MechanismMaker::rated() const {
   double force = 0;
