@@ -9,6 +9,7 @@
 
 #include "engine/network.h"
 #include "engine/units.h"
+#include "mechanisms/joint_keys.h"
 #include "mechanisms/slider_crank.h"
 
 namespace kurbel {
@@ -137,21 +138,10 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   SliderCrank crank;
   crank.name = s.name;
   crank.phase = s.number("phase");
-  SliderCrankData& d = crank.data;
-  d.radius = s.number("radius");
-  d.rod_length = s.number("rod");
-  d.offset = s.number("offset");
-  d.crank_mass = s.number("crank_mass");
-  d.crank_com = s.number("crank_com");
-  d.crank_inertia = s.number("crank_inertia");
-  d.rod_mass = s.number("rod_mass");
-  d.rod_com = s.number_or("rod_com", d.rod_length / 2);
-  d.rod_inertia = s.number("rod_inertia");
-  d.slider_mass = s.number("slider_mass");
-  d.gravity = s.number("gravity");
-  d.stroke_angle = s.number("stroke_angle");
+  const SliderCrankData& d = crank.data = slider_crank_data(s);
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
+  check_joints(s, messages);
   if (!check_geometry(s, d, messages)) return;
   const SliderCrankGeometry geometry(d);
   crank.x_min = geometry.x_min();
@@ -249,7 +239,7 @@ const std::vector<Kind>& slider_load_kinds() {
 }
 
 std::vector<Kind> mechanism_kinds() {
-  return {
+  std::vector<Kind> kinds = {
       {.name = "slider-crank",
        .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
        .keys =
@@ -311,6 +301,8 @@ std::vector<Kind> mechanism_kinds() {
              .doc = "force on the slider, or a list of them",
              .nested = &slider_load_kinds()}},
        .build = build_slider_crank}};
+  for (Key& key : slider_crank_joint_keys()) kinds.front().keys.push_back(std::move(key));
+  return kinds;
 }
 
 }  // namespace kurbel
