@@ -9,6 +9,7 @@
 
 #include "mechanisms/multibody_run.h"
 #include "mechanisms/slider_crank.h"
+#include "studies/report/trace.h"
 
 namespace kurbel {
 namespace {
@@ -69,6 +70,25 @@ double slider_force(const SliderCrank& crank, double phi, double x, double v) {
   return sum;
 }
 
+// Under the names of the reduced model's traces, so that one report draws both.
+std::shared_ptr<const Traces> traces_of(const Model& model, const SliderCrank& crank, const MultibodyResult& run) {
+  const std::string link = model.network.nodes[at(model.reduction_node)].component;
+  const auto traces = std::make_shared<Traces>();
+  traces->over_time = {{"angle", "rad", {}, {}},
+                       {"speed." + link, "rad/s", {}, {}},
+                       {"position." + crank.name, "m", {}, {}},
+                       {"velocity." + crank.name, "m/s", {}, {}},
+                       {"kinetic_energy", "J", {}, {}}};
+  for (const MultibodySample& s : run.samples) {
+    const double values[] = {s.phi - crank.phase, s.omega, s.x, s.v, s.kinetic_energy};
+    for (std::size_t i = 0; i < traces->over_time.size(); ++i) {
+      traces->over_time[i].x.push_back(s.t);
+      traces->over_time[i].y.push_back(values[i]);
+    }
+  }
+  return traces;
+}
+
 }  // namespace
 
 Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label,
@@ -107,7 +127,8 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   const std::vector<std::string> integrators = multibody_integrators();
   const std::string method = options.method.value_or(settings.method);
   problem.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
-  const int rows = std::min(settings.samples, 201);
+  // Each report time ends a step of Simbody's: only a report's plots are worth that.
+  const int rows = options.traces ? std::clamp(settings.samples, 2, 1001) : 2;
   for (int i = 0; i < rows; ++i) problem.times.push_back(problem.t_end * i / (rows - 1));
 
   Result result;
@@ -162,6 +183,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};
     result.energy.kinetic_start = fine.samples.front().kinetic_energy;
     result.energy.kinetic_end = b.kinetic_energy;
+    if (options.traces) result.traces = traces_of(model, crank, fine);
     result.notes.push_back(fmt::format(
         "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
   } catch (const std::runtime_error& error) {

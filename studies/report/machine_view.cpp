@@ -71,7 +71,7 @@ void add_parts(MachineView& view, const Model& model) {
 
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
   const Model& model = *r.model;
-  const TraceRecorder& traces = *r.traces;
+  const Traces& traces = *r.traces;
   MachineView::Motion motion{.label = r.label,
                              .role = role,
                              .angle = sampled(traces.find("angle"), view.time),
@@ -86,10 +86,9 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
       continue;
     }
     const Network::Ports& ports = model.network.ports.at(part.name);
-    motion.twist_in.push_back(sampled(traces.find(TraceRecorder::node_key(ports.in)), view.time));
-    motion.twist_out.push_back(ports.in == ports.out
-                                   ? motion.twist_in.back()
-                                   : sampled(traces.find(TraceRecorder::node_key(ports.out)), view.time));
+    motion.twist_in.push_back(sampled(traces.find(Traces::node_key(ports.in)), view.time));
+    motion.twist_out.push_back(ports.in == ports.out ? motion.twist_in.back()
+                                                     : sampled(traces.find(Traces::node_key(ports.out)), view.time));
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
     for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
       for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
