@@ -27,7 +27,7 @@ int forces(const ForcesArguments& arguments) {
   options.mechanism = arguments.mechanism;
   options.simulate = !arguments.no_run;
   if (!arguments.speed.empty())
-    options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number, "rad/s");
+    options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
   options.interrupted = &interrupted();
   options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
@@ -41,7 +41,8 @@ int forces(const ForcesArguments& arguments) {
 void add_forces_command(CLI::App& app, int& code) {
   const auto arguments = std::make_shared<ForcesArguments>();
   CLI::App* command = app.add_subcommand(
-      "forces", "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank");
+      "forces",
+      "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank");
   add_study_options(*command, arguments->study);
   command->add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
   command->add_option("--speed", arguments->speed,

@@ -91,17 +91,20 @@ class SliderLoads {
 
 struct Abscissa {
   double phi = 0;
-  double weight = 0;  // of the integral over the cycle; 0: a point of the grid
+  double weight = 0;  // of the integral over the cycle
+  bool grid = false;  // one of the even positions
 };
 
-// The grid, and Gauss' three points between its points and the load edges.
+constexpr double beside = 1e-9;  // rad: either side of an edge
+
+// The grid, Gauss' three points between its points and the load edges, and a point on either side of each edge.
 std::vector<Abscissa> abscissae(double cycle, int cells, const std::vector<double>& edges) {
   std::vector<double> knots;
   for (int i = 0; i <= cells; ++i) knots.push_back(cycle * i / cells);
   knots.insert(knots.end(), edges.begin(), edges.end());
   std::sort(knots.begin(), knots.end());
   std::vector<Abscissa> all;
-  for (int i = 0; i <= cells; ++i) all.push_back({cycle * i / cells, 0});
+  for (int i = 0; i <= cells; ++i) all.push_back({cycle * i / cells, 0, true});
   const double node = std::sqrt(0.6);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double half = 0.5 * (knots[i + 1] - knots[i]), middle = 0.5 * (knots[i + 1] + knots[i]);
@@ -110,6 +113,9 @@ std::vector<Abscissa> abscissae(double cycle, int cells, const std::vector<doubl
     all.push_back({middle, half * 8 / 9});
     all.push_back({middle + node * half, half * 5 / 9});
   }
+  for (const double edge : edges)
+    for (const double phi : {edge - beside, edge + beside})
+      if (phi > 0 && phi < cycle) all.push_back({phi});
   std::stable_sort(all.begin(), all.end(), [](const Abscissa& a, const Abscissa& b) { return a.phi < b.phi; });
   return all;
 }
@@ -152,10 +158,9 @@ class CycleBuilder {
 
   void add(const Abscissa& where, Motion motion) {
     const CyclePosition p = at(where.phi, motion);
-    if (where.weight == 0) {
-      cycle_.positions.push_back(p);
-      return;
-    }
+    samples_.push_back(p);
+    if (where.grid) cycle_.positions.push_back(p);
+    if (where.weight == 0) return;
     // dA = M dφ, in the sense of the motion.
     const double dt = where.weight / std::abs(motion.omega);
     const auto share = loads_.shares(where.phi, motion.omega);
@@ -174,40 +179,68 @@ class CycleBuilder {
     balance_work();
   }
 
-  // Of a function of the position, the largest magnitude on the grid and where.
-  template <class F>
-  Peak peak_of(F&& value) const {
-    Peak peak;
-    for (const CyclePosition& p : cycle_.positions)
-      if (const double v = value(p); std::abs(v) > std::abs(peak.value)) peak = {v, p.state.phi, {}};
-    return peak;
+ private:
+  // Motion between the samples: cubic in z = ω²/2, whose slope is ε.
+  Motion motion_at(double phi) const {
+    const auto after = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, phi,
+                                        [](double x, const CyclePosition& p) { return x < p.state.phi; });
+    const CrankState &a = (after - 1)->state, &b = after->state;
+    const double h = b.phi - a.phi;
+    if (!(h > 0)) return {a.omega, a.alpha};
+    const double u = (phi - a.phi) / h, v = 1 - u, za = 0.5 * a.omega * a.omega, zb = 0.5 * b.omega * b.omega;
+    const double z = v * v * (1 + 2 * u) * za + u * u * (1 + 2 * v) * zb + h * u * v * (v * a.alpha - u * b.alpha);
+    const double slope = 6 * u * v * (zb - za) / h + v * (v - 2 * u) * a.alpha + u * (u - 2 * v) * b.alpha;
+    return {std::copysign(std::sqrt(2 * std::max(0.0, z)), a.omega), slope};
   }
 
- private:
+  // The largest magnitude of a function of the position: on the samples, then by the golden section between the
+  // neighbours of the largest one.
+  template <class F>
+  Peak peak_of(F&& value) const {
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < samples_.size(); ++i)
+      if (std::abs(value(samples_[i])) > std::abs(value(samples_[best]))) best = i;
+    Peak peak{value(samples_[best]), samples_[best].state.phi, {}};
+    const double sense = peak.value < 0 ? -1 : 1;
+    for (const std::size_t i : {best, best + 1}) {  // the pieces before and after it
+      if (i == 0 || i >= samples_.size()) continue;
+      const auto seek = [&](double phi) { return sense * value(at(phi, motion_at(phi))); };
+      const auto [phi, found] = highest(seek, samples_[i - 1].state.phi, samples_[i].state.phi);
+      if (found > sense * peak.value) peak = {sense * found, phi, {}};
+    }
+    return peak;
+  }
+  // By the golden section.
+  template <class F>
+  static std::pair<double, double> highest(F&& f, double a, double b) {
+    constexpr double part = 0.38196601125010515;
+    double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
+    for (int i = 0; i < 40; ++i) {
+      if (fx > fy) {
+        b = y, y = x, fy = fx;
+        fx = f(x = a + part * (b - a));
+      } else {
+        a = x, x = y, fx = fy;
+        fy = f(y = b - part * (b - a));
+      }
+    }
+    return fx > fy ? std::pair{x, fx} : std::pair{y, fy};
+  }
+
   void find_extremes() {
-    const auto reaction = [](Joint joint) {
-      return [joint](const CyclePosition& p) {
-        switch (joint) {
-          case Joint::main_bearing:
-            return p.forces.main_bearing.magnitude();
-          case Joint::crank_pin:
-            return p.forces.crank_pin.magnitude();
-          case Joint::slider_pin:
-            return p.forces.slider_pin.magnitude();
-          case Joint::guide:
-            return p.forces.guide;
-        }
-        return 0.0;
-      };
-    };
-    for (std::size_t k = 0; k < joint_count; ++k) cycle_.reaction[k] = peak_of(reaction(static_cast<Joint>(k)));
+    std::sort(samples_.begin(), samples_.end(),
+              [](const CyclePosition& a, const CyclePosition& b) { return a.state.phi < b.state.phi; });
+    cycle_.reaction[0] = peak_of([](const CyclePosition& p) { return p.forces.main_bearing.magnitude(); });
+    cycle_.reaction[1] = peak_of([](const CyclePosition& p) { return p.forces.crank_pin.magnitude(); });
+    cycle_.reaction[2] = peak_of([](const CyclePosition& p) { return p.forces.slider_pin.magnitude(); });
+    cycle_.reaction[3] = peak_of([](const CyclePosition& p) { return p.forces.guide; });
     cycle_.torque = peak_of([](const CyclePosition& p) { return p.forces.torque; });
     cycle_.shaking_force = peak_of([](const CyclePosition& p) { return p.forces.shaking_force.magnitude(); });
     cycle_.shaking_moment = peak_of([](const CyclePosition& p) { return p.forces.shaking_moment; });
-    const double middle = statics_.joints().guide.middle;
-    cycle_.guide_tilt = peak_of([&](const CyclePosition& p) {
-      return std::isfinite(p.forces.guide_point) ? p.forces.guide_point - middle : 0.0;
-    });
+    // Speeds at both ends in the order of time.
+    cycle_.closure = (cycle_.positions.back().state.omega - cycle_.positions.front().state.omega) / cycle_.mean_speed;
+    std::sort(cycle_.positions.begin(), cycle_.positions.end(),
+              [](const CyclePosition& a, const CyclePosition& b) { return a.state.phi < b.state.phi; });
     cycle_.least_speed = cycle_.greatest_speed = cycle_.positions.front().state.omega;
     for (const CyclePosition& p : cycle_.positions) {
       cycle_.least_speed = std::min(cycle_.least_speed, p.state.omega);
@@ -216,8 +249,6 @@ class CycleBuilder {
       cycle_.friction_residual = std::max(cycle_.friction_residual, p.forces.residual);
       cycle_.most_iterations = std::max(cycle_.most_iterations, p.forces.iterations);
     }
-    cycle_.closure =
-        (cycle_.positions.back().state.omega - cycle_.positions.front().state.omega) / cycle_.mean_speed;
   }
 
   template <class F>
@@ -250,7 +281,8 @@ class CycleBuilder {
     const auto kinetic = [&](const CyclePosition& p) {
       return 0.5 * geometry_.inertia(p.state.phi).value * p.state.omega * p.state.omega;
     };
-    cycle_.kinetic_change = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
+    cycle_.kinetic_change =
+        (kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front())) * (cycle_.mean_speed < 0 ? -1 : 1);
     double largest = 0;
     for (const CycleWork& w : cycle_.work) largest = std::max(largest, std::abs(w.work));
     for (CycleWork& w : cycle_.work) {
@@ -266,6 +298,7 @@ class CycleBuilder {
   SliderCrankGeometry geometry_;
   SliderLoads& loads_;
   ForceCycle& cycle_;
+  std::vector<CyclePosition> samples_;  // every abscissa
   double time_ = 0;
 };
 
@@ -273,37 +306,6 @@ class CycleBuilder {
 int stride_of(int positions) { return (least_cells + positions - 1) / positions; }
 
 // --- first problem ---
-
-// The grid's peak made exact: golden section between its neighbours on the mechanism itself.
-template <class F>
-void refine(Peak& peak, double step, F&& value_at) {
-  constexpr double part = 0.38196601125010515;
-  double a = peak.phi - step, b = peak.phi + step;
-  const double sense = peak.value < 0 ? -1 : 1;
-  double x = a + part * (b - a), y = b - part * (b - a), fx = sense * value_at(x), fy = sense * value_at(y);
-  for (int i = 0; i < 60; ++i) {
-    if (fx > fy) {
-      b = y, y = x, fy = fx;
-      fx = sense * value_at(x = a + part * (b - a));
-    } else {
-      a = x, x = y, fx = fy;
-      fy = sense * value_at(y = b - part * (b - a));
-    }
-  }
-  if (std::max(fx, fy) > sense * peak.value) peak = {sense * std::max(fx, fy), fx > fy ? x : y, {}};
-}
-
-void refine_peaks(const CycleBuilder& builder, Motion motion, ForceCycle& cycle) {
-  const double step = cycle.cycle / static_cast<double>(cycle.positions.size() - 1);
-  const auto forces = [&](double phi) { return builder.at(phi, motion).forces; };
-  refine(cycle.reaction[0], step, [&](double phi) { return forces(phi).main_bearing.magnitude(); });
-  refine(cycle.reaction[1], step, [&](double phi) { return forces(phi).crank_pin.magnitude(); });
-  refine(cycle.reaction[2], step, [&](double phi) { return forces(phi).slider_pin.magnitude(); });
-  refine(cycle.reaction[3], step, [&](double phi) { return forces(phi).guide; });
-  refine(cycle.torque, step, [&](double phi) { return forces(phi).torque; });
-  refine(cycle.shaking_force, step, [&](double phi) { return forces(phi).shaking_force.magnitude(); });
-  refine(cycle.shaking_moment, step, [&](double phi) { return forces(phi).shaking_moment; });
-}
 
 ForceCycle first_problem(const SliderCrankStatics& statics, SliderLoads& loads, int positions, double speed) {
   ForceCycle cycle;
@@ -315,7 +317,6 @@ ForceCycle first_problem(const SliderCrankStatics& statics, SliderLoads& loads, 
   CycleBuilder builder(statics, loads, cycle);
   for (const Abscissa& a : abscissae(cycle.cycle, cells, loads.edges(speed < 0 ? -1 : 1))) builder.add(a, {speed, 0});
   builder.finish();
-  refine_peaks(builder, {speed, 0}, cycle);
   return cycle;
 }
 
@@ -386,9 +387,7 @@ class SecondProblem {
     const std::vector<double> y = equations.start(0);
     return crank_speed(*model_, equations, crank_, y);
   }
-  double rated_speed() const {
-    return model_->speed_scale * std::abs(model_->node_ratio[index(crank_.node)]);
-  }
+  double rated_speed() const { return model_->speed_scale * std::abs(model_->node_ratio[index(crank_.node)]); }
 
   // Empty with a note where the run holds no whole cycle.
   std::optional<ForceCycle> solve(const SliderCrankStatics& statics, SliderLoads& loads, Forces& out) {
@@ -405,7 +404,8 @@ class SecondProblem {
     const double first = last - direction;
     if (direction * (first * cycle - begin_angle) < -1e-9) {
       out.notes.push_back(fmt::format(
-          "second problem left out: within {} the crank turns by {:.4g}°, less than a whole cycle of {:.0f}° that begins "
+          "second problem left out: within {} the crank turns by {:.4g}°, less than a whole cycle of {:.0f}° that "
+          "begins "
           "at a multiple of it; simulate longer (run.until) or start the machine",
           with_unit(outcome.t, "s", 4), std::abs(end_angle - begin_angle) * 360 / turn, cycle * 360 / turn));
       return {};
@@ -470,19 +470,12 @@ class SecondProblem {
     return cycle;
   }
 
-  // Two runs' difference, and what a parabola through the peak and its neighbours finds above it.
   static void set_errors(const ForceCycle& loose, ForceCycle& tight) {
     const auto set = [](const Peak& a, Peak& b) { b.error = std::abs(a.value - b.value); };
     for (std::size_t k = 0; k < joint_count; ++k) set(loose.reaction[k], tight.reaction[k]);
     set(loose.torque, tight.torque);
     set(loose.shaking_force, tight.shaking_force);
     set(loose.shaking_moment, tight.shaking_moment);
-    const double step = tight.cycle / static_cast<double>(tight.positions.size() - 1);
-    // |F″| h²/8 of a sine of the highest order that the grid is meant for bounds what lies between two points.
-    const double between = 0.125 * step * step * highest_order * highest_order;
-    for (Peak* peak : {&tight.reaction[0], &tight.reaction[1], &tight.reaction[2], &tight.reaction[3], &tight.torque,
-                       &tight.shaking_force, &tight.shaking_moment})
-      *peak->error += between * std::abs(peak->value);
   }
 
   const ForcesOptions& options_;
@@ -506,7 +499,7 @@ std::optional<double> PowerFlow::efficiency() const {
   double in = 0;
   for (const double power : {crank, load, weight, -kinetic_rate}) in += std::max(0.0, power);
   if (!(in > 0)) return {};
-  return 1 - friction / in;
+  return std::max(0.0, 1 - friction / in);  // what goes out is no less than nothing
 }
 
 // a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is left out.
@@ -533,8 +526,8 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
   // A counterweight opposite to the pin adds −U (ω² r̂ − ε t̂) to the shaking force.
   const auto added = [](double moment, const CyclePosition& p) {
     const double w = p.state.omega;
-    return moment * (-w * w * direction_of(p.state.phi) +
-                     p.state.alpha * direction_of(p.state.phi + std::numbers::pi / 2));
+    return moment *
+           (-w * w * direction_of(p.state.phi) + p.state.alpha * direction_of(p.state.phi + std::numbers::pi / 2));
   };
   const auto peak = [&](double moment) {
     double largest = 0;
@@ -547,11 +540,16 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
   constexpr double part = 0.38196601125010515;
   for (int i = 0; i < 100; ++i) {
     const double x = a + part * (b - a), y = b - part * (b - a);
-    (peak(x) < peak(y) ? b : a) = peak(x) < peak(y) ? y : x;
+    if (peak(x) < peak(y))
+      b = y;
+    else
+      a = x;
   }
   std::vector<Counterweight> proposals;
   const auto propose = [&](const std::string& name, double moment) {
-    Counterweight c{.name = name, .moment = moment};
+    Counterweight c;
+    c.name = name;
+    c.moment = moment;
     c.reciprocating_share = reciprocating > 0 ? (moment - rotating) / reciprocating : 0;
     std::vector<double> x, y;
     for (const CyclePosition& p : turn_of_crank) {
@@ -563,8 +561,8 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
       c.peak_bearing = std::max(c.peak_bearing, (p.forces.main_bearing - force).magnitude());
     }
     c.peak_force = peak(moment);
-    const int turns = static_cast<int>(std::lround(
-        (turn_of_crank.back().state.phi - turn_of_crank.front().state.phi) / turn));
+    const int turns =
+        static_cast<int>(std::lround((turn_of_crank.back().state.phi - turn_of_crank.front().state.phi) / turn));
     c.first_x = harmonics(x, turns).front().amplitude;
     c.first_y = harmonics(y, turns).front().amplitude;
     proposals.push_back(std::move(c));
@@ -590,8 +588,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   const SliderCrankStatics statics(out.data, out.joints);
   SliderLoads loads(scene, section.name);
   const double share = out.data.rod_com / out.data.rod_length;
-  out.rotating_moment =
-      out.data.crank_mass * out.data.crank_com + out.data.rod_mass * (1 - share) * out.data.radius;
+  out.rotating_moment = out.data.crank_mass * out.data.crank_com + out.data.rod_mass * (1 - share) * out.data.radius;
   out.reciprocating_mass = out.data.slider_mass + out.data.rod_mass * share;
 
   double speed = options.speed.value_or(machine.start_speed());

@@ -20,6 +20,11 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr double turn = 2 * std::numbers::pi;
 double degrees(double angle) { return angle * 360 / turn; }
 std::string number(double value, int digits = 6) { return fmt::format("{:.{}g}", value == 0 ? 0.0 : value, digits); }
+// "12.3 kN": in the unit that reads easily.
+std::string in_words(const Peak& p, const std::string& si_unit) {
+  const ReadableUnit unit = readable_unit(p.value, si_unit);
+  return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
+}
 std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.4g} %", 100 * *share) : std::string("—");
 }
@@ -58,12 +63,11 @@ bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
   const Peak& bearing = c.reaction[0];
-  std::string text =
-      fmt::format("{} at {}: the main bearing carries up to {} (at {}), the balancing torque peaks at {} (at {}), the "
-                  "shaking force at {}",
-                  f.mechanism, with_unit(c.mean_speed * 60 / turn, "rpm", 4), with_unit(bearing.value, "N", 5),
-                  at_angle(bearing), with_unit(c.torque.value, "N*m", 5), at_angle(c.torque),
-                  with_unit(c.shaking_force.value, "N", 5));
+  std::string text = fmt::format(
+      "{} at {}: the main bearing carries up to {} (at {}), the balancing torque peaks at {} (at {}), the "
+      "shaking force at {}",
+      f.mechanism, with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
+      in_words(c.torque, "N*m"), at_angle(c.torque), in_words(c.shaking_force, "N"));
   if (has_friction(f)) {
     const double work = c.input - c.kinetic_change;
     text += fmt::format("; efficiency of the cycle {}{}", percent(c.efficiency),
@@ -96,15 +100,20 @@ Rows figure_rows(const Forces& f) {
   return rows;
 }
 
+// Rounding errors beside large forces read as zero.
+std::string beside(double value, double largest) {
+  return number(std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value);
+}
+
 Rows position_rows(const ForceCycle& c) {
   Rows rows = {{"φ [°]", "ω [rad/s]", "M [N·m]", "R main [N]", "R crank pin [N]", "R slider pin [N]", "N guide [N]",
                 "at [mm]", "shaking [N]", "η"}};
   for (std::size_t i = 0; i < c.positions.size(); i += static_cast<std::size_t>(c.stride)) {
     const CyclePosition& p = c.positions[i];
     const SliderCrankForces& s = p.forces;
-    rows.push_back({number(degrees(p.state.phi), 5), number(p.state.omega), number(s.torque),
+    rows.push_back({number(degrees(p.state.phi), 5), number(p.state.omega), beside(s.torque, c.torque.value),
                     number(s.main_bearing.magnitude()), number(s.crank_pin.magnitude()),
-                    number(s.slider_pin.magnitude()), number(s.guide),
+                    number(s.slider_pin.magnitude()), beside(s.guide, c.reaction[3].value),
                     std::isfinite(s.guide_point) ? number(1e3 * s.guide_point, 4) : std::string("—"),
                     number(s.shaking_force.magnitude()),
                     p.power.efficiency() ? fmt::format("{:.4f}", *p.power.efficiency()) : std::string("—")});
@@ -131,8 +140,8 @@ Rows work_rows(const Forces& f) {
 }
 
 Rows counterweight_rows(const Forces& f) {
-  Rows rows = {{"counterweight", "m·r [kg·m]", "share of reciprocating", "peak of shaking force [N]", "order 1 along [N]",
-                "order 1 across [N]", "peak of main bearing [N]"}};
+  Rows rows = {{"counterweight", "m·r [kg·m]", "share of reciprocating", "peak of shaking force [N]",
+                "order 1 along [N]", "order 1 across [N]", "peak of main bearing [N]"}};
   for (const Counterweight& c : f.counterweights)
     rows.push_back({c.name, number(c.moment, 5), number(c.reciprocating_share, 3), number(c.peak_force),
                     number(c.first_x), number(c.first_y), number(c.peak_bearing)});
@@ -149,7 +158,8 @@ Rows harmonic_rows(const ForceCycle& c) {
 }
 
 std::string checks_of(const ForceCycle& c) {
-  std::string text = fmt::format("power balance closes to {:.1e} of the largest power at every position", c.power_residual);
+  std::string text =
+      fmt::format("power balance closes to {:.1e} of the largest power at every position", c.power_residual);
   if (c.most_iterations > 0)
     text += fmt::format("; friction laws hold to {:.1e}, at most {} Newton steps a position", c.friction_residual,
                         c.most_iterations);
@@ -194,18 +204,20 @@ Json position_json(const CyclePosition& p) {
             {"main_bearing", force_json(s.main_bearing)},
             {"crank_pin", force_json(s.crank_pin)},
             {"slider_pin", force_json(s.slider_pin)},
-            {"guide", {{"normal", s.guide},
-                       {"point", finite_json(s.guide_point)},
-                       {"moment", s.guide_moment},
-                       {"friction", s.guide_friction},
-                       {"both_edges", s.both_edges},
-                       {"edge_front", s.edge_front},
-                       {"edge_back", s.edge_back}}},
-            {"inertia", {{"crank", force_json(s.crank_inertia)},
-                         {"rod", force_json(s.rod_inertia)},
-                         {"slider", force_json(s.slider_inertia)},
-                         {"crank_couple", s.crank_couple},
-                         {"rod_couple", s.rod_couple}}},
+            {"guide",
+             {{"normal", s.guide},
+              {"point", finite_json(s.guide_point)},
+              {"moment", s.guide_moment},
+              {"friction", s.guide_friction},
+              {"both_edges", s.both_edges},
+              {"edge_front", s.edge_front},
+              {"edge_back", s.edge_back}}},
+            {"inertia",
+             {{"crank", force_json(s.crank_inertia)},
+              {"rod", force_json(s.rod_inertia)},
+              {"slider", force_json(s.slider_inertia)},
+              {"crank_couple", s.crank_couple},
+              {"rod_couple", s.rod_couple}}},
             {"shaking_force", force_json(s.shaking_force)},
             {"shaking_moment", s.shaking_moment},
             {"efficiency", optional_json(p.power.efficiency())},
@@ -222,12 +234,9 @@ Json orders_json(const std::vector<Harmonic>& orders) {
 }
 
 Json cycle_json(const ForceCycle& c) {
-  Json j = {{"description", c.description},
-            {"cycle", c.cycle},
-            {"mean_speed", c.mean_speed},
-            {"least_speed", c.least_speed},
-            {"greatest_speed", c.greatest_speed},
-            {"closure", c.closure}};
+  Json j = {{"description", c.description},       {"cycle", c.cycle},
+            {"mean_speed", c.mean_speed},         {"least_speed", c.least_speed},
+            {"greatest_speed", c.greatest_speed}, {"closure", c.closure}};
   j["peaks"] = Json::array();
   for (const NamedPeak& p : peaks_of(c))
     j["peaks"].push_back({{"name", p.name},
@@ -383,9 +392,8 @@ Table table_card(const std::string& title, Rows rows, std::size_t text_columns, 
 
 void add_torque(Report& report, const Forces& f) {
   ReportSection& section = report.add("Balancing torque");
-  section.cards.push_back(
-      both(f, "Torque that the shaft must give the crank", "balancing torque M", "N*m",
-           [](const CyclePosition& p) { return p.forces.torque; }));
+  section.cards.push_back(both(f, "Torque that the shaft must give the crank", "balancing torque M", "N*m",
+                               [](const CyclePosition& p) { return p.forces.torque; }));
   // With the numbers of the peak.
   const ForceCycle& c = front_of(f);
   const CyclePosition* peak = &c.positions.front();
@@ -398,10 +406,11 @@ void add_torque(Report& report, const Forces& f) {
   section.cards.push_back(Formula{
       .title = fmt::format("At its peak, φ = {:.4g}°", degrees(peak->state.phi)),
       .symbols = "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
-      .numbers = fmt::format("M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
-                             "= {:.6g} N·m",
-                             inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope,
-                             loss, peak->forces.torque),
+      .numbers =
+          fmt::format("M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
+                      "= {:.6g} N·m",
+                      inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
+                      peak->forces.torque),
       .note = "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; "
               "SI units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the "
               "power balance below."});
@@ -417,7 +426,8 @@ void add_reactions(Report& report, const Forces& f) {
                                [](const CyclePosition& p) { return p.forces.slider_pin.magnitude(); }));
   section.cards.push_back(both(f, "Reaction of the guide, positive 90° ahead of the stroke", "normal reaction N", "N",
                                [](const CyclePosition& p) { return p.forces.guide; }));
-  AnglePlot point("Where the guide's reaction acts, from the slider pin towards the extended end", "point of action", "m");
+  AnglePlot point("Where the guide's reaction acts, from the slider pin towards the extended end", "point of action",
+                  "m");
   for (const ForceCycle* c : problems_of(f))
     point.add(c->label, role_of(*c), *c, [&](const CyclePosition& p) {
       // Where N passes through zero the point runs away to infinity: left out beyond three guides.
@@ -426,8 +436,9 @@ void add_reactions(Report& report, const Forces& f) {
     });
   if (f.joints.guide.length > 0)
     for (const int side : {1, -1})
-      point.add(side > 0 ? "ends of the guide" : "", Role::reference, front_of(f),
-                [&](const CyclePosition&) { return f.joints.guide.middle + side * 0.5 * f.joints.guide.length; }, true);
+      point.add(
+          side > 0 ? "ends of the guide" : "", Role::reference, front_of(f),
+          [&](const CyclePosition&) { return f.joints.guide.middle + side * 0.5 * f.joints.guide.length; }, true);
   section.cards.push_back(point.note("Beyond the guide's ends both edges bear.").made());
 }
 
@@ -435,21 +446,21 @@ void add_polar(Report& report, const Forces& f) {
   ReportSection& section = report.add("Polar diagrams of the bearings' loads");
   section.cards.push_back(Text{
       .title = "",
-      .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; turning with the "
-              "pin, where the pin is: that is where an oil hole must not be."});
+      .body =
+          "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; turning with the "
+          "pin, where the pin is: that is where an oil hole must not be."});
   section.cards.push_back(locus("Main bearing: crank on frame, in the frame", "along the stroke", "across", f,
                                 [](const CyclePosition& p) { return -1.0 * p.forces.main_bearing; }));
-  section.cards.push_back(
-      locus("Main journal: frame on crank, turning with the crank", "towards the crank pin", "ahead of it", f,
-            [](const CyclePosition& p) { return p.forces.main_bearing.seen_from(p.state.phi); }));
+  section.cards.push_back(locus("Main journal: frame on crank, turning with the crank", "towards the crank pin",
+                                "ahead of it", f,
+                                [](const CyclePosition& p) { return p.forces.main_bearing.seen_from(p.state.phi); }));
   section.cards.push_back(locus("Crank pin: rod on pin, in the frame", "along the stroke", "across", f,
                                 [](const CyclePosition& p) { return -1.0 * p.forces.crank_pin; }));
   section.cards.push_back(
       locus("Crank pin: rod on pin, turning with the crank", "outwards", "ahead", f,
             [](const CyclePosition& p) { return (-1.0 * p.forces.crank_pin).seen_from(p.state.phi); }));
-  section.cards.push_back(
-      locus("Rod's big end: pin on rod, swinging with the rod", "along the rod", "across", f,
-            [](const CyclePosition& p) { return p.forces.crank_pin.seen_from(p.rod_angle); }));
+  section.cards.push_back(locus("Rod's big end: pin on rod, swinging with the rod", "along the rod", "across", f,
+                                [](const CyclePosition& p) { return p.forces.crank_pin.seen_from(p.rod_angle); }));
   section.cards.push_back(
       locus("Slider pin: slider on rod, swinging with the rod", "along the rod", "across", f,
             [](const CyclePosition& p) { return (-1.0 * p.forces.slider_pin).seen_from(p.rod_angle); }));
@@ -513,16 +524,19 @@ void add_shaking(Report& report, const Forces& f) {
         table_card(fmt::format("Amplitudes by order, {} motion", c->label), harmonic_rows(*c), 1, true));
   }
   section.cards.push_back(counterweight_plot(f));
-  section.cards.push_back(table_card("Counterweights beyond what the crank has: what they leave", counterweight_rows(f), 1));
+  section.cards.push_back(
+      table_card("Counterweights beyond what the crank has: what they leave", counterweight_rows(f), 1));
   const double share = f.data.rod_com / f.data.rod_length;
   section.cards.push_back(Formula{
       .title = "Masses that rotate and that reciprocate",
       .symbols = "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
-      .numbers = fmt::format("U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
-                             "{:.5g} · {:.4g} = {:.5g} kg",
-                             f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius,
-                             f.rotating_moment, f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass),
-      .note = "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order along "
+      .numbers =
+          fmt::format("U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
+                      "{:.5g} · {:.4g} = {:.5g} kg",
+                      f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
+                      f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass),
+      .note = "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order "
+              "along "
               "the stroke and puts it across. A negative U is taken off, or set on the pin's side."});
 }
 
@@ -531,16 +545,16 @@ void add_friction(Report& report, const Forces& f) {
   section.cards.push_back(table_card("Work done on the mechanism in a cycle", work_rows(f), 2));
   const ForceCycle& c = front_of(f);
   if (c.efficiency)
-    section.cards.push_back(Formula{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
-                                    .symbols = "η = A_useful / A_in",
-                                    .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.input,
-                                                           *c.efficiency),
-                                    .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
-                                                        c.harmful, c.kinetic_change)});
+    section.cards.push_back(Formula{
+        .title = fmt::format("Efficiency of the cycle, {} motion", c.label),
+        .symbols = "η = A_useful / A_in",
+        .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.input, *c.efficiency),
+        .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", c.harmful, c.kinetic_change)});
   if (!has_friction(f)) {
     section.cards.push_back(Text{.title = "",
-                                 .body = "The joints are without friction: give main_bearing, crank_pin, slider_pin and "
-                                         "guide of the slider-crank their radii and coefficients to count it."});
+                                 .body =
+                                     "The joints are without friction: give main_bearing, crank_pin, slider_pin and "
+                                     "guide of the slider-crank their radii and coefficients to count it."});
     return;
   }
   AnglePlot power("Power lost in the joints", "power", "W");
@@ -548,17 +562,16 @@ void add_friction(Report& report, const Forces& f) {
     power.add(name_of(static_cast<Joint>(k)), further_role(k), c,
               [k](const CyclePosition& p) { return p.forces.friction_power[k]; });
   section.cards.push_back(power.made());
-  section.cards.push_back(both(f, "Efficiency of the mechanism at each position", "η", "", [](const CyclePosition& p) {
-    return p.power.efficiency().value_or(std::nan(""));
-  }));
+  section.cards.push_back(both(f, "Efficiency of the mechanism at each position", "η", "",
+                               [](const CyclePosition& p) { return p.power.efficiency().value_or(std::nan("")); }));
   const auto circle = [&](const char* name, const RevoluteJoint& j) {
     if (j.radius == 0) return;
     const double f_k = j.friction.kinetic;
-    section.cards.push_back(Formula{
-        .title = fmt::format("Friction circle of the {}", name),
-        .symbols = "ρ = r sin(atan f)",
-        .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
-                               1e3 * friction_circle_radius(j.radius, f_k))});
+    section.cards.push_back(
+        Formula{.title = fmt::format("Friction circle of the {}", name),
+                .symbols = "ρ = r sin(atan f)",
+                .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
+                                       1e3 * friction_circle_radius(j.radius, f_k))});
   };
   circle("main bearing", f.joints.main_bearing);
   circle("crank pin", f.joints.crank_pin);
