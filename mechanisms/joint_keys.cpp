@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanisms/mechanism_keys.h"
+
 namespace kurbel {
 namespace {
 
@@ -25,23 +27,18 @@ std::vector<Key> friction_keys() {
            .doc = "rise of the coefficient with sliding speed (fluid friction)"}};
 }
 
-std::vector<Key> joined(std::vector<Key> a, const std::vector<Key>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 const std::vector<Kind>& revolute_kinds() {
   static const std::vector<Kind> kinds = {
       {.name = "journal",
        .doc = "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of "
               "the friction circle",
        .placement = Placement::nested,
-       .keys = joined({{.name = "radius",
-                        .unit = "m",
-                        .domain = positive,
-                        .doc = "of the journal; of a rolling bearing half its bore",
-                        .required = true}},
-                      friction_keys())}};
+       .keys = joined({{{.name = "radius",
+                         .unit = "m",
+                         .domain = positive,
+                         .doc = "of the journal; of a rolling bearing half its bore",
+                         .required = true}},
+                       friction_keys()})}};
   return kinds;
 }
 
@@ -50,35 +47,35 @@ const std::vector<Kind>& guide_kinds() {
       {.name = "guide",
        .doc = "of the slider: friction f N, from both edges where the reaction leaves the guide's length",
        .placement = Placement::nested,
-       .keys = joined(friction_keys(),
-                      {{.name = "length",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .domain = not_negative,
-                        .doc = "bearing length of the slider; 0: its tilting is not considered"},
-                       {.name = "middle",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .doc = "of that length, from the slider pin towards the extended end"},
-                       {.name = "width",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .domain = not_negative,
-                        .doc = "between the two guiding surfaces (bore of a cylinder): lever of their friction"},
-                       {.name = "rolling_arm",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .domain = not_negative,
-                        .doc = "lever arm k_r of rolling friction, for a slider on rollers"},
-                       {.name = "roller_radius", .unit = "m", .domain = positive, .doc = "of these rollers"},
-                       {.name = "slider_com",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .doc = "slider's centre of mass from its pin towards the extended end"},
-                       {.name = "force_offset",
-                        .unit = "m",
-                        .fallback = "\"0 m\"",
-                        .doc = "of the load's line from the slider pin, positive 90° ahead of the stroke"}})}};
+       .keys = joined({friction_keys(),
+                       {{.name = "length",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .domain = not_negative,
+                         .doc = "bearing length of the slider; 0: its tilting is not considered"},
+                        {.name = "middle",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .doc = "of that length, from the slider pin towards the extended end"},
+                        {.name = "width",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .domain = not_negative,
+                         .doc = "between the two guiding surfaces (bore of a cylinder): lever of their friction"},
+                        {.name = "rolling_arm",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .domain = not_negative,
+                         .doc = "lever arm k_r of rolling friction, for a slider on rollers"},
+                        {.name = "roller_radius", .unit = "m", .domain = positive, .doc = "of these rollers"},
+                        {.name = "slider_com",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .doc = "slider's centre of mass from its pin towards the extended end"},
+                        {.name = "force_offset",
+                         .unit = "m",
+                         .fallback = "\"0 m\"",
+                         .doc = "of the load's line from the slider pin, positive 90° ahead of the stroke"}}})}};
   return kinds;
 }
 

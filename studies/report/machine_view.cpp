@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanisms/slider_crank.h"
+#include "mechanisms/mechanism.h"
 #include "studies/report/run_report.h"
 #include "studies/report/trace.h"
 
@@ -110,11 +110,10 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
-    if (const auto* crank =
-            dynamic_cast<const SliderCrankMaker*>(model.network.elements[at(model.reduction_element)].element.get())) {
-      const SliderCrankData& d = crank->crank().data;
-      view.slider_crank = {d.radius, d.rod_length, d.offset, d.stroke_angle};
-    }
+    if (const auto* maker =
+            dynamic_cast<const MechanismMaker*>(model.network.elements[at(model.reduction_element)].element.get()))
+      if (const auto* d = std::get_if<SliderCrankData>(&maker->mechanism().data))
+        view.slider_crank = {d->radius, d->rod_length, d->offset, d->stroke_angle};
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());
