@@ -229,7 +229,8 @@ class Compiler {
     messages_.throw_if_any();
   }
 
-  // A slider alone has no inertia to offer its crank at a dead centre, and the crank's acceleration is infinite there.
+  // A mechanism whose crank is massless may have no inertia to offer it at a dead centre, where its acceleration is
+  // infinite.
   void check_dead_centres(const Shaft& shaft) {
     const Network::ShaftElement* mechanism = nullptr;
     double least = shaft.inertia;
@@ -242,7 +243,7 @@ class Compiler {
     }
     if (mechanism && least < 1e-9 * shaft.mean_inertia)
       messages_.add(location_of(mechanism->component),
-                    fmt::format("\"{}\" has no inertia at a dead centre (its slider stands still there), so the "
+                    fmt::format("\"{}\" has no inertia at a dead centre (its output stands still there), so the "
                                 "crank's motion is undefined; give it a crank_inertia",
                                 mechanism->component));
   }
