@@ -9,6 +9,16 @@
 
 namespace kurbel {
 
+namespace {
+
+// The ground link is the shortest, and the loop passes: crank and rocker both turn.
+bool is_drag_link(const CrankRockerLoop& l) {
+  return l.ground + l.crank < l.coupler + l.rocker && l.ground + l.coupler < l.crank + l.rocker &&
+         l.ground + l.rocker < l.crank + l.coupler;
+}
+
+}  // namespace
+
 std::string in_mm(double metres) { return fmt::format("{:.6g} mm", metres * 1e3); }
 
 void DataChecks::finite(const char* key, double value, const char* unit) {
@@ -45,6 +55,13 @@ void DataChecks::floating(const std::string& name, const LinkBody& link, double 
 }
 
 void check_crank_rocker(const CrankRockerLoop& l, DataChecks& checks) {
+  if (is_drag_link(l)) {
+    checks.add(l.ground_name,
+               fmt::format("{} = {} is the shortest link, so that {} turns fully like the crank (drag link); an output "
+                           "that rocks needs {} = {} as the shortest: lengthen {} beyond it",
+                           l.ground_name, in_mm(l.ground), l.rocker_name, l.crank_name, in_mm(l.crank), l.ground_name));
+    return;
+  }
   const struct {
     double length;
     const char* name;
