@@ -18,7 +18,10 @@ class MachineViewOf : public testing::TestWithParam<Drawn> {};
 TEST_P(MachineViewOf, DrawsEveryLinkInItsLengthAtEveryAngle) {
   Scene scene = test::scene_file(std::string("scenes/") + GetParam().scene + ".toml");
   scene.run.until = 0.2;
-  const Result result = simulate(scene, {}, "rigid", {.measure_error = false, .traces = true});
+  SimulateOptions options;
+  options.measure_error = false;
+  options.traces = true;
+  const Result result = simulate(scene, {}, "rigid", options);
   const MachineView view = machine_view({&result});
   ASSERT_TRUE(view.linkage);
   const MachineView::Linkage& drawn = *view.linkage;
