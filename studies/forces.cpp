@@ -132,7 +132,7 @@ class CycleBuilder {
       : statics_(statics), geometry_(statics.data()), loads_(loads), cycle_(cycle) {
     for (const WorkAccount& account : loads.model().accounts)
       cycle_.work.push_back({account.name, name_of(account.kind), 0});
-    cycle_.work.push_back({"crank", "driving", 0});
+    cycle_.work.push_back({"balancing torque", "driving", 0});
     for (std::size_t k = 0; k < joint_count; ++k)
       cycle_.work.push_back({std::string("friction of ") + name_of(static_cast<Joint>(k)), "harmful", 0});
   }
@@ -287,7 +287,7 @@ class CycleBuilder {
     for (const CycleWork& w : cycle_.work) largest = std::max(largest, std::abs(w.work));
     for (CycleWork& w : cycle_.work) {
       if (std::abs(w.work) < 1e-12 * largest) w.work = 0;  // of weights round a cycle
-      if (w.name == "crank" && w.work < 0) w.kind = "useful";
+      if (w.name == "balancing torque" && w.work < 0) w.kind = "useful";
       if (w.work > 0) cycle_.input += w.work;
       if (w.work < 0) (w.kind == "harmful" ? cycle_.harmful : cycle_.useful) -= w.work;
     }
