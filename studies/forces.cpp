@@ -194,12 +194,14 @@ class CycleBuilder {
   }
 
   // The largest magnitude of a function of the position: on the samples, then by the golden section between the
-  // neighbours of the largest one.
+  // neighbours of the largest one. Of equal peaks of either sign (a crank's two strokes) the first one counts, however
+  // rounding decides between them.
   template <class F>
   Peak peak_of(F&& value) const {
+    constexpr double same_peak = 1e-9;
     std::size_t best = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i)
-      if (std::abs(value(samples_[i])) > std::abs(value(samples_[best]))) best = i;
+      if (std::abs(value(samples_[i])) > (1 + same_peak) * std::abs(value(samples_[best]))) best = i;
     Peak peak{value(samples_[best]), samples_[best].state.phi, {}};
     const double sense = peak.value < 0 ? -1 : 1;
     for (const std::size_t i : {best, best + 1}) {  // the pieces before and after it
