@@ -143,6 +143,16 @@ class Compiler {
         model_.merged.push_back(fmt::format(
             "\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
     }
+    bool any = false;
+    for (Network::ShaftElement& e : net().elements)
+      if (auto changed = e.element->with(model_.effects)) {
+        e.element = std::move(changed);
+        any = true;
+      }
+    if (model_.effects.joint_friction && !any)
+      messages_.add({},
+                    "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
+                    "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
   }
 
   void make_shafts() {

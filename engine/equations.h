@@ -99,6 +99,7 @@ class Equations final : public OdeSystem {
   double prescribed_acceleration(std::size_t shaft, double t) const;
   void set_timed_modes(double t);
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate);
+  void settle_reactions(double t, double* alpha, double* work_rate);
   void find_joint_torques(const double* alpha);
   void write_quadratures(double* rate);
   void list_rigid_trees();
@@ -127,6 +128,9 @@ class Equations final : public OdeSystem {
   std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_;
   std::vector<double> element_torque_, element_inertia_, balance_, joint_torque_, node_angle_, work_rate_, shaft_angle_;
   std::vector<Hold> shaft_hold_, element_hold_;
+  // torques that depend on the accelerations; empty where no element reacts
+  std::vector<const ElementPool*> reacting_;
+  std::vector<double> reaction_alpha_, reaction_torque_, reaction_slope_, reaction_element_;
   Snapshot snapshot_{};
 
   // Jacobian: the model's layout with the quadratures' empty diagonal appended

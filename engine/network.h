@@ -75,6 +75,8 @@ class ConnectionMakerOf final : public ConnectionMaker {
   E element_;
 };
 
+struct Effects;
+
 // An element on a shaft, waiting to be placed. Mechanisms have makers of their own.
 class ShaftElementMaker {
  public:
@@ -97,6 +99,8 @@ class ShaftElementMaker {
   virtual bool uses_time() const { return true; }
   virtual bool uses_speed() const { return true; }
   virtual int mode_count() const { return 1; }
+  // The element with these effects on; null where they change nothing.
+  virtual std::shared_ptr<ShaftElementMaker> with(const Effects&) const { return nullptr; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
   virtual std::vector<std::pair<std::string, Account>> further_accounts() const { return {}; }

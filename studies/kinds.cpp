@@ -188,7 +188,7 @@ std::string keys_in_markdown() {
       "| `title`, `description` | texts |\n"
       "| `line` | names of the components in the order of the drive |\n"
       "| `[[branch]]` | `from = \"component\"` (`\"gearbox.out\"`) and `line = [...]` |\n"
-      "| `[effects]` | `elasticity = true`, `false` or a list of components |\n\n"
+      "| `[effects]` | `elasticity = true`, `false` or a list of components; `joint_friction = true` or `false` |\n\n"
       "## `[run]`\n\n";
   text += rows(run_keys());
   text +=
