@@ -26,6 +26,7 @@ struct HarmonicTorque {
     return T(mean + amplitude * std::sin(2 * std::numbers::pi * frequency * x.t + phase));
   }
   Rated rated() const { return {std::abs(mean) + std::abs(amplitude), 0}; }
+  double time_period() const { return amplitude == 0 || frequency == 0 ? 0 : 1 / std::abs(frequency); }
 };
 
 // M = sign · f(t), piecewise: the piece is the mode.
@@ -42,6 +43,8 @@ struct TorqueOverTime {
   int mode_at(double t) const { return curve.piece(t + slack() - curve.offset(t + slack())); }
   double next_edge(double t) const { return curve.offset(t + slack()) + curve.piece_end(mode_at(t)); }
   Rated rated() const { return {curve.max_abs(), 0}; }
+  double time_period() const { return curve.period(); }
+  double settled_from() const { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
 
  private:
   // A time this close before a knot is on it: k · period rounds to either side.
@@ -94,6 +97,7 @@ struct TorqueOverAngle {
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
   std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
   Rated rated() const { return {curve.max_abs(), 0}; }
+  double angle_period() const { return curve.period(); }
 };
 
 // M = sign · f(ω): a characteristic given "graphically"; motors by table, hydraulic drives, turbines, brakes.

@@ -85,6 +85,11 @@ class ShaftElementMaker {
   virtual double mean_inertia() const { return 0; }   // of a mechanism, on its own shaft
   virtual double least_inertia() const { return 0; }  // over a turn
   virtual double cycle() const { return 0; }          // angle of one cycle of a mechanism [rad]
+  // How its law repeats: the angle of its own shaft [rad] and the time [s] after which it does; 0: depends on neither.
+  virtual double angle_period() const { return cycle(); }
+  virtual double time_period() const { return 0; }
+  // A law over time without a period holds still from here on [s].
+  virtual double settled_from() const { return -HUGE_VAL; }
   virtual int mode_count() const { return 1; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
@@ -104,6 +109,18 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
       return element_.work_account;
     else
       return E::account;
+  }
+  double angle_period() const override {
+    if constexpr (requires { element_.angle_period(); }) return element_.angle_period();
+    return 0;
+  }
+  double time_period() const override {
+    if constexpr (requires { element_.time_period(); }) return element_.time_period();
+    return 0;
+  }
+  double settled_from() const override {
+    if constexpr (requires { element_.settled_from(); }) return element_.settled_from();
+    return -HUGE_VAL;
   }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
     pools.of<ShaftPool<E>>().place(element_, ports, label);

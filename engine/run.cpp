@@ -63,15 +63,16 @@ class Loop {
       : equations_(equations),
         options_(options),
         observers_(observers),
-        view_(equations),
-        guard_(equations.guard_count()),
+        system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
+        view_(equations, system_.size()),
+        guard_(equations.guard_count() + (options.stop ? 1 : 0)),
         guard_before_(guard_.size()) {}
 
   RunOutcome run() {
     begin_ = cpu_now();
     try {
       start();
-      while (stepper_->t() < options_.until && advance()) {
+      while (!out_.stopped && stepper_->t() < options_.until && advance()) {
       }
       out_.complete = out_.diagnosis.empty();
     } catch (const StepFailure& failure) {
@@ -86,7 +87,8 @@ class Loop {
 
  private:
   void start() {
-    std::vector<double> y = equations_.start(0);
+    const double t = options_.from ? options_.from->t : 0;
+    const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
     method_ = method_named(options_.method);
     out_.statistics.method = std::string(name_of(method_));
     if (options_.method != "auto") {
@@ -96,13 +98,15 @@ class Loop {
     } else {
       out_.statistics.reason = "explicit while its steps are held by accuracy, not by stability";
     }
-    make(method_, 0, y);
-    for (Observer* observer : observers_) observer->begin(0, stepper_->y(), equations_);
+    make(method_, t, y);
+    for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
   }
 
   void make(Method method, double t, std::span<const double> y) {
     if (stepper_) add_statistics();
-    stepper_ = make_stepper(method, equations_, equations_.error_control(options_.tolerance));
+    stepper_ = make_stepper(method, system_,
+                            options_.extension ? options_.extension->error_control(options_.tolerance)
+                                               : equations_.error_control(options_.tolerance));
     method_ = method;
     view_.watch(*stepper_);
     restart(t, y);
@@ -111,7 +115,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
-    equations_.guards(t, state_, guard_before_);
+    find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
 
@@ -119,7 +123,7 @@ class Loop {
   bool advance() {
     if (out_of_budget()) return false;
     stepper_->step(limit());
-    equations_.guards(stepper_->t(), stepper_->y(), guard_);
+    find_guards(stepper_->t(), stepper_->y(), guard_);
     const std::vector<std::size_t> fired = locate_event();
     if (stepper_->t() > stepper_->t_previous())
       for (Observer* observer : observers_) observer->step(view_);
@@ -157,11 +161,17 @@ class Loop {
     return t;
   }
 
+  // The equations' guards, and behind them the one that ends the run.
+  void find_guards(double t, std::span<const double> y, std::span<double> g) {
+    equations_.guards(t, y, g);
+    if (options_.stop) g.back() = options_.stop(t, y);
+  }
+
   double guard_at(double t, std::size_t which) {
-    work_.resize(equations_.size());
+    work_.resize(system_.size());
     stepper_->interpolate(t, work_);
     probe_.resize(guard_.size());
-    equations_.guards(t, work_, probe_);
+    find_guards(t, work_, probe_);
     return probe_[which];
   }
 
@@ -201,7 +211,7 @@ class Loop {
       for (std::size_t k = 0; k < below.size(); ++k)
         if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k]);
       land_on(first, fired.front());
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       // What is at its root now counts as fired; another guard may have fired before it.
       for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
     }
@@ -218,7 +228,7 @@ class Loop {
     for (int i = 0; i < 4; ++i) {
       if (!(t > t0)) t = std::nextafter(t0, t1);
       stepper_->retake(t);
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       const double residual = guard_[guard];
       if (std::abs(residual) < 1e-14 || std::abs(residual) > 0.1 * last || slope == 0) return;
       last = std::abs(residual);
@@ -230,6 +240,10 @@ class Loop {
 
   bool pass_event(double t, const std::vector<std::size_t>& fired) {
     const bool at_begin = std::exchange(at_begin_, false);
+    if (options_.stop && fired.back() == equations_.guard_count()) {
+      out_.stopped = true;
+      return false;
+    }
     const double time = at_begin ? stepper_->t_previous() : t;
     const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
     std::vector<double> y(source.begin(), source.end());
@@ -242,7 +256,9 @@ class Loop {
       return false;
     }
     ++out_.statistics.events;
+    if (options_.extension) options_.extension->before_event(time, y, fired);
     equations_.fire(time, y, fired, out_.events);
+    if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
     return true;
@@ -325,6 +341,7 @@ class Loop {
   Equations& equations_;
   const RunOptions& options_;
   const std::vector<Observer*>& observers_;
+  OdeSystem& system_;
   StepView view_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
@@ -342,7 +359,7 @@ class Loop {
 std::span<const double> StepView::at(double time) {
   if (time >= stepper_->t()) return stepper_->y();
   if (time <= stepper_->t_previous()) return stepper_->y_previous();
-  scratch_.resize(equations_.size());
+  scratch_.resize(size_);
   stepper_->interpolate(time, scratch_);
   return scratch_;
 }
