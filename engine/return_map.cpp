@@ -19,6 +19,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int most_periods = 1000;          // of the first law within a common period
 constexpr double same_ratio = 1e-9;         // by which a ratio of periods may miss a fraction
 constexpr std::size_t most_unknowns = 400;  // the derivative is full
+constexpr double overlap = 0.02;            // of a round, by which the first run goes on
 constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -333,7 +334,7 @@ ReturnMap::Image ReturnMap::approach(double link_speed) {
                  .interrupted = options_.interrupted,
                  .progress = {}};
   run.from = {start_time_, y};
-  run.stop = round_end(equations_, y);
+  run.stop = round_end(equations_, y, 1 + overlap);  // an event where it begins is seen at the end
   const RunOutcome first = integrate(equations_, run, {&log});
   cost_ += options_.cycles;
   windings_ = 0;
@@ -385,7 +386,6 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivati
 namespace {
 
 constexpr int most_rounds = 60, most_derivatives = 12;
-constexpr double good_contraction = 0.1;  // a kept derivative serves while it shrinks the residual by this much
 
 constexpr int most_run_on = 8;
 constexpr double residual_floor = 30;  // times the residual asked for may be left where round-off stops the descent
@@ -448,17 +448,22 @@ class Newton {
     return step;
   }
 
-  // One step, halved while it does not pay; with a kept derivative only the whole step is tried.
+  // One step, halved while it does not pay; with a kept derivative only the whole step is tried. Steps are judged by
+  // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
+  // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
   Progress advance(const Eigen::VectorXd& step) {
     const Eigen::VectorXd from = z_, residual_from = residual_;
-    const double norm_from = norm_;
+    const double norm_from = norm_, length = step.cwiseAbs().maxCoeff();
     const bool fresh = at_ == z_;
     for (double part = 1; part > 0.02; part *= 0.5) {
       const Eigen::VectorXd trial = from + part * step;
-      if (evaluate(trial, false) && norm_ < (1 - 0.25 * part) * norm_from) {
-        z_ = trial;
-        if (norm_ <= enough_ || norm_ <= good_contraction * norm_from) return Progress::made;
-        return evaluate(z_, true) ? Progress::made : Progress::ended;
+      if (evaluate(trial, false)) {
+        const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
+        if (contraction < 1 - 0.25 * part) {
+          z_ = trial;
+          if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
+          return evaluate(z_, true) ? Progress::made : Progress::ended;
+        }
       }
       if (out_.end == ReturnMap::End::interrupted || out_.rounds >= most_rounds) return Progress::ended;
       if (!fresh || norm_from <= residual_floor * enough_) break;
@@ -472,6 +477,13 @@ class Newton {
       z_ = from + residual_from;
     }
     return evaluate(z_, true) ? Progress::made : Progress::ended;
+  }
+
+  // A derivative costs as much as size + 1 rounds without: kept while those that are left with it cost less.
+  bool keep_derivative(double contraction) const {
+    if (contraction >= 0.9) return false;
+    const double left = std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction);
+    return left <= static_cast<double>(map_.size()) + 2;
   }
 
   // The derivative at the solution itself, for the multipliers.

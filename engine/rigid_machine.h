@@ -1,6 +1,6 @@
 // rigid_machine.h — the machine with everything rigid: inertia and torques as functions of its link's angle and speed.
 //
-//     I_r(φ) ε + ½ I_r′ ω² = M(φ, ω) = Σ shares,   M = M_d − M_c (THEORY 2.1, 2.2, 2.4)
+//     I_r(φ) ε + ½ I_r′ ω² = M(φ, ω) = Σ shares,   M = M_d − M_c                                  (THEORY 2.1, 2.2, 2.4)
 // All is reduced to the model's reduction link (the first mechanism's crank, else the line's first shaft).
 #pragma once
 
@@ -41,9 +41,9 @@ class RigidMachine {
   // lies ahead. They then hold until the next call.
   void set_modes(double phi, double omega);
   struct At {
-    double inertia = 0, slope = 0;  // I_r, I_r′ of the whole machine [kg·m²], [kg·m²/rad]
-    double torque = 0;              // M = Σ shares [N·m]
-    std::span<const double> share;  // per entry of model().accounts, reduced to the link [N·m]; empty unless asked for
+    double inertia = 0, slope = 0;   // I_r, I_r′ of the whole machine [kg·m²], [kg·m²/rad]
+    double torque = 0;               // M = Σ shares [N·m]
+    std::span<const double> share;   // per entry of model().accounts, reduced to the link [N·m]; empty unless asked for
   };
   // With the modes that hold. Smooth in phi and omega. share is valid until the next call and needs omega ≠ 0.
   At at(double phi, double omega, bool shares = false);
