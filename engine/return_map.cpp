@@ -363,6 +363,13 @@ ReturnMap::Image ReturnMap::approach(double link_speed) {
   return judge(second, here, equations_);
 }
 
+void ReturnMap::follow(const ReturnMap& other) {
+  section_ = other.section_;
+  sense_ = other.sense_;
+  time_limit_ = other.time_limit_;
+  windings_ = other.windings_;
+}
+
 std::string ReturnMap::unknown_name(std::size_t i) const {
   if (angle_unknown_) {
     if (i == 0) return "angle of " + shared_->node_label(shared_->reduction_node);

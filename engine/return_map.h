@@ -44,10 +44,12 @@ class ReturnMap {
   ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options);
 
   std::size_t size() const { return size_; }
-  const Model& model() const { return equations_.model(); }
+  const Model& model() const { return *shared_; }
+  std::shared_ptr<const Model> shared_model() const { return shared_; }
   const Periodicity& periodicity() const { return periodicity_; }
   double section() const { return section_; }  // φ₀ [rad]
-  void set_section(double link_angle) { section_ = link_angle; }
+  // Takes section, sense of rotation and limits over from a map of a like machine.
+  void follow(const ReturnMap& other);
 
   enum class End { returned, stands, turns_back, too_slow, failed, interrupted };
   struct Image {
