@@ -393,63 +393,51 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivati
 namespace {
 
 constexpr int most_rounds = 60, most_derivatives = 12;
-
 constexpr int most_run_on = 8;
 constexpr double residual_floor = 30;  // times the residual asked for may be left where round-off stops the descent
 
 class Newton {
  public:
-  Newton(ReturnMap& map, const Eigen::VectorXd& guess, double enough) : map_(map), z_(guess), enough_(enough) {}
+  Newton(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough)
+      : system_(system), x_(guess), enough_(enough) {}
 
-  SteadyPoint run() {
-    const double cost_before = map_.cost();
-    if (evaluate(z_, true)) iterate();
-    out_.cost = map_.cost() - cost_before;
+  NewtonOutcome run() {
+    if (evaluate(x_, true)) iterate();
     return std::move(out_);
   }
 
  private:
   enum class Progress { made, floor, ended };
 
-  bool evaluate(const Eigen::VectorXd& z, bool with_derivative) {
-    image_ = map_.image(z, with_derivative);
+  bool evaluate(const Eigen::VectorXd& x, bool with_derivative) {
     ++out_.rounds;
     if (with_derivative) ++out_.derivatives;
-    if (image_.end != ReturnMap::End::returned) {
-      out_.why = image_.why;
-      out_.end = image_.end;
-      out_.stop_angle = image_.link_angle;
-      return false;
-    }
-    residual_ = image_.z - z;
+    Eigen::MatrixXd derivative;
+    valid_ = system_.evaluate(x, residual_, with_derivative ? &derivative : nullptr);
+    if (!valid_) return false;
     norm_ = residual_.cwiseAbs().maxCoeff();
     if (with_derivative) {
-      derivative_ = image_.derivative;
-      at_ = z;
-      out_.grazed = image_.grazed;
-      solver_.compute(Eigen::MatrixXd::Identity(derivative_.rows(), derivative_.cols()) - derivative_);
+      at_ = x;
+      solver_.compute(derivative);
     }
     return true;
   }
 
   void iterate() {
     while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
-      const Progress progress = advance(limited(solver_.solve(residual_)));
+      const Progress progress = advance(limited(-solver_.solve(residual_)));
       if (progress == Progress::ended) return;
       if (progress == Progress::floor) break;
     }
+    out_.residual = norm_;
     if (norm_ <= residual_floor * enough_) return finish();
-    out_.why = fmt::format(
-        "Newton's iteration on the return map does not settle (residual {:.1e} of the rated values after {} rounds): "
-        "there may be no steady cycle of this period near the guess. Try another start speed, --periods 2, or a long "
-        "kurbel run",
-        norm_, out_.rounds);
-    out_.end = ReturnMap::End::failed;
+    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} rounds)",
+                           norm_, out_.rounds);
   }
 
-  // Far steps lead to other machines: no speed or twist changes by more than the largest one there is.
+  // Far steps lead to other machines: nothing changes by more than half of the largest there is.
   Eigen::VectorXd limited(Eigen::VectorXd step) const {
-    const double longest = 0.5 * std::max(0.2, z_.cwiseAbs().maxCoeff()), length = step.cwiseAbs().maxCoeff();
+    const double longest = 0.5 * std::max(0.2, x_.cwiseAbs().maxCoeff()), length = step.cwiseAbs().maxCoeff();
     if (!(length < HUGE_VAL)) return residual_;
     if (length > longest) step *= longest / length;
     return step;
@@ -459,70 +447,111 @@ class Newton {
   // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
   // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
   Progress advance(const Eigen::VectorXd& step) {
-    const Eigen::VectorXd from = z_, residual_from = residual_;
+    const Eigen::VectorXd from = x_, residual_from = residual_;
     const double norm_from = norm_, length = step.cwiseAbs().maxCoeff();
-    const bool fresh = at_ == z_;
+    const bool fresh = at_ == x_;
     for (double part = 1; part > 0.02; part *= 0.5) {
       const Eigen::VectorXd trial = from + part * step;
       if (evaluate(trial, false)) {
         const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
         if (contraction < 1 - 0.25 * part) {
-          z_ = trial;
+          x_ = trial;
           if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
-          return evaluate(z_, true) ? Progress::made : Progress::ended;
+          return evaluate(x_, true) ? Progress::made : Progress::ended;
         }
       }
-      if (out_.end == ReturnMap::End::interrupted || out_.rounds >= most_rounds) return Progress::ended;
+      if (system_.stopped && system_.stopped()) return Progress::ended;
+      if (out_.rounds >= most_rounds) break;
       if (!fresh || norm_from <= residual_floor * enough_) break;
     }
-    z_ = from;
+    x_ = from;
     residual_ = residual_from;
     norm_ = norm_from;
     if (norm_ <= residual_floor * enough_) return Progress::floor;  // round-off: nothing shrinks any more
     if (fresh) {                                                    // Newton finds no way down: let the machine run on
-      if (++run_on_ > most_run_on) return Progress::floor;
-      z_ = from + residual_from;
+      if (!system_.run_on || ++run_on_ > most_run_on) return Progress::floor;
+      x_ = from + residual_from;
     }
-    return evaluate(z_, true) ? Progress::made : Progress::ended;
+    return evaluate(x_, true) ? Progress::made : Progress::ended;
   }
 
-  // A derivative costs as much as size + 1 rounds without: kept while those that are left with it cost less.
+  // Kept while the rounds that are left with it cost less than a new one.
   bool keep_derivative(double contraction) const {
     if (contraction >= 0.9) return false;
-    const double left = std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction);
-    return left <= static_cast<double>(map_.size()) + 2;
+    return std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction) <= system_.derivative_cost + 1;
   }
 
   // The derivative at the solution itself, for the multipliers.
   void finish() {
-    if (at_ != z_) {
-      z_ += limited(solver_.solve(residual_));
-      if (!evaluate(z_, true)) return;
+    if (at_ != x_) {
+      x_ += limited(-solver_.solve(residual_));
+      if (!evaluate(x_, true)) return;
     }
     out_.found = true;
-    out_.why.clear();
-    out_.end = ReturnMap::End::returned;
-    out_.z = z_;
-    out_.derivative = derivative_;
-    out_.multipliers = multipliers_of(derivative_);
-    out_.time = image_.time;
+    out_.x = x_;
     out_.residual = norm_;
   }
 
-  ReturnMap& map_;
-  Eigen::VectorXd z_, at_, residual_;
-  Eigen::MatrixXd derivative_;
+  const NewtonSystem& system_;
+  Eigen::VectorXd x_, at_, residual_;
   Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
-  ReturnMap::Image image_;
-  SteadyPoint out_;
+  NewtonOutcome out_;
   double enough_, norm_ = 0;
   int run_on_ = 0;
+  bool valid_ = false;
 };
 
 }  // namespace
 
+NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough) {
+  return Newton(system, guess, enough).run();
+}
+
 SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
-  return Newton(map, guess, enough).run();
+  SteadyPoint out;
+  ReturnMap::Image image;
+  const double cost_before = map.cost();
+  NewtonSystem system;
+  system.evaluate = [&](const Eigen::VectorXd& z, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
+    ReturnMap::Image here = map.image(z, derivative != nullptr);
+    const bool returned = here.end == ReturnMap::End::returned;
+    if (returned) {
+      residual = here.z - z;
+      if (derivative) *derivative = here.derivative - Eigen::MatrixXd::Identity(z.size(), z.size());
+    }
+    image = std::move(here);
+    return returned;
+  };
+  system.stopped = [&] { return image.end == ReturnMap::End::interrupted; };
+  system.derivative_cost = static_cast<double>(map.size()) + 1;
+  system.run_on = true;
+  const NewtonOutcome newton = solve(system, guess, enough);
+  out.rounds = newton.rounds;
+  out.derivatives = newton.derivatives;
+  out.residual = newton.residual;
+  out.cost = map.cost() - cost_before;
+  out.end = image.end;
+  if (newton.found) {
+    out.take(newton.x, image);
+  } else if (image.end != ReturnMap::End::returned) {
+    out.why = image.why;
+  } else {
+    out.end = ReturnMap::End::failed;
+    out.why =
+        newton.why +
+        ": there may be no steady cycle of this period near the guess. Try another start speed, --periods 2, or a "
+        "long kurbel run";
+  }
+  return out;
+}
+
+void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image) {
+  found = true;
+  z = at;
+  derivative = image.derivative;
+  multipliers = multipliers_of(derivative);
+  time = image.time;
+  grazed = image.grazed;
 }
 
 }  // namespace kurbel

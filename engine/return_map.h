@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <complex>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -109,14 +110,32 @@ struct SteadyPoint {
   std::vector<std::complex<double>> multipliers;  // largest first
   double time = 0;                                // of one round [s]
   double residual = 0;                            // largest of |P(z) − z|, scaled
-  double stop_angle = 0;                          // of the link, where the machine stood still [rad]
   int rounds = 0, derivatives = 0;                // of the map, and how many of them with derivative
   double cost = 0;                                // [cycles]
   bool grazed = false;
   double largest() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }
+  void take(const Eigen::VectorXd& at, const ReturnMap::Image& image);
 };
 
-// Newton with damping and with derivatives kept while they serve, from a guess. `enough`: residual at which it ends.
+// r(x) = 0 for as many unknowns as residuals, all of order one.
+struct NewtonSystem {
+  // Residual, and its derivative where asked for; false where there is none.
+  std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative)> evaluate;
+  std::function<bool()> stopped = {};  // by the user
+  double derivative_cost = 1;          // in evaluations without
+  bool run_on = false;                 // x + r(x) is a sensible step where Newton has none: for maps
+};
+struct NewtonOutcome {
+  bool found = false;
+  std::string why;
+  Eigen::VectorXd x;  // the last evaluation was at x and with derivative
+  double residual = 0;
+  int rounds = 0, derivatives = 0;
+};
+// Newton with damping, derivatives kept while they serve.
+NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough);
+
+// By Newton from a guess. `enough`: residual at which it ends.
 SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough = 1e-10);
 
 // Eigenvalues, largest magnitude first.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -33,57 +34,82 @@ double cpu_now() {
 
 std::string rpm(double omega) { return with_unit(omega * 30 / std::numbers::pi, "rpm", 5); }
 
-// Torques of the driving elements over the round: mean, RMS and peak by Gauss–Legendre within each smooth step.
-class MotorRecorder final : public Observer {
+// Elements of one component that drive together.
+struct Drive {
+  std::string component;
+  std::vector<std::size_t> elements;
+  double torque(const Snapshot& s) const {
+    double sum = 0;
+    for (const std::size_t e : elements) sum += s.sums.element_torque[e];
+    return sum;
+  }
+};
+
+std::vector<Drive> drives_of(const Model& model) {
+  std::vector<Drive> drives;
+  for (std::size_t e = 0; e < model.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = model.network.elements[e];
+    if (element.element->account() != Account::driving) continue;
+    const auto known =
+        std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.component == element.component; });
+    if (known != drives.end()) {
+      known->elements.push_back(e);
+    } else {
+      drives.push_back({element.component, {e}});
+    }
+  }
+  return drives;
+}
+
+// ∫M dt and ∫M² dt of every drive, integrated along with the motion and as accurately.
+class DriveQuadratures final : public RunExtension {
  public:
-  explicit MotorRecorder(const Model& model) {
-    for (std::size_t e = 0; e < model.network.elements.size(); ++e)
-      if (model.network.elements[e].element->account() == Account::driving) sums_.push_back({e, 0, 0, 0});
-  }
-  void step(StepView& view) override {
-    const double t0 = view.t_previous(), h = view.t() - t0;
-    constexpr double node[3] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[3] = {5 / 18., 8 / 18., 5 / 18.};
-    constexpr int parts = 2;
-    for (int p = 0; p < parts; ++p)
-      for (int k = 0; k < 3; ++k) {
-        const Snapshot& s = view.snapshot(t0 + h * (p + node[k]) / parts);
-        for (Sum& sum : sums_) add(sum, s, h * weight[k] / parts);
-      }
-    for (const double t : {t0, view.t()}) {
-      const Snapshot& s = view.snapshot(t);
-      for (Sum& sum : sums_) add(sum, s, 0);
+  DriveQuadratures(Equations& equations, std::vector<Drive> drives)
+      : equations_(equations), drives_(std::move(drives)) {}
+  std::size_t begin() const { return equations_.size(); }
+  std::size_t size() const override { return begin() + 2 * drives_.size(); }
+  void flow(double t, std::span<const double> y, std::span<double> ydot) override {
+    equations_.flow(t, y.first(begin()), ydot.first(begin()));
+    const Snapshot& s = equations_.snapshot(t, y.first(begin()));
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      const double torque = drives_[i].torque(s);
+      ydot[begin() + 2 * i] = torque;
+      ydot[begin() + 2 * i + 1] = torque * torque;
     }
-    time_ += h;
   }
-  // Elements of one component act together.
-  std::vector<MotorUse> uses(const Model& model) const {
-    std::vector<MotorUse> uses;
-    for (const Sum& sum : sums_) {
-      const Network::ShaftElement& e = model.network.elements[sum.element];
-      MotorUse use{e.component, std::sqrt(sum.squares / time_), sum.mean / time_, sum.peak, {}};
-      if (const Section* section = model.scene.find(e.component)) {
-        if (section->has("rated_torque")) use.rated = section->number("rated_torque");
-        if (section->has("rated_power") && section->has("rated_speed"))
-          use.rated = section->number("rated_power") / section->number("rated_speed");
-      }
-      uses.push_back(std::move(use));
+  const SparsityPattern& jacobian_pattern() override {
+    if (pattern_.size == size()) return pattern_;
+    pattern_ = equations_.jacobian_pattern();
+    pattern_.size = size();
+    for (std::size_t i = begin(); i < size(); ++i) {
+      pattern_.row.push_back(static_cast<std::int64_t>(i));
+      pattern_.column_start.push_back(static_cast<std::int64_t>(pattern_.row.size()));
     }
-    return uses;
+    return pattern_;
   }
+  void jacobian(double t, std::span<const double> y, std::span<double> values) override {
+    const std::size_t own = equations_.jacobian_pattern().row.size();
+    equations_.jacobian(t, y.first(begin()), values.first(own));
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(own), values.end(), 0.0);
+  }
+  ErrorControl error_control(double tolerance) const override {
+    ErrorControl control = equations_.error_control(tolerance);
+    const Model& m = equations_.model();
+    for (const Drive& drive : drives_) {
+      const int node = m.network.elements[drive.elements.front()].node;
+      const double torque = m.torque_scale / std::abs(m.node_ratio[at_index(node)]);
+      control.scale.push_back(torque / m.speed_scale);  // per radian of the link
+      control.scale.push_back(torque * torque / m.speed_scale);
+    }
+    return control;
+  }
+  void before_event(double, std::span<const double>, const std::vector<std::size_t>&) override {}
+  void after_event(double, std::span<double>) override {}
 
  private:
-  struct Sum {
-    std::size_t element;
-    double mean, squares, peak;
-  };
-  static void add(Sum& sum, const Snapshot& s, double weight) {
-    const double torque = s.sums.element_torque[sum.element];
-    sum.mean += weight * torque;
-    sum.squares += weight * torque * torque;
-    if (std::abs(torque) > std::abs(sum.peak)) sum.peak = torque;
-  }
-  std::vector<Sum> sums_;
-  double time_ = 0;
+  Equations& equations_;
+  std::vector<Drive> drives_;
+  SparsityPattern pattern_;
 };
 
 struct NamedShaft {
@@ -127,6 +153,12 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
   }
   for (ExtremeOf& e : extremes_of(m))
     if (!e.name.starts_with("max_speed.") && !e.name.starts_with("min_speed.")) wanted.push_back(std::move(e));
+  for (Drive& drive : drives_of(m))
+    wanted.push_back({.name = "peak_drive_torque." + drive.component,
+                      .unit = "N*m",
+                      .scale = m.torque_scale,
+                      .value = [drive = std::move(drive)](const Snapshot& s) { return drive.torque(s); },
+                      .rate = {}});
   return wanted;
 }
 
@@ -142,17 +174,23 @@ struct Round {
 class RoundFigures {
  public:
   RoundFigures(const ReturnMap& map, const SteadyPoint& point, double tolerance)
-      : map_(map), m_(map.model()), extremes_(wanted_of(m_)), motors_(m_), equations_(map.shared_model(), true) {
+      : map_(map),
+        m_(map.model()),
+        extremes_(wanted_of(m_)),
+        equations_(map.shared_model(), true),
+        drives_(equations_, drives_of(m_)) {
     RunOptions run{.tolerance = tolerance,
                    .method = "auto",
                    .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
                    .budget = 60,
                    .interrupted = nullptr,
                    .progress = {}};
-    const std::vector<double> y = map.place(equations_, point.z);
-    run.from = {map.start_time(), y};
+    std::vector<double> y = map.place(equations_, point.z);
     run.stop = map.round_end(equations_, y);
-    outcome_ = integrate(equations_, run, {&extremes_, &motors_});
+    y.resize(drives_.size(), 0.0);
+    run.from = {map.start_time(), y};
+    run.extension = &drives_;
+    outcome_ = integrate(equations_, run, {&extremes_});
   }
 
   Round collect() {
@@ -160,8 +198,7 @@ class RoundFigures {
     add_speeds();
     add_torques();
     add_works();
-    round_.motors = motors_.uses(m_);
-    for (const MotorUse& use : round_.motors) add("rms_drive_torque." + use.component, use.rms, "N*m", m_.torque_scale);
+    add_drives();
     return std::move(round_);
   }
 
@@ -199,6 +236,27 @@ class RoundFigures {
           std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
           m_.torque_joints[i].torque_scale);
   }
+  void add_drives() {
+    const double time = outcome_.t - map_.start_time();
+    const std::vector<Drive> drives = drives_of(m_);
+    const std::size_t first = extremes_.wanted().size() - drives.size();
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const double* const sums = outcome_.state.data() + drives_.begin() + 2 * i;
+      MotorUse use{drives[i].component,
+                   std::sqrt(std::max(0.0, sums[1]) / time),
+                   sums[0] / time,
+                   extremes_.found()[first + i].value,
+                   {}};
+      if (const Section* section = m_.scene.find(use.component)) {
+        if (section->has("rated_torque")) use.rated = section->number("rated_torque");
+        if (section->has("rated_power") && section->has("rated_speed"))
+          use.rated = section->number("rated_power") / section->number("rated_speed");
+      }
+      add("mean_drive_torque." + use.component, use.mean, "N*m", m_.torque_scale);
+      add("rms_drive_torque." + use.component, use.rms, "N*m", m_.torque_scale);
+      round_.motors.push_back(std::move(use));
+    }
+  }
   // Over a steady cycle all works add up to nothing.
   void add_works() {
     double sum = 0, turnover = 0;
@@ -214,14 +272,14 @@ class RoundFigures {
       if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
         add(fmt::format("work_per_cycle.{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)), work, "J",
             m_.torque_scale * 2 * std::numbers::pi);
-    round_.work_residual = turnover > 0 ? std::abs(sum) / turnover : 0;
+    round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
   }
 
   const ReturnMap& map_;
   const Model& m_;
   ExtremeRecorder extremes_;
-  MotorRecorder motors_;
   Equations equations_;
+  DriveQuadratures drives_;
   RunOutcome outcome_;
   Round round_;
 };
@@ -337,76 +395,76 @@ class Search {
     return compile_network(std::move(net), scene_, effects_);
   }
 
-  struct Residual {
-    bool returned = false;
-    Eigen::VectorXd value;  // P(z) − z, then the mean speed's miss over the one demanded
-    ReturnMap::Image image;
-  };
-  Residual residual(const Eigen::VectorXd& z, double torque, double speed, bool with_derivative) {
-    ReturnMap map(model_with(torque), map_options(map_tolerance));
-    map.follow(*map_);
-    LinkSpeed link(map.model());
-    Residual r;
-    r.image = map.image(z, with_derivative, {link.observer()});
-    cost_ += map.cost();
-    if (r.image.end != ReturnMap::End::returned) return r;
-    r.returned = true;
-    r.value.resize(z.size() + 1);
-    r.value << r.image.z - z, (link.mean() - speed) / std::abs(speed);
-    return r;
-  }
-
-  // Newton on (z, torque); the mean speed's derivative by z is that of the mean over time, which differs by δ².
+  // Unknowns: z and the added torque; residuals: P(z) − z and the time of a round against the one wanted. The mean over
+  // time has an exact derivative; (ω_max + ω_min)/2, which is demanded, differs from it by some δ² and is met from
+  // outside.
   void at_speed(double speed) {
     choose_drive();
-    prepare(model_with(0));
+    prepare(model_with(first_torque(speed)));
     if (out_.periodicity.by_time)
       throw std::invalid_argument(
           "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
           "free; drop the option");
-    const double unit = out_.model->torque_scale / std::abs(out_.model->node_ratio[at_index(added_node_)]);
-    double torque = first_torque(speed);
-    prepare(model_with(torque));
+    unit_ = out_.model->torque_scale / std::abs(out_.model->node_ratio[at_index(added_node_)]);
     const ReturnMap::Image guess = map_->approach(speed);
+    cost_ = map_->cost();
     out_.end = guess.end;
     out_.why = guess.why;
     if (guess.end != ReturnMap::End::returned) return;
-    Eigen::VectorXd z = guess.z;
-    Eigen::PartialPivLU<Eigen::MatrixXd> solver;
-    double last = HUGE_VAL;
-    bool fresh = false;
-    for (int round = 0; round < 40; ++round) {
-      Residual here = residual(z, torque, speed, false);
-      if (!here.returned) return refuse(here.image);
-      const double norm = here.value.cwiseAbs().maxCoeff();
-      if (norm <= enough || (norm <= 100 * enough && norm > 0.5 * last)) break;
-      if (!fresh || norm > 0.2 * last) {
-        const Residual with = residual(z, torque, speed, true);
-        if (!with.returned) return refuse(with.image);
-        const double step = 1e-5;
-        const Residual more = residual(z, torque + step * unit, speed, false);
-        if (!more.returned) return refuse(more.image);
-        const Eigen::Index n = z.size();
-        Eigen::MatrixXd j(n + 1, n + 1);
-        j.topLeftCorner(n, n) = with.image.derivative - Eigen::MatrixXd::Identity(n, n);
-        j.bottomLeftCorner(1, n) = -with.image.slowing / with.image.time;
-        j.col(n) = (more.value - here.value) / step;
-        solver.compute(j);
-        fresh = true;
+    Eigen::VectorXd x(guess.z.size() + 1);
+    x << guess.z, first_torque(speed) / unit_;
+    double wanted = speed;  // mean over time
+    for (int outer = 0; outer < 12; ++outer) {
+      double mean = 0;
+      const NewtonOutcome newton = solve(system_at(wanted, mean), x, enough);
+      out_.point.rounds += newton.rounds;
+      out_.point.derivatives += newton.derivatives;
+      out_.end = image_.end;
+      if (!newton.found) {
+        out_.why = image_.end != ReturnMap::End::returned ? image_.why : newton.why;
+        return;
       }
-      last = norm;
-      Eigen::VectorXd move = solver.solve(here.value);
-      const double longest = move.head(z.size()).cwiseAbs().maxCoeff();
-      if (!(longest < HUGE_VAL)) break;
-      if (longest > 0.3) move *= 0.3 / longest;
-      z -= move.head(z.size());
-      torque -= move[z.size()] * unit;
+      x = newton.x;
+      out_.point.residual = std::max(newton.residual, std::abs(mean - speed) / std::abs(speed));
+      if (out_.point.residual <= 3 * enough) break;
+      wanted += speed - mean;
     }
-    finish_at(z, torque, speed);
+    settle(x, speed);
   }
-  void refuse(const ReturnMap::Image& image) {
-    out_.end = image.end;
-    out_.why = image.why;
+
+  NewtonSystem system_at(double wanted, double& mean) {
+    NewtonSystem system;
+    system.evaluate = [this, wanted, &mean](const Eigen::VectorXd& x, Eigen::VectorXd& residual,
+                                            Eigen::MatrixXd* derivative) {
+      const Eigen::Index n = x.size() - 1;
+      const auto round = [&](double torque, bool with_derivative, Eigen::VectorXd& value) {
+        ReturnMap map(model_with(torque * unit_), map_options(map_tolerance));
+        map.follow(*map_);
+        LinkSpeed link(map.model());
+        image_ = map.image(x.head(n), with_derivative, {link.observer()});
+        cost_ += map.cost();
+        if (image_.end != ReturnMap::End::returned) return false;
+        mean = link.mean();
+        value.resize(n + 1);
+        value << image_.z - x.head(n), 1 - image_.time / round_time(wanted);
+        return true;
+      };
+      if (!derivative) return round(x[n], false, residual);
+      constexpr double step = 1e-5;
+      Eigen::VectorXd more;
+      if (!round(x[n] + step, false, more) || !round(x[n], true, residual)) return false;
+      derivative->resize(n + 1, n + 1);
+      derivative->topLeftCorner(n, n) = image_.derivative - Eigen::MatrixXd::Identity(n, n);
+      derivative->bottomLeftCorner(1, n) = -image_.slowing / round_time(wanted);
+      derivative->col(n) = (more - residual) / step;
+      return true;
+    };
+    system.stopped = [this] { return image_.end == ReturnMap::End::interrupted; };
+    system.derivative_cost = static_cast<double>(map_->size()) + 2;
+    return system;
+  }
+  double round_time(double mean_speed) const {
+    return out_.periodicity.angle * options_.periods / std::abs(mean_speed);
   }
   // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
   double first_torque(double speed) const {
@@ -415,27 +473,21 @@ class Search {
     const double net = MeanCharacteristic(machine, speed < 0 ? -1 : 1).at(speed).net();
     return -net / out_.model->node_ratio[at_index(added_node_)];
   }
-  void finish_at(const Eigen::VectorXd& z, double torque, double speed) {
+  void settle(const Eigen::VectorXd& x, double speed) {
+    const double torque = x[x.size() - 1] * unit_;
     auto settled = std::make_unique<ReturnMap>(model_with(torque), map_options(map_tolerance));
     settled->follow(*map_);
-    cost_ += map_->cost();
     map_ = std::move(settled);
     out_.model = map_->shared_model();
-    const Residual end = residual(z, torque, speed, true);
-    if (!end.returned) return refuse(end.image);
-    SteadyPoint& p = out_.point;
-    p.z = z;
-    p.derivative = end.image.derivative;
-    p.multipliers = multipliers_of(p.derivative);
-    p.time = end.image.time;
-    p.residual = end.value.cwiseAbs().maxCoeff();
-    p.found = out_.found = p.residual <= 100 * enough;
-    out_.cost = cost_;
+    out_.point.take(x.head(x.size() - 1), image_);
+    out_.found = out_.point.residual <= 100 * enough;
+    out_.point.cost = out_.cost = cost_;
+    out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 2) * options_.periods;
     out_.added_torque = torque;
     out_.added_at = added_to_;
     if (!out_.found)
-      out_.why =
-          fmt::format("the search for the cycle of {} does not settle (residual {:.1e})", rpm(speed), p.residual);
+      out_.why = fmt::format("the search for the cycle of {} does not settle (residual {:.1e})", rpm(speed),
+                             out_.point.residual);
   }
 
   // --- figures ---
@@ -470,7 +522,9 @@ class Search {
     const Round other = RoundFigures(loose, point, looser_tolerance).collect();
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)
-        if (f.name == g.name) f.error = std::abs(f.value - g.value);
+        if (f.name == g.name)
+          f.error =
+              std::max(std::abs(f.value - g.value), 8 * std::numeric_limits<double>::epsilon() * std::abs(f.value));
   }
 
   // Two rounds, so that one whole cycle from the link's zero is among them.
@@ -499,7 +553,8 @@ class Search {
   SteadyCycle out_;
   int added_node_ = 0;
   std::string added_to_;
-  double cost_ = 0;
+  double cost_ = 0, unit_ = 1;  // unit_: of the added torque [N·m]
+  ReturnMap::Image image_;
 };
 
 // --- the study ---
@@ -622,16 +677,27 @@ class Study {
     return cycle.why;
   }
 
+  // Several times what the mean torques would need; where they do not suffice, what the rated torque would.
+  double start_limit(double target) const {
+    RigidMachine machine(rigid_);
+    const double inertia = machine.constant_inertia() + machine.mechanism_inertia(1).value;
+    double time = 0;
+    const std::vector<MeanTorques>& curve = out_.diagram->curve;
+    for (std::size_t i = 0; i + 1 < curve.size() && std::abs(curve[i + 1].omega) < target; ++i) {
+      const double net = std::min(curve[i].net(), curve[i + 1].net());
+      if (net <= 0) return 100 * inertia * target / rigid_->torque_scale;
+      time += inertia * std::abs(curve[i + 1].omega - curve[i].omega) / net;
+    }
+    return 5 * time;
+  }
+
   void find_start() {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
       if (c.found && c.model->elastic.empty()) rigid = &c;
     if (!rigid || !out_.diagram || options_.mean_speed) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
-    // At the rated torque alone, a hundred times over.
-    RigidMachine machine(rigid_);
-    const double inertia = machine.constant_inertia() + machine.mechanism_inertia(1).value;
-    const double limit = 100 * (inertia * std::abs(target) / rigid_->torque_scale) + 100 * rigid->cycle_time;
+    const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
     out_.start = start_from_rest(rigid_, target, limit, options_.interrupted);
     const double search_limit = out_.start->reached ? 4 * out_.start->time : limit;
