@@ -112,7 +112,14 @@ void Sensitivities::before_event(double t, std::span<const double> y, const std:
 
 void Sensitivities::after_event(double t, std::span<double> y) {
   equations_.flow(t, y.first(states_), flow_after_);
-  if (std::abs(guard_rate_) < 1e-9) {
+  double jump = 0, rate = 0;
+  for (std::size_t i = 0; i < states_; ++i) {
+    if (scale_[i] == 0) continue;
+    jump = std::max(jump, std::abs(flow_after_[i] - flow_before_[i]) / scale_[i]);
+    rate = std::max(rate, std::abs(flow_before_[i]) / scale_[i]);
+  }
+  if (jump <= 1e-10 * rate) return;  // a knot of a continuous law
+  if (std::abs(guard_rate_) < 1e-6) {
     grazed_ = true;
     return;
   }
