@@ -125,7 +125,7 @@ class Loop {
     stepper_->step(limit());
     find_guards(stepper_->t(), stepper_->y(), guard_);
     const std::vector<std::size_t> fired = locate_event();
-    if (stepper_->t() > stepper_->t_previous())
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
@@ -242,6 +242,10 @@ class Loop {
     const bool at_begin = std::exchange(at_begin_, false);
     if (options_.stop && fired.back() == equations_.guard_count()) {
       out_.stopped = true;
+      if (at_begin) {
+        const std::vector<double> before(stepper_->y_previous().begin(), stepper_->y_previous().end());
+        restart(stepper_->t_previous(), before);
+      }
       return false;
     }
     const double time = at_begin ? stepper_->t_previous() : t;
