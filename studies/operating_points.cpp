@@ -167,26 +167,28 @@ double link_start_angle(const Model& m) {
 }  // namespace
 
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
-                         const std::atomic<bool>* interrupted) {
+                         const std::atomic<bool>* interrupted, int node) {
   Equations equations(rigid, false);
   const Model& m = *rigid;
   StartSettings settings{};
   settings.angle = link_start_angle(m);
-  const int node = m.reduction_node;
+  if (node < 0) node = m.reduction_node;
   const double gain = m.gain_of_node[at_index(node)];
+  const double scale = m.speed_scale * std::abs(m.node_ratio[at_index(node)]);
   const std::size_t speed = equations.speed_index(m.shaft_of_node[at_index(node)]);
   RunOptions run{
       .tolerance = 1e-9, .method = "auto", .until = limit, .budget = 20, .interrupted = interrupted, .progress = {}};
   run.from = {0, equations.start(0, settings)};
-  run.stop = [=, &m](double, std::span<const double> y) {
-    return (std::abs(target) - std::copysign(1.0, target) * gain * y[speed]) / m.speed_scale;
+  run.stop = [=](double, std::span<const double> y) {
+    return (std::abs(target) - std::copysign(1.0, target) * gain * y[speed]) / scale;
   };
   SpeedLog log;
   const RunOutcome outcome = integrate(equations, run, {&log});
   StartRun result{outcome.stopped, outcome.t, std::move(log.t), std::move(log.w), outcome.diagnosis};
   if (result.reached || !result.why.empty()) return result;
   result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
-                           speed_text(target), with_unit(limit, "s", 4), speed_text(result.w.back()));
+                           speed_text(target), with_unit(limit, "s", 4),
+                           speed_text(result.w.back() * m.node_ratio[at_index(node)]));
   return result;
 }
 
@@ -219,6 +221,9 @@ class RatioTrial {
   RatioTrial(const Scene& scene, std::string gearbox, double target, double limit, const std::atomic<bool>* interrupted)
       : scene_(scene), gearbox_(std::move(gearbox)), target_(target), limit_(limit), interrupted_(interrupted) {
     network_ = always_on(scene, ignored_);
+    const auto model = compile_network(network_, scene, Effects{});
+    node_ = network_.ports.at(gearbox_).out;
+    target_ *= model->node_ratio[at_index(node_)];
     present_ = 1;
     for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
   }
@@ -228,7 +233,7 @@ class RatioTrial {
     Network net = network_;
     net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
     const auto model = compile_network(std::move(net), scene_, Effects{});
-    const StartRun run = start_from_rest(model, target_, limit_, interrupted_);
+    const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_);
     const double time = run.reached ? run.time : HUGE_VAL;
     tried_.emplace_back(ratio, time);
     return time;
@@ -245,6 +250,7 @@ class RatioTrial {
   const std::atomic<bool>* interrupted_;
   Network network_;
   double present_ = 1;
+  int node_ = 0;
   std::vector<std::string> ignored_;
   std::vector<std::pair<double, double>> tried_;
 };
@@ -260,7 +266,7 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, doubl
   for (const Section& component : scene.components) {
     if (component.kind->name != "gearbox") continue;
     RatioTrial trial(scene, component.name, target, limit, interrupted);
-    RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, {}};
+    RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, false};
     const double reached = trial(trial.present());
     search.present_time = std::isfinite(reached) ? reached : 0;
     int best = -1;
@@ -284,6 +290,7 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, doubl
         td = trial(std::exp(d = a + golden * (b - a)));
       }
     }
+    search.at_bound = best == 0 || best + 1 == static_cast<int>(ratio.size());
     search.best_time = HUGE_VAL;
     for (const auto& [r, t] : trial.tried()) {
       if (!std::isfinite(t)) continue;

@@ -65,12 +65,12 @@ Network always_on(const Scene& scene, std::vector<std::string>& switched);
 struct StartRun {
   bool reached = false;
   double time = 0;           // from rest to the target [s]
-  std::vector<double> t, w;  // link's speed on the way [s, rad/s]
+  std::vector<double> t, w;  // the link's speed on the way [s, rad/s]
   std::string why;           // where it was not reached
 };
-// A rigid model from rest at the scene's start angle until its link turns at `target` [rad/s].
+// A rigid model from rest at the scene's start angle until a node (−1: the link) turns at `target` [rad/s].
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
-                         const std::atomic<bool>* interrupted = nullptr);
+                         const std::atomic<bool>* interrupted = nullptr, int node = -1);
 
 // Ratio of the gearbox between motor and machine with which the machine's shaft starts fastest under constant torques:
 //     α = (η i T_m − T_c)/(J + η i² J_m)  is greatest at  i = [T_c + √(T_c² + η T_m² J/J_m)]/(η T_m)
@@ -84,9 +84,11 @@ struct RatioSearch {
   double present = 0, best = 0;            // ratio of the gearbox
   double present_time = 0, best_time = 0;  // [s]; present_time 0: never reached
   std::vector<double> ratio, time;         // tried, ascending
-  std::optional<double> constant_torque;   // the closed form with the drive's and load's mean torques at rest
+  bool at_bound = false;                   // still better ratios lie beyond those tried
 };
-// For every gearbox of the scene; empty where there is none or no ratio starts the machine.
+// For every gearbox of the scene: until its driven shaft has the speed that belongs to `target` of the link as the
+// scene is. Tried from an eighth to eight times the present ratio; empty where there is no gearbox or no ratio starts
+// it.
 std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, double limit,
                                         const std::atomic<bool>* interrupted = nullptr);
 

@@ -13,10 +13,10 @@
 namespace kurbel {
 
 struct SteadyOptions {
-  std::optional<double> mean_speed;  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
-  int periods = 1;                   // cycles after which the motion repeats
-  bool traces = false;               // for plots
-  bool start_search = true;          // start from rest and the gearbox ratio that starts fastest
+  std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
+  int periods = 1;                        // cycles after which the motion repeats
+  bool traces = false;                    // for plots
+  bool start_search = true;               // start from rest and the gearbox ratio that starts fastest
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress = {};
   std::function<void(const std::string&)> log = {};

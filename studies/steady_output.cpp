@@ -85,7 +85,8 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
                                      : "start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
-        "fastest start with ratio {} of \"{}\": {}; {}", number(r.best, 5), r.gearbox, with_unit(r.best_time, "s", 5),
+        "fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
+        r.at_bound ? " (the end of what was tried)" : "", with_unit(r.best_time, "s", 5),
         r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present, 5), with_unit(r.present_time, "s", 5))
                            : fmt::format("with its ratio of {} the machine does not start", number(r.present, 5))));
   return words;

@@ -271,6 +271,13 @@ TEST(ReturnMap, DerivativeHoldsThroughStandstill) {
   ReturnMap map(model, {});
   const SteadyPoint p = steady_of(map, 5);
   ASSERT_TRUE(p.found);
+  Equations equations(model, false);
+  RunOptions run{
+      .tolerance = 1e-10, .method = "auto", .until = 0.5, .budget = 10, .interrupted = nullptr, .progress = {}};
+  run.from = {0, map.place(equations, p.z)};
+  int rests = 0;
+  for (const Event& e : integrate(equations, run, {}).events) rests += e.what == "comes to rest and is held";
+  EXPECT_EQ(rests, 1);
   const double h = 1e-6;
   for (Eigen::Index j = 0; j < p.z.size(); ++j) {
     Eigen::VectorXd above = p.z, below = p.z;
