@@ -160,9 +160,12 @@ class SceneReader {
         if (inner.key == "line") misplaced_line_ = &inner;
       }
     table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), is_top_key), table.entries.end());
+    const DocumentEntry* on = entry.value.find("on");
+    std::vector<std::string> read_elsewhere = {"kind"};
+    if (on || kind->placement == Placement::inline_one) read_elsewhere.push_back("on");
     Section section =
-        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"kind", "on"});
-    if (const DocumentEntry* on = entry.value.find("on")) read_on(section, on->value);
+        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, read_elsewhere);
+    if (on) read_on(section, on->value);
     index_[name] = scene_.components.size();
     scene_.components.push_back(std::move(section));
     return true;
@@ -555,7 +558,7 @@ const Section* Scene::find(const std::string& name) const {
 }
 
 const std::vector<std::string>& methods_of(const std::string& model) {
-  static const std::vector<std::string> reduced = {"auto", "dop853", "dopri5", "esdirk", "bdf", "adams"};
+  static const std::vector<std::string> reduced = {"auto", "work", "dop853", "dopri5", "esdirk", "bdf", "adams"};
   static const std::vector<std::string> multibody = {
       "auto",   "RungeKuttaMerson",   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
       "Verlet", "SemiExplicitEuler2", "ExplicitEuler",      "CPodes"};
@@ -576,9 +579,10 @@ const std::vector<Key>& run_keys() {
       {.name = "method",
        .type = KeyType::text,
        .fallback = "\"auto\"",
-       .doc = "integrator",
-       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg",
-                   "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
+       .doc = "integrator; work: the work equation over the angle (rigid, no torque over time)",
+       .choices = {"auto", "work", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson",
+                   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler",
+                   "CPodes"}},
       {.name = "model",
        .type = KeyType::text,
        .fallback = "\"reduced\"",

@@ -338,7 +338,7 @@ class Search {
  private:
   ReturnMapOptions map_options(double tolerance) const {
     return {.tolerance = tolerance,
-            .method = scene_.run.method,
+            .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
             .cycles = options_.periods,
             .budget = scene_.run.budget,
             .interrupted = options_.interrupted};

@@ -12,6 +12,8 @@
 
 namespace kurbel {
 
+class TraceRecorder;
+
 struct SteadyOptions {
   std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
   int periods = 1;                        // cycles after which the motion repeats

@@ -1,6 +1,7 @@
 // command_line_test.cpp — the program as its users meet it: exit codes, messages, files, Ctrl-C.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -59,6 +60,28 @@ class CommandLine : public testing::Test {
   }
   Ended kurbel(const std::vector<std::string>& arguments) { return wait(start(arguments)); }
 
+  // The same on a terminal of its own; what it shows is all of its output.
+  std::string on_terminal(const std::vector<std::string>& arguments, bool no_colour = false) {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      setenv("TERM", "xterm", 1);
+      no_colour ? setenv("NO_COLOR", "1", 1) : unsetenv("NO_COLOR");
+      std::vector<char*> argv = {const_cast<char*>("kurbel")};
+      for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+      argv.push_back(nullptr);
+      execv(KURBEL_EXECUTABLE, argv.data());
+      _exit(98);
+    }
+    std::string shown;
+    char piece[4096];
+    for (ssize_t n; (n = read(terminal, piece, sizeof piece)) > 0;) shown.append(piece, static_cast<std::size_t>(n));
+    waitpid(child, nullptr, 0);
+    close(terminal);
+    return shown;
+  }
+
   std::string scene(const std::string& run, const std::string& inertia = "\"1 kg*m2\"") {
     std::ofstream(folder_ / "scene.toml")
         << "line = [\"motor\", \"coupling\", \"fan\"]\n"
@@ -83,6 +106,30 @@ TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(r.err.empty()) << r.err;
   EXPECT_TRUE(file("out/summary.json"));
   EXPECT_TRUE(file("out/trajectory.csv"));
+}
+
+TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
+  const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
+  const Ended r = kurbel({"forces", press, "--speed", "60 rpm", "--no-run", "--out", "out"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.err.empty()) << r.err;
+  EXPECT_NE(r.out.find("reaction of the main bearing"), std::string::npos) << r.out;
+  for (const char* name : {"out/summary.json", "out/report.html", "out/forces_prescribed.csv"})
+    EXPECT_TRUE(file(name)) << name;
+  const struct {
+    std::vector<std::string> arguments;
+    std::string said;
+  } bad[] = {{{"--speed", "60 mm"}, "--speed \"60 mm\": must be a speed with its unit, e.g. \"300 rpm\""},
+             {{"--speed", "0 rpm"}, "must be a speed ≠ 0"},
+             {{"--positions", "2"}, "--positions 2: must be 4 … 3600 of a turn"},
+             {{"--mechanism", "pres"}, "--mechanism pres: no slider-crank of that name; allowed: \"press\""}};
+  for (const auto& request : bad) {
+    std::vector<std::string> arguments = {"forces", press, "--no-run"};
+    arguments.insert(arguments.end(), request.arguments.begin(), request.arguments.end());
+    const Ended refused = kurbel(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find(request.said), std::string::npos) << refused.err;
+  }
 }
 
 TEST_F(CommandLine, BadSceneEndsWithTwoAndWritesNothing) {
@@ -131,7 +178,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "fine", "--accuracy"},
       {"--accuracy", "nan", "--accuracy"},
       {"--accuracy", "0", "--accuracy"},
-      {"--method", "euler", "allowed: \"auto\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
+      {"--method", "euler", "allowed: \"auto\", \"work\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
       {"--method", "CPodes",
        "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
@@ -188,6 +235,24 @@ TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
   EXPECT_FALSE(summary["complete"]);
   EXPECT_FALSE(summary["diagnosis"].get<std::string>().empty());
   EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: stopped at t = "));
+}
+
+TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
+  const std::vector<std::string> spent = {"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"};
+  EXPECT_NE(on_terminal(spent).find("\033[31mINCOMPLETE\033[0m"), std::string::npos);
+  EXPECT_EQ(on_terminal(spent, true).find("\033["), std::string::npos);
+  EXPECT_EQ(kurbel(spent).out.find("\033["), std::string::npos);
+  // Five seconds of this chain come no nearer than 2e-12: said in yellow.
+  const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
+  const std::string shown = on_terminal({"run", chain, "--accuracy", "1e-12", "--no-files"});
+  EXPECT_NE(shown.find("\033[33mNOT reached\033[0m"), std::string::npos) << shown;
+}
+
+TEST_F(CommandLine, ProgressIsShownForLongWorkOnATerminalAndWipedOut) {
+  const std::vector<std::string> slow = {"run", scene("until = \"1000000 s\"\nbudget = \"2 s\"\n"), "--out", "out"};
+  const std::string shown = on_terminal(slow);
+  EXPECT_NE(shown.find("\r\033[Kelastic (tolerance "), std::string::npos) << shown.substr(0, 400);
+  EXPECT_EQ(kurbel(slow).err.find("elastic (tolerance"), std::string::npos);
 }
 
 TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
