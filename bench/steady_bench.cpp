@@ -2,7 +2,10 @@
 //
 // A motor on an elastic shaft with damping ratio 0.1 % drives a crank whose load edge rings it once a turn; the mode
 // lies near the crank's frequency, or near its second multiple.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "bench/machines.h"
@@ -65,6 +68,7 @@ Waited wait_for(const std::shared_ptr<const Model>& model, const ReturnMap& map,
 }  // namespace
 
 int main() {
+  print_machine();
   std::printf(
       "Steady cycle of a press with a shaft of damping ratio 0.1 %%, sought directly against waited for (to 1e-8 of "
       "the "
@@ -78,12 +82,15 @@ int main() {
     SteadyPoint point;
     double cost = 0;
     const TimedRun direct = timed(5, [&] {
+      const std::clock_t begin = std::clock();
       ReturnMap fresh(model, {.tolerance = 1e-11});
       const ReturnMap::Image guess = fresh.approach(speed);
       point = find_steady(fresh, guess.z, 1e-10);
       cost = fresh.cost();
       map.follow(fresh);
-      return RunOutcome{};
+      RunOutcome outcome;
+      outcome.statistics.cpu_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      return outcome;
     });
     if (!point.found) {
       std::printf("  %-8g not found: %s\n", order, point.why.c_str());

@@ -536,7 +536,7 @@ class Search {
   // Two rounds, so that one whole cycle from the link's zero is among them.
   void follow() {
     Equations equations(out_.model, true);
-    const auto traces = std::make_shared<TraceRecorder>(*out_.model);
+    TraceRecorder traces(*out_.model);
     const std::vector<double> y = map_->place(equations, out_.point.z);
     RunOptions run{.tolerance = 1e-9,
                    .method = "auto",
@@ -546,8 +546,8 @@ class Search {
                    .progress = {}};
     run.from = {map_->start_time(), y};
     run.stop = map_->round_end(equations, y, 2.05);
-    integrate(equations, run, {traces.get()});
-    out_.traces = traces;
+    integrate(equations, run, {&traces});
+    out_.traces = traces.traces();
   }
 
   const Scene& scene_;

@@ -12,7 +12,7 @@
 
 namespace kurbel {
 
-class TraceRecorder;
+struct Traces;
 
 struct SteadyOptions {
   std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
@@ -64,7 +64,7 @@ struct SteadyCycle {
   double work_residual = 0;  // of the cycle's works against each other, over the driving work
   double added_torque = 0;   // constant, beside the drive, that the demanded mean speed needs [N·m]
   std::string added_at;      // on this component's shaft
-  std::shared_ptr<const TraceRecorder> traces;
+  std::shared_ptr<const Traces> traces;
   double cpu_seconds = 0;
 
   const Figure* find(const std::string& name) const;

@@ -204,7 +204,7 @@ std::string diagram_csv(const OperatingDiagram& d) {
 }
 
 const CycleTraces* whole_cycle(const SteadyCycle& c) {
-  return c.traces && !c.traces->last_cycles().empty() ? &c.traces->last_cycles().back() : nullptr;
+  return c.traces && !c.traces->last_cycles.empty() ? &c.traces->last_cycles.back() : nullptr;
 }
 
 double at_angle(const Trace& trace, double angle) {
