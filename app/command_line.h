@@ -59,5 +59,6 @@ int present(const StudyOutput& output, const StudyOptions& options);
 void add_forces_command(CLI::App& app, int& code);  // forces
 void add_run_commands(CLI::App& app, int& code);    // run, compare
 void add_scene_commands(CLI::App& app, int& code);  // check, figures, new, keys, schema
+void add_steady_command(CLI::App& app, int& code);  // steady
 
 }  // namespace kurbel::app

@@ -39,7 +39,15 @@ class Equations final : public OdeSystem {
   std::string state_name(std::size_t state) const;
 
   // State at the start as the scene demands it; sets all modes.
-  std::vector<double> start(double t);
+  std::vector<double> start(double t) { return start(t, model_->scene.run.start); }
+  std::vector<double> start(double t, const StartSettings& settings);
+
+  // The state with the reduction link at an angle, and these twists and speeds of the free shafts; the other angles
+  // follow. Sets all modes anew, turns to none.
+  std::vector<double> state_of(double t, double link_angle, std::span<const double> twists,
+                               std::span<const double> speeds);
+  // ∂φ/∂θ per shaft: how the shafts turn with one elastic joint's twist while the reduction link stands.
+  std::vector<double> shaft_angles_by_twist(std::size_t elastic) const;
 
   // A state of the rigid machine with all modes found anew, for integrators that know no events.
   std::vector<double> modes_from_scratch(double t, double reduction_angle, double reduction_speed);
@@ -106,7 +114,8 @@ class Equations final : public OdeSystem {
   void list_elastic_tree();
   void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts,
                          std::vector<Event>* log);
-  std::vector<double> start_angles(std::vector<double>& twists);
+  std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
+  void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
 
