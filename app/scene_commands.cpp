@@ -1,18 +1,22 @@
-// scene_commands.cpp — a new scene, its keys.
-#include "app/scene_commands.h"
+// scene_commands.cpp — commands that help to write a scene: check, figures, new, keys, schema.
+#include "app/command_line.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "engine/keys.h"
+#include "engine/model.h"
 #include "engine/units.h"
 #include "studies/kinds.h"
 #include "studies/schema.h"
+#include "studies/simulate.h"
 #include "studies/templates/templates.h"
 
 namespace kurbel::app {
@@ -57,8 +61,7 @@ std::string as_word(const std::string& path) {
   return quoted + "'";
 }
 
-}  // namespace
-
+// Writes a scene to start from and, for editors, the schema beside it; refuses to overwrite.
 int new_scene(const std::string& kind, const std::string& file) {
   const SceneTemplate& scene = template_named(kind);
   const fs::path path = file.empty() ? fs::path(kind + ".toml") : fs::path(file);
@@ -80,20 +83,70 @@ int new_scene(const std::string& kind, const std::string& file) {
       "  kurbel check {0}      after a change: is the scene sound?\n"
       "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
       word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '));
-  return 0;
+  return exit_done;
 }
 
+// All keys as Markdown, or those of one kind as text for a terminal.
 int print_keys(const std::string& kind) {
   if (kind.empty()) {
     fmt::print("{}", keys_in_markdown());
-    return 0;
+    return exit_done;
   }
   const std::vector<std::string> names = names_of_keys();
   if (std::find(names.begin(), names.end(), kind) == names.end())
     throw std::invalid_argument(
         fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), did_you_mean(kind, names), listed(names)));
   fmt::print("{}", keys_of(kind));
-  return 0;
+  return exit_done;
+}
+
+int check(const std::string& file) {
+  const Scene scene = read_scene(file, all_kinds());
+  const auto model = compile(scene, scene.effects);
+  const auto coordinates = model->free_shafts + model->twist_count();
+  fmt::print("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
+             scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",
+             scene.effects.describe());
+  return exit_done;
+}
+
+int figures(const std::string& file) {
+  const Scene scene = read_scene(file, all_kinds());
+  for (const Figure& f : figure_list(*compile(scene, scene.effects)))
+    fmt::print("{}{}\n", f.name, f.unit.empty() ? "" : fmt::format(" [{}]", f.unit));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_scene_commands(CLI::App& app, int& code) {
+  struct Words {
+    std::string first, second;
+  };
+  const auto add = [&](const char* name, const char* what, int (*action)(const Words&)) {
+    const auto words = std::make_shared<Words>();
+    CLI::App* command = app.add_subcommand(name, what);
+    command->callback([&code, words, action] { code = action(*words); });
+    return std::pair{command, words};
+  };
+  const auto [check_command, checked] = add("check", "validate a scene", [](const Words& w) { return check(w.first); });
+  add_scene(*check_command, checked->first);
+  const auto [figures_command, listed_scene] =
+      add("figures", "list the figures that runs of a scene yield", [](const Words& w) { return figures(w.first); });
+  add_scene(*figures_command, listed_scene->first);
+  const auto [new_command, made] =
+      add("new", "write a commented scene to start from: press, pump, engine, compressor or chain",
+          [](const Words& w) { return new_scene(w.first, w.second); });
+  new_command->add_option("kind", made->first, "press, pump, engine, compressor or chain");
+  new_command->add_option("file", made->second,
+                          "file to write (default: KIND.toml); one that exists is never overwritten");
+  const auto [keys_command, kind] = add("keys", "print the keys of one kind, or of a whole scene (Markdown)",
+                                        [](const Words& w) { return print_keys(w.first); });
+  keys_command->add_option("kind", kind->first, "e.g. coupling, \"induction motor\", run (default: all)");
+  add("schema", "print the JSON Schema of a scene, for editors", [](const Words&) {
+    fmt::print("{}", scene_schema());
+    return exit_done;
+  });
 }
 
 }  // namespace kurbel::app

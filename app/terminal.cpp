@@ -42,22 +42,6 @@ std::string coloured(std::string text, const std::string& conclusion) {
   return text;
 }
 
-std::string conclusion_of(const Result& r) {
-  if (!r.complete) return fmt::format("{}: INCOMPLETE: {}", r.title, r.diagnosis);
-  const std::string accuracy =
-      r.errors_measured ? fmt::format("accuracy {:.1e} measured{}", r.measured_accuracy,
-                                      r.accuracy_confirmed ? "" : fmt::format(", {:.1e} NOT reached", r.accuracy))
-                        : "errors not measured";
-  std::string peak;
-  for (const Figure& f : r.figures)
-    if (peak.empty() && f.name.starts_with("peak_torque."))
-      peak = fmt::format("peak torque in {} {}, ", f.name.substr(12), with_unit(f.value, "N*m", 6));
-  return fmt::format("{}: {} simulated, {}, {}{}, energy balance {:.1e}", r.title, with_unit(r.until, "s", 6), r.label,
-                     peak, accuracy, r.energy.relative);
-}
-
-std::string conclusion_of(const Comparison& c) { return c.conclusion; }
-
 std::function<void(const std::string&)> make_log(bool verbose) {
   if (!verbose) return {};
   const auto logger = std::make_shared<spdlog::logger>("kurbel", std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -4,8 +4,6 @@
 #include <functional>
 #include <string>
 
-#include "studies/compare.h"
-
 namespace kurbel::app {
 
 // A terminal that shows colours: a tty, without NO_COLOR, that is not "dumb".
@@ -13,9 +11,6 @@ bool wants_colour(int file_descriptor);
 
 // Conclusion bold, INCOMPLETE red, NOT reached yellow. Changes no width.
 std::string coloured(std::string text, const std::string& conclusion);
-
-std::string conclusion_of(const Result& result);  // one line
-std::string conclusion_of(const Comparison& comparison);
 
 // A log on stderr with the time of day; empty where it is off.
 std::function<void(const std::string&)> make_log(bool verbose);

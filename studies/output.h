@@ -1,21 +1,31 @@
-// output.h — results as tables for people, JSON and CSV for programs.
+// output.h — what every study hands out: a conclusion, a table for the terminal, JSON, a report, tables as CSV.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "studies/compare.h"
+#include "studies/report/report.h"
 
 namespace kurbel {
 
-std::string table_of(const Result& result);
-std::string table_of(const Comparison& comparison);
-std::string json_of(const Result& result);
-std::string json_of(const Comparison& comparison);
+struct CsvFile {
+  std::string name;                   // "trajectory.csv"
+  std::function<std::string()> text;  // made only when it is written
+};
 
-// Writes summary.json, report.html and trajectory.csv (of a comparison one per model) into the folder, each under a
-// temporary name first. An incomplete run's files are marked as such. Throws std::runtime_error if the folder cannot be
-// written. With plots the report's plots are written for gnuplot too, into plots/.
-void write_results(const Result& result, const std::string& folder, bool plots = false);
-void write_results(const Comparison& comparison, const std::string& folder, bool plots = false);
+struct StudyOutput {
+  std::string conclusion;          // one line
+  std::string table;               // for a terminal, ends with a newline; holds the conclusion
+  std::string json;                // the same figures for programs
+  std::function<Report()> report;  // made only when it is written
+  std::vector<CsvFile> csv = {};
+  bool complete = true;
+  std::string diagnosis = {};  // of a run that failed on its way
+};
+
+// Writes summary.json, report.html and the CSV files into the folder, each under a temporary name first. With plots the
+// report's plots are written for gnuplot too, into plots/. Throws std::runtime_error if the folder cannot be written.
+void write_output(const StudyOutput& output, const std::string& folder, bool plots = false);
 
 }  // namespace kurbel

@@ -79,22 +79,42 @@ std::string data_of(const Plot& plot) {
   return text;
 }
 
+// Some hundreds of marks at the most; more run into each other.
+std::vector<EventMark> marks_of(const Plot& plot) {
+  std::vector<EventMark> marks;
+  const std::size_t stride = 1 + plot.marks.size() / 400;
+  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
+  return marks;
+}
+
+// Drawn twice, as SVG and as PNG.
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
-      "# gnuplot {0}.gp → {0}.svg\nset terminal svg size 900,480 noenhanced font 'sans,14' background 'white'\nset "
-      "output '{0}.svg'\n"
+      "# gnuplot {0}.gp → {0}.svg and {0}.png\nset terminal svg size 900,480 noenhanced font 'sans,14' background "
+      "'white'\nset output '{0}.svg'\n"
       "set title {1}\nset xlabel {2}\nset ylabel {3}\nset grid lc rgb '#dddddd'\nset key outside below horizontal\n",
       name, quoted(plot.title), quoted(label(plot.x)), quoted(label(plot.y)));
   if (plot.x.logarithmic) text += "set logscale x\n";
   if (plot.y.logarithmic) text += "set logscale y\n";
+  if (plot.equal_axes) text += "set size ratio -1\n";
+  if (plot.bars) text += "set style fill solid 0.7\nset boxwidth 0.8 relative\nset xtics 1\n";
+  for (const EventMark& mark : marks_of(plot))
+    text += fmt::format(
+        "set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 0.04 nohead lc rgb '#d55e00' lw 1.4\n", mark.x);
   text += "plot ";
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
     text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i,
-                        s.points ? "linespoints pt 7 ps 0.5" : "lines",
+                        plot.bars  ? "boxes"
+                        : !s.line  ? "points pt 7 ps 0.9"
+                        : s.points ? "linespoints pt 7 ps 0.5"
+                                   : "lines",
                         s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role), quoted(s.name));
   }
-  return text + "\n";
+  return text + fmt::format(
+                    "\nset terminal pngcairo size 1350,720 noenhanced font 'sans,14' background 'white'\nset output "
+                    "'{0}.png'\nreplot\n",
+                    name);
 }
 
 }  // namespace

@@ -27,11 +27,18 @@
   // --- plots ---------------------------------------------------------------------------------------------------------
   const plots = [];
 
+  // A curve that comes back on itself, such as a polar diagram, is read point by point.
+  const isLocus = plot => plot.equalAxes || plot.series.some(s => s.x.some((x, i) => i && x < s.x[i - 1]));
+
   function tracesOf(plot) {
+    const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
     const traces = plot.series.map(s => ({
-      x: s.x, y: s.y, name: s.name, type: 'scatter', mode: s.points ? 'lines+markers' : 'lines',
-      line: {color: colour(s.role), width: s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
-      hovertemplate: `%{y:.6~g} ${plot.y.unit}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
+      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', marker: {color: colour(s.role), size: s.line ? 6 : 9},
+      ...plot.bars ? {} : {
+        mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
+        line: {color: colour(s.role), width: s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
+      },
+      hovertemplate: `${reading}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
     }));
     if (plot.marks.length) traces.push({
       x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => m.text.replace(/[<&]/g, '')), name: 'events', yaxis: 'y2', type: 'scatter',
@@ -42,7 +49,7 @@
   }
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
-    if (plot.x.log || plot.series.some(s => s.points)) return {};
+    if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
     const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
   }
@@ -53,11 +60,13 @@
     });
     const layout = {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
-      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
+      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
       xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: axis(plot.y), dragmode: narrow() ? false : 'zoom',
     };
-    if (plot.x.unit === '°') Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
+    if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
+    if (plot.bars) Object.assign(layout.xaxis, {dtick: 1});
+    if (plot.x.unit === '°' && !isLocus(plot)) Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
     if (plot.marks.length) layout.yaxis2 = {overlaying: 'y', range: [0, 1], visible: false, fixedrange: true};
     return layout;
   }

@@ -121,6 +121,8 @@ void write(Writer& w, const Plot& plot) {
   w.field("kind", "plot");
   w.field("title", plot.title);
   w.field("note", plot.note);
+  w.field("equalAxes", plot.equal_axes);
+  w.field("bars", plot.bars);
   w.key("x"), write(w, plot.x);
   w.key("y"), write(w, plot.y);
   w.key("series");
@@ -131,7 +133,8 @@ void write(Writer& w, const Plot& plot) {
       w.field("name", series.name);
       w.field("role", name_of(series.role));
       w.field("dashed", series.dashed);
-      w.field("points", series.points);
+      w.field("points", series.points || !series.line);
+      w.field("line", series.line);
       w.field("x", x, 8);
       w.field("y", y, 7);
     });

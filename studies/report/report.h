@@ -39,6 +39,7 @@ struct Series {
   std::vector<double> x, y;
   bool dashed = false;  // references
   bool points = false;  // markers beside the line
+  bool line = true;     // false: markers alone
 };
 
 // Something that happened, on the x-axis.
@@ -53,6 +54,8 @@ struct Plot {
   std::vector<Series> series;
   std::vector<EventMark> marks = {};
   std::string note = {};
+  bool equal_axes = false;  // one unit is as long on either axis: polar diagrams, loci
+  bool bars = false;        // harmonics and the like
 };
 
 struct Table {
@@ -128,7 +131,8 @@ inline constexpr std::size_t points_per_series = 2400;
 std::string html_of(const Report& report);
 void write_html(const Report& report, const std::string& path);
 
-// For every plot NAME.dat and NAME.gp, and NAME.svg where gnuplot is installed. Returns how many SVGs there are.
+// For every plot NAME.dat and NAME.gp, and NAME.svg and NAME.png where gnuplot is installed. Returns how many plots
+// were drawn.
 int write_gnuplot(const Report& report, const std::string& folder);
 
 // --- helpers for studies ---

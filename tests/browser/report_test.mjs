@@ -34,7 +34,7 @@ try {
 
     // Plots: each has lines with length in it, and its axes say what they are.
     const plots = await page.$$eval('.plot', list => list.map(place => ({
-      lines: [...place.querySelectorAll('.scatterlayer .trace path.js-line')].filter(line => line.getTotalLength() > 20).length,
+      lines: [...place.querySelectorAll('.scatterlayer .trace path.js-line, .barlayer .point path')].filter(line => line.getTotalLength() > 20).length,
       axes: place.querySelectorAll('.xtitle, .ytitle').length,
       title: place.parentElement.querySelector('h3').textContent,
     })));

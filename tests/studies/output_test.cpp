@@ -1,5 +1,5 @@
 // output_test.cpp — results as files: the JSON that programs read, the CSV, and a run against the full multibody.
-#include "studies/output.h"
+#include "studies/run_output.h"
 
 #include <cmath>
 #include <filesystem>
@@ -77,7 +77,8 @@ TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
   Scene scene = test::scene_file("scenes/driven_slider_crank.toml");
   scene.run.samples = 11;
   const std::string folder = (std::filesystem::path(::testing::TempDir()) / "kurbel_trajectory").string();
-  write_results(run(scene, false), folder);
+  const Result result = run(scene, false);
+  write_output(output_of(result), folder);
   std::ifstream in(folder + "/trajectory.csv");
   std::string header, line, last;
   std::getline(in, header);

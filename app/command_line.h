@@ -1,0 +1,62 @@
+// command_line.h — what the commands share: their options, progress, where results go and how they are shown.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <string>
+
+#include "engine/scene.h"
+#include "studies/output.h"
+#include "studies/simulate.h"
+
+namespace kurbel::app {
+
+inline constexpr int exit_done = 0, exit_user_error = 2, exit_run_failed = 3, exit_interrupted = 130;
+
+// Set by Ctrl-C; runs end cleanly on it.
+const std::atomic<bool>& interrupted();
+void catch_interrupts();
+
+// Options that every study on a scene has.
+struct StudyOptions {
+  std::string scene, out;
+  bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
+};
+void add_scene(CLI::App& command, std::string& scene);
+void add_study_options(CLI::App& command, StudyOptions& options);
+
+// A line on stderr that is written over, on a terminal only, and only for work longer than a second.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress();
+  void operator()(const std::string& what, double fraction);
+
+ private:
+  bool shown_, written_ = false;
+  std::chrono::steady_clock::time_point begin_, last_{};
+};
+
+// Reads the scene and logs it; throws SceneError.
+Scene read(const StudyOptions& options);
+
+// Before anything runs: hours of work must not end at a folder that cannot be written. Throws std::invalid_argument.
+void check_folder(const StudyOptions& options);
+
+// Options of a simulation within a study: interrupt, progress, log, traces for the report.
+SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
+
+// A quantity in SI from an option; the example shows its unit: quantity_of("--until", "3 s", "a time > 0", "3 s",
+// positive). Throws std::invalid_argument in words.
+double quantity_of(const std::string& option, const std::string& text, const std::string& what,
+                   const std::string& example, const Domain& domain);
+
+// Prints, writes the files unless asked not to, and returns the exit code.
+int present(const StudyOutput& output, const StudyOptions& options);
+
+// Each registers its commands; an action leaves its exit code in `code`.
+void add_run_commands(CLI::App& app, int& code);    // run, compare
+void add_scene_commands(CLI::App& app, int& code);  // check, figures, new, keys, schema
+
+}  // namespace kurbel::app

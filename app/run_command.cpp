@@ -1,0 +1,103 @@
+// run_command.cpp — run one model of a scene, or compare two.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "app/command_line.h"
+#include "engine/model.h"
+#include "studies/run_output.h"
+
+namespace kurbel::app {
+namespace {
+
+struct RunArguments {
+  StudyOptions study;
+  std::string effects, against, method, until;
+  std::optional<double> accuracy;
+  bool no_error = false, explain = false;
+};
+
+void add_run_options(CLI::App& command, RunArguments& arguments) {
+  add_study_options(command, arguments.study);
+  command.add_option("--effects", arguments.effects,
+                     "none, elasticity, or elasticity:COUPLING,… (overrides the scene)");
+  command.add_option("--accuracy", arguments.accuracy,
+                     "measured error of every figure over its scale (overrides the scene)");
+  command.add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
+  command.add_option("--method", arguments.method,
+                     "auto, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
+  command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
+}
+
+SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
+  SimulateOptions options = simulate_options(arguments.study, progress);
+  options.measure_error = !arguments.no_error;
+  if (!arguments.method.empty()) options.method = arguments.method;
+  if (arguments.accuracy) {
+    if (!(*arguments.accuracy >= 1e-12 && *arguments.accuracy <= 0.1))
+      throw std::invalid_argument(fmt::format("--accuracy {}: must be 1e-12 … 0.1", *arguments.accuracy));
+    options.accuracy = arguments.accuracy;
+  }
+  if (!arguments.until.empty()) options.until = quantity_of("--until", arguments.until, "a time > 0", "3 s", positive);
+  return options;
+}
+
+void check_arguments(const RunArguments& arguments, const Scene& scene) {
+  if (!arguments.method.empty()) check_method(arguments.method, scene.run.model);
+  check_folder(arguments.study);
+}
+
+int run(const RunArguments& arguments) {
+  const Scene scene = read(arguments.study);
+  const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
+  const auto model = compile(scene, effects);
+  if (arguments.explain) {
+    fmt::print("{}", model->explain());
+    return exit_done;
+  }
+  check_arguments(arguments, scene);
+  Progress progress(arguments.study.quiet);
+  const Result result = simulate(model, model->elastic.empty() ? "rigid" : "elastic", options_of(arguments, progress));
+  return present(output_of(result), arguments.study);
+}
+
+// Rigid against the scene's own effects; a scene without any is compared with all of its elasticity.
+int compare(const RunArguments& arguments) {
+  const Scene scene = read(arguments.study);
+  Effects full = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
+  check_arguments(arguments, scene);
+  if (arguments.effects.empty() && full.describe() == "none") full.all_elastic = true;
+  Effects simple;
+  if (!arguments.against.empty()) simple = parse_effects(arguments.against, scene);
+  const bool rigid = simple.describe() == "none";
+  const std::string full_label = full.describe() == "none" ? "rigid" : rigid ? "elastic" : "second";
+  if (full.describe() == simple.describe())
+    throw std::invalid_argument(fmt::format(
+        "both models have the same effects ({}); choose others with --effects and --against", full.describe()));
+  Progress progress(arguments.study.quiet);
+  const Comparison c =
+      kurbel::compare(scene, simple, rigid ? "rigid" : "first", full, full_label, options_of(arguments, progress));
+  return present(output_of(c), arguments.study);
+}
+
+}  // namespace
+
+void add_run_commands(CLI::App& app, int& code) {
+  const auto add = [&](const char* name, const char* what, int (*action)(const RunArguments&)) {
+    const auto arguments = std::make_shared<RunArguments>();
+    CLI::App* command = app.add_subcommand(name, what);
+    add_run_options(*command, *arguments);
+    command->callback([&code, arguments, action] { code = action(*arguments); });
+    return std::pair{command, arguments};
+  };
+  const auto [run_command, run_arguments] = add("run", "simulate a scene", run);
+  run_command->add_flag("--explain", run_arguments->explain,
+                        "print what is merged, the coordinates and their inertias, and stop");
+  const auto [compare_command, compare_arguments] =
+      add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
+  compare_command->add_option("--against", compare_arguments->against, "effects of the first model (default: none)");
+}
+
+}  // namespace kurbel::app

@@ -1,0 +1,20 @@
+// run_output.h — results of run and compare as tables for people, JSON and CSV for programs.
+#pragma once
+
+#include <string>
+
+#include "studies/compare.h"
+#include "studies/output.h"
+
+namespace kurbel {
+
+std::string table_of(const Result& result);
+std::string table_of(const Comparison& comparison);
+std::string json_of(const Result& result);
+std::string json_of(const Comparison& comparison);
+
+// Files: trajectory.csv, of a comparison one per model. The result must outlive the output.
+StudyOutput output_of(const Result& result);
+StudyOutput output_of(const Comparison& comparison);
+
+}  // namespace kurbel
