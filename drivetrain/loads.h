@@ -24,6 +24,8 @@ struct OpposingLoad {
     return -dry * x.direction - (viscous + quadratic * (x.direction * x.rate)) * x.rate;
   }
   Hold hold(const ShaftState<double>&) const { return {-dry, dry}; }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return viscous != 0 || quadratic != 0; }
   Rated rated() const { return {dry, rated_speed}; }
 };
 
@@ -38,6 +40,8 @@ struct SpeedLoad {
     using std::abs;
     return -(viscous + quadratic * abs(x.rate)) * x.rate;
   }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return viscous != 0 || quadratic != 0; }
   Rated rated() const { return {}; }
 };
 

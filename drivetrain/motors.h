@@ -21,6 +21,8 @@ struct DcShuntMotor {
   T torque(const ShaftState<T>& x) const {
     return stall_torque * (1.0 - x.rate / no_load_speed);
   }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque > 0 ? rated_torque : stall_torque, no_load_speed}; }
 };
 
@@ -42,6 +44,8 @@ struct InductionMotor {
     const double sb = breakdown_slip, a = resistance_ratio;
     return 2 * breakdown_torque * (1 + a * sb) * sb * slip / (slip * slip + sb * sb + 2 * a * sb * sb * slip);
   }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque, synchronous_speed}; }
 
   // Catalogue data: M_n = P_n/ω_n, s_n = (ω_s − ω_n)/ω_s, s_b = s_n (ν + √(ν² − 1)), ν = M_b/M_n (exact for a = 0).

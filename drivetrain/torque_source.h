@@ -25,6 +25,8 @@ struct HarmonicTorque {
     if (amplitude == 0) return T(mean);
     return T(mean + amplitude * std::sin(2 * std::numbers::pi * frequency * x.t + phase));
   }
+  bool uses_time() const { return amplitude != 0; }
+  bool uses_speed() const { return false; }
   Rated rated() const { return {std::abs(mean) + std::abs(amplitude), 0}; }
 };
 
@@ -40,6 +42,8 @@ struct TorqueOverTime {
     return T(sign * curve.value_in(x.mode, t));
   }
   int mode_at(double t) const { return curve.piece(t + slack() - curve.offset(t + slack())); }
+  bool uses_time() const { return true; }
+  bool uses_speed() const { return false; }
   double next_edge(double t) const { return curve.offset(t + slack()) + curve.piece_end(mode_at(t)); }
   Rated rated() const { return {curve.max_abs(), 0}; }
 
@@ -89,6 +93,9 @@ struct TorqueOverAngle {
     const double moved = PieceGuard::near_piece(curve, x.mode, value_of(x.angle)) - value_of(x.angle);
     return sign * curve.value_in(x.mode, x.angle + moved);
   }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return false; }
+  double angle_period() const { return curve.period(); }
   void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(curve, x.mode, x.angle, 1.0, g); }
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.angle); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
@@ -107,6 +114,8 @@ struct TorqueOverSpeed {
   T torque(const ShaftState<T>& x) const {
     return sign * curve.value_in(x.mode, x.rate);
   }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
   void guard(const ShaftState<double>& x, double* g) const {
     PieceGuard::guard(curve, x.mode, x.rate, curve.x().back() - curve.x().front(), g);
   }

@@ -16,6 +16,7 @@
 //   static constexpr bool directional = true;                optional: opposes motion; then Hold hold(state) const
 //   static constexpr int guards = n;                         optional: piecewise; then first_mode, guard, next_mode
 //   double next_edge(double t) const; int mode_at(double t)  optional: piecewise over time
+//   bool uses_time() const; bool uses_speed() const;         optional: whether M depends on t, on ω; unsaid: it does
 #pragma once
 
 #include <string>
@@ -85,5 +86,21 @@ template <class E>
 concept Timed = requires(const E& e) {
   e.next_edge(0.0);
 };
+
+// What a torque depends on, as the element says; one that does not say counts as depending on everything.
+template <class E>
+bool depends_on_time(const E& element) {
+  if constexpr (requires { element.uses_time(); })
+    return element.uses_time();
+  else
+    return true;
+}
+template <class E>
+bool depends_on_speed(const E& element) {
+  if constexpr (requires { element.uses_speed(); })
+    return element.uses_speed();
+  else
+    return true;
+}
 
 }  // namespace kurbel

@@ -2,6 +2,7 @@
 // cost.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -77,6 +78,8 @@ class ElementPool {
   virtual void add_jacobian(const Instant& now, const double* alpha, double* slots) const = 0;
 
   virtual int guard_count() const { return 0; }
+  // Every law of the pool changes at fixed angles of its shaft alone, for either direction: load edges.
+  virtual bool guards_are_of_angle() const { return guard_count() == 0; }
   // Positive while the present modes hold, of order one.
   virtual void guards(const Instant&, double*) const {}
   virtual void fire(const Instant&, int /*guard*/, int* /*mode*/) const {}
@@ -238,6 +241,13 @@ class ShaftPool final : public ElementPool {
   int guard_count() const override {
     if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::guards;
     return 0;
+  }
+  bool guards_are_of_angle() const override {
+    if constexpr (Guarded<E>)
+      return UsesAngle<E> && std::none_of(placed_.begin(), placed_.end(), [](const Placed& p) {
+               return depends_on_speed(p.element) || depends_on_time(p.element);
+             });
+    return true;
   }
   void guards(const Instant& now, double* g) const override {
     if constexpr (Guarded<E>)

@@ -231,6 +231,12 @@ void Equations::write_quadratures(double* rate) {
   }
 }
 
+Equations::ShaftBalance Equations::shaft_balance(std::size_t shaft, double t, std::span<const double> y,
+                                                 double* work_rate) {
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate);
+  return {torque_[shaft], inertia_[shaft]};
+}
+
 const SparsityPattern& Equations::jacobian_pattern() {
   if (pattern_.size == size()) return pattern_;
   pattern_ = model_->jacobian.pattern;

@@ -60,6 +60,14 @@ class Equations final : public OdeSystem {
   bool needs_wrap(std::span<const double> y) const;
   double angle_with_turns(std::size_t tracked, std::span<const double> y) const;
 
+  // --- one shaft ---
+  // Σ torques without −½ I′ω² being taken out [N·m], and inertia [kg·m²] of a shaft: ω̇ = torque/inertia. Powers per
+  // account [W] where a place for them is given.
+  struct ShaftBalance {
+    double torque = 0, inertia = 0;
+  };
+  ShaftBalance shaft_balance(std::size_t shaft, double t, std::span<const double> y, double* work_rate = nullptr);
+
   // --- outputs ---
   const Snapshot& snapshot(double t, std::span<const double> y);
   double kinetic_energy(double t, std::span<const double> y);

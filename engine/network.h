@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <type_traits>
 #include <typeindex>
@@ -85,6 +86,16 @@ class ShaftElementMaker {
   virtual double mean_inertia() const { return 0; }   // of a mechanism, on its own shaft
   virtual double least_inertia() const { return 0; }  // over a turn
   virtual double cycle() const { return 0; }          // angle of one cycle of a mechanism [rad]
+  // I_r and I_r′ of a mechanism at an angle of its own (phase added) [rad], on its own shaft [kg·m²], [kg·m²/rad].
+  struct InertiaAt {
+    double value = 0, slope = 0;
+  };
+  virtual InertiaAt inertia_at(double /*angle*/) const { return {}; }
+  // Its torque repeats after this angle of its own shaft [rad].
+  virtual double angle_period() const { return 2 * std::numbers::pi; }
+  // What its torque depends on besides the angle; a maker that does not say counts as depending on everything.
+  virtual bool uses_time() const { return true; }
+  virtual bool uses_speed() const { return true; }
   virtual int mode_count() const { return 1; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
@@ -99,6 +110,14 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
   bool uses_angle() const override { return UsesAngle<E>; }
   bool directional() const override { return Directional<E>; }
   Rated rated() const override { return element_.rated(); }
+  bool uses_time() const override { return Timed<E> || depends_on_time(element_); }
+  bool uses_speed() const override { return depends_on_speed(element_); }
+  double angle_period() const override {
+    if constexpr (requires { element_.angle_period(); })
+      return element_.angle_period();
+    else
+      return 2 * std::numbers::pi;
+  }
   Account account() const override {
     if constexpr (requires { element_.work_account; })
       return element_.work_account;

@@ -24,6 +24,11 @@ bool SliderCrankMaker::directional() const {
                      [](const SliderLoad& l) { return l.depends_on_travel(); });
 }
 
+// Weight and forces over travel depend on the angle alone; so does I_r.
+bool SliderCrankMaker::uses_speed() const {
+  return std::any_of(crank_.loads.begin(), crank_.loads.end(), [](const SliderLoad& l) { return l.uses_speed(); });
+}
+
 // Loads give a scale of torque: greatest force times crank radius.
 Rated SliderCrankMaker::rated() const {
   double force = 0;

@@ -39,6 +39,13 @@ class SliderCrankMaker final : public ShaftElementMaker {
   double mean_inertia() const override { return crank_.mean_inertia; }
   double least_inertia() const override { return crank_.least_inertia; }
   double cycle() const override;
+  InertiaAt inertia_at(double angle) const override {
+    const auto [value, slope] = crank_.reduced->inertia(angle);
+    return {value, slope};
+  }
+  double angle_period() const override { return cycle(); }
+  bool uses_time() const override { return false; }
+  bool uses_speed() const override;
   std::string describe() const override;
   int mode_count() const override { return 1 + static_cast<int>(crank_.loads.size()); }
   std::vector<std::pair<std::string, Account>> further_accounts() const override;
@@ -57,6 +64,7 @@ class SliderCrankPool final : public ElementPool {
   void register_jacobian(JacobianPattern& pattern) override;
   void add_jacobian(const Instant& now, const double* alpha, double* slots) const override;
   int guard_count() const override { return guards_; }
+  bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const int* mode) const override;

@@ -47,6 +47,7 @@ struct ConstantForce {
   T value(const SliderState<T>&) const {
     return T(force);
   }
+  bool uses_speed() const { return false; }
 };
 
 // F = −F₀ sgn v; holds the slider at standstill with up to F₀.
@@ -57,6 +58,7 @@ struct OpposingForce {
   T value(const SliderState<T>& s) const {
     return T(-force * s.travel);
   }
+  bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>&) const { return {-force, force}; }
 };
 
@@ -69,6 +71,7 @@ struct MediumResistance {
     using std::abs;
     return -(viscous + quadratic * abs(s.v)) * s.v;
   }
+  bool uses_speed() const { return viscous != 0 || quadratic != 0; }
 };
 
 // Straight pieces with jumps between them; numbered as a Curve's.
@@ -123,6 +126,7 @@ struct PressForce {
     if (!end.approached(s.travel)) return T(0.0);
     return -static_cast<double>(end.side) * profile.value_in(s.mode, end.distance(s.x));
   }
+  bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
     const double force = profile.value_in(profile.piece(end.distance(s.x)), end.distance(s.x));
     return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
@@ -159,6 +163,7 @@ struct TravelForce {
   T value(const SliderState<T>& s) const {
     return -static_cast<double>(end.side) * branch(s.travel).value_in(s.mode, end.distance(s.x));
   }
+  bool uses_speed() const { return false; }
   void guard(const SliderState<double>& s, double* g) const {
     PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
   }
@@ -178,6 +183,7 @@ struct AngleForce {
     const double moved = PieceGuard::near_piece(curve, s.mode, value_of(s.phi)) - value_of(s.phi);
     return -static_cast<double>(end.side) * curve.value_in(s.mode, s.phi + moved);
   }
+  bool uses_speed() const { return false; }
   void guard(const SliderState<double>& s, double* g) const {
     PieceGuard::guard(curve, s.mode, value_of(s.phi), 1.0, g);
   }
@@ -202,6 +208,9 @@ struct SliderLoad {
   }
   bool directional() const {
     return std::visit([](const auto& l) { return Directional<std::decay_t<decltype(l)>>; }, law);
+  }
+  bool uses_speed() const {
+    return std::visit([](const auto& l) { return depends_on_speed(l); }, law);
   }
   double period() const {
     const auto* over_angle = std::get_if<AngleForce>(&law);

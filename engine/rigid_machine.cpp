@@ -1,0 +1,209 @@
+// rigid_machine.cpp — evaluates the rigid machine at angles and speeds, and finds where its torques' laws change.
+#include "engine/rigid_machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/run.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr int most_turns = 24;         // of a cycle
+constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts as here
+constexpr int cells_a_turn = 720;      // of the search for edges
+constexpr double below_zero = -1e-12;  // of a guard of order one: a touch within rounding is no edge
+
+std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
+
+double within(double angle, double period) {
+  const double rest = std::fmod(angle, period);
+  return rest < 0 ? rest + period : rest;
+}
+
+std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
+  if (!model->elastic.empty())
+    throw std::invalid_argument(fmt::format(
+        "the machine is elastic (effects: {}); one angle and its speed describe it only with elasticity off",
+        model->effects.describe()));
+  if (model->free_shafts != 1)
+    throw std::invalid_argument(
+        "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
+  return model;
+}
+
+// Smallest of f within [a, b] by the golden section, to a part in 10⁴ of the interval or until it is negative.
+double lowest(const std::function<double(double)>& f, double a, double b) {
+  constexpr double part = 0.38196601125010515;
+  double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
+  for (int i = 0; i < 40 && fx >= below_zero && fy >= below_zero; ++i) {
+    if (fx < fy) {
+      b = y, y = x, fy = fx;
+      fx = f(x = a + part * (b - a));
+    } else {
+      a = x, x = y, fx = fy;
+      fy = f(y = b - part * (b - a));
+    }
+  }
+  return fx < fy ? x : y;
+}
+
+}  // namespace
+
+RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, Effects{})) {}
+
+RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
+    : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
+  find_cycle();
+  set_modes(0, 1);
+  // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed.
+  const double whole = equations_.shaft_balance(0, 0, state_).inertia;
+  if (std::abs(constant_inertia() + mechanism_inertia(0).value - whole) > 1e-9 * whole)
+    throw std::logic_error("a mechanism tells its reduced inertia otherwise than its equations");
+}
+
+// The shortest multiple of a turn after which every element that depends on an angle is back.
+void RigidMachine::find_cycle() {
+  const Model& m = *model_;
+  std::vector<double> period;  // on the link
+  for (const Network::ShaftElement& e : m.network.elements)
+    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / std::abs(m.node_ratio[at_index(e.node)]));
+  const auto repeats = [&](double cycle) {
+    return std::all_of(period.begin(), period.end(),
+                       [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });
+  };
+  for (int turns = 1; turns <= most_turns; ++turns)
+    if (repeats(turns * turn)) {
+      cycle_ = turns * turn;
+      return;
+    }
+  periodic_ = false;
+  cycle_ = m.cycle > 0 ? m.cycle : turn;
+}
+
+bool RigidMachine::uses_time() const {
+  const auto& elements = model_->network.elements;
+  return std::any_of(elements.begin(), elements.end(), [](const Network::ShaftElement& e) {
+    return e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop;
+  });
+}
+
+bool RigidMachine::uses_speed() const {
+  const auto& elements = model_->network.elements;
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const Network::ShaftElement& e) { return e.element->uses_speed(); });
+}
+
+bool RigidMachine::edges_are_of_angle() const {
+  return std::all_of(model_->pools.begin(), model_->pools.end(),
+                     [](const auto& pool) { return pool->guards_are_of_angle(); });
+}
+
+double RigidMachine::constant_inertia() const { return model_->shafts[0].inertia; }
+
+// I = Σ i² I_own(i φ + ψ),  I′ = Σ i³ I′_own with i = ω_own/ω
+RigidMachine::Inertia RigidMachine::mechanism_inertia(double phi) const {
+  Inertia sum;
+  for (const Network::ShaftElement& e : model_->network.elements) {
+    if (!(e.element->cycle() > 0)) continue;
+    const double ratio = model_->node_ratio[at_index(e.node)];
+    const auto own = e.element->inertia_at(ratio * phi + e.phase);
+    sum.value += ratio * ratio * own.value;
+    sum.slope += ratio * ratio * ratio * own.slope;
+  }
+  return sum;
+}
+
+void RigidMachine::fill_state(double phi, double omega) {
+  const Model& m = *model_;
+  for (std::size_t i = 0; i < m.angles.size(); ++i) state_[i] = m.angles[i].gain * phi;
+  state_[equations_.speed_index(0)] = omega;
+}
+
+void RigidMachine::set_modes(double phi, double omega) {
+  const double here = periodic_ ? within(phi, cycle_) : phi;
+  const double before = std::copysign(ahead * std::max(1.0, std::abs(here)), omega);
+  state_ = equations_.modes_from_scratch(0, here + before, omega);
+}
+
+// M = Σ torques of the equations, which hold −½ I_r′ ω² for the mechanisms.
+RigidMachine::At RigidMachine::at(double phi, double omega, bool shares) {
+  fill_state(phi, omega);
+  const auto [torque, inertia] = equations_.shaft_balance(0, 0, state_, shares ? share_.data() : nullptr);
+  At result{inertia, mechanism_inertia(phi).slope, 0, {}};
+  result.torque = torque + 0.5 * result.slope * omega * omega;
+  if (shares) {
+    for (double& share : share_) share /= omega;
+    result.share = share_;
+  }
+  return result;
+}
+
+// Walks once round with the modes that hold; a guard that falls below zero marks an edge, also where it comes back
+// within the same cell.
+std::vector<double> RigidMachine::edges(int direction) {
+  const Model& m = *model_;
+  std::vector<std::size_t> watched;
+  std::size_t next = 0;
+  for (const auto& pool : m.pools) {
+    const auto count = static_cast<std::size_t>(pool->guard_count());
+    if (pool->guards_are_of_angle())
+      for (std::size_t i = 0; i < count; ++i) watched.push_back(next + i);
+    next += count;
+  }
+  std::vector<double> found, guard(equations_.guard_count());
+  if (watched.empty()) return found;
+  const double sign = direction >= 0 ? 1 : -1;
+  // s grows in the direction of motion; the search begins off the round angles where edges like to lie.
+  const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + cycle_;
+  const auto guards_at = [&](double s) -> const std::vector<double>& {
+    fill_state(sign * s, sign);
+    equations_.guards(0, state_, guard);
+    return guard;
+  };
+  const auto one = [&](std::size_t i) { return [&, i](double s) { return guards_at(s)[i]; }; };
+  set_modes(sign * begin, sign);
+  double here = begin;
+  while (here < end) {
+    const double to = std::min(here + cell, end), middle = 0.5 * (here + to);
+    const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
+    double edge = HUGE_VAL;
+    for (const std::size_t i : watched) {
+      double below = HUGE_VAL;  // where the guard is negative, first guess
+      if (at_middle[i] < below_zero) {
+        below = middle;
+      } else if (at_to[i] < below_zero) {
+        below = to;
+      } else if (at_middle[i] < 1 && (at_middle[i] <= std::min(at_here[i], at_to[i]) ||
+                                      std::min(at_here[i], at_to[i]) < 0.1 * std::max(at_here[i], at_to[i]))) {
+        const double low = lowest(one(i), here, to);
+        if (guards_at(low)[i] < below_zero) below = low;
+      }
+      if (below == HUGE_VAL) continue;
+      const double from = at_here[i];
+      edge = std::min(edge, from > 0 ? find_root(one(i), here, from, below, guards_at(below)[i]) : here);
+    }
+    if (edge == HUGE_VAL) {
+      here = to;
+      continue;
+    }
+    edge = std::max(edge, here);
+    const double angle = periodic_ ? within(sign * edge, cycle_) : sign * edge;
+    found.push_back(cycle_ - angle < 1e-13 ? 0 : angle);
+    set_modes(sign * edge, sign);
+    here = std::max(edge, std::nextafter(here, end));
+    // Past the edge by what counts as here, so that its own guard is found above zero.
+    here += 2 * ahead * std::max(1.0, std::abs(here));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end(), [](double a, double b) { return b - a < 1e-12; }), found.end());
+  return found;
+}
+
+}  // namespace kurbel
