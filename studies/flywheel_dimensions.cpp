@@ -80,9 +80,11 @@ void make_rim(const FlywheelRequest& r, double limit, FlywheelDimensions& d) {
   const double most = Spoked(d.diameter, widest * d.diameter, density).inertia();
   if (!(most > r.inertia))
     throw std::invalid_argument(fmt::format(
-        "flywheel: {:.6g} kg·m² do not go into a rim of {:.6g} m with b = 2 h (at most {:.6g} kg·m²); give a "
-        "larger --diameter, or --form disc",
-        r.inertia, d.diameter, most));
+        "flywheel: {:.6g} kg·m² do not go into a rim of {:.6g} m with b = 2 h (at most {:.6g} kg·m²); {}, or "
+        "choose --form disc",
+        r.inertia, d.diameter, most,
+        r.diameter > 0 ? "give a larger --diameter"
+                       : "take a --material that bears more rim speed, or put the flywheel on a slower shaft"));
   d.thickness =
       grown_to([&](double h) { return Spoked(d.diameter, h, density).inertia(); }, r.inertia, 0, widest * d.diameter);
   const Spoked parts(d.diameter, d.thickness, density);

@@ -10,11 +10,11 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t nodes = 16;          // samples of a piece
+constexpr std::size_t nodes = Piecewise::nodes;
 constexpr std::size_t most_pieces = 8192;  // refinement stops here
 
 // Chebyshev points of the first kind, strictly inside −1 … 1.
-double node(std::size_t k, std::size_t n) {
+double chebyshev_node(std::size_t k, std::size_t n) {
   return std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n));
 }
 
@@ -70,7 +70,8 @@ double tail(const std::vector<double>& c) {
 std::vector<double> restricted(const std::vector<double>& c, double lo, double hi) {
   const std::size_t n = c.size();
   std::vector<double> samples(n), out(n, 0.0);
-  for (std::size_t k = 0; k < n; ++k) samples[k] = clenshaw(c.data(), n, lo + 0.5 * (hi - lo) * (1 + node(k, n)));
+  for (std::size_t k = 0; k < n; ++k)
+    samples[k] = clenshaw(c.data(), n, lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, n)));
   for (std::size_t j = 0; j < n; ++j) {
     for (std::size_t k = 0; k < n; ++k)
       out[j] += samples[k] * std::cos(std::numbers::pi * static_cast<double>(j) * (static_cast<double>(k) + 0.5) /
@@ -150,7 +151,7 @@ class PiecewiseBuilder {
     if (enter_) enter_(0.5 * (lo + hi));
     std::vector<double> samples(channels_ * nodes), at(channels_);
     for (std::size_t k = 0; k < nodes; ++k) {
-      sampler_(lo + 0.5 * (hi - lo) * (1 + node(k, nodes)), at);
+      sampler_(lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, nodes)), at);
       for (std::size_t channel = 0; channel < channels_; ++channel) {
         if (!std::isfinite(at[channel])) throw std::runtime_error("a function over the cycle is not finite");
         samples[channel * nodes + k] = at[channel];
@@ -204,6 +205,19 @@ Piecewise Piecewise::of(const std::vector<double>& edges, const std::function<do
   return sample(
              edges, 1, [&](double x, std::span<double> out) { out[0] = f(x); }, {}, tolerance)
       .front();
+}
+
+double Piecewise::node(std::size_t k) { return chebyshev_node(k, nodes); }
+
+Piecewise Piecewise::through(const std::vector<double>& breaks, const std::vector<double>& samples) {
+  check_edges(breaks);
+  if (samples.size() != (breaks.size() - 1) * nodes) throw std::logic_error("samples of a wrong number");
+  Piecewise f;
+  f.breaks_ = std::make_shared<std::vector<double>>(breaks);
+  f.terms_ = nodes;
+  f.coefficient_.resize(samples.size());
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) transform(&samples[i * nodes], &f.coefficient_[i * nodes]);
+  return f;
 }
 
 Piecewise Piecewise::linear(const std::vector<double>& x, const std::vector<double>& y) {

@@ -34,6 +34,10 @@ class Piecewise {
                                        const Enter& enter = {}, double tolerance = 2e-13);
   static Piecewise of(const std::vector<double>& edges, const std::function<double(double)>& f,
                       double tolerance = 2e-13);
+  // The polynomials through samples at node(0), node(1), … of each piece, piece after piece.
+  static constexpr std::size_t nodes = 16;
+  static double node(std::size_t k);  // −1 … 1 across a piece, descending
+  static Piecewise through(const std::vector<double>& breaks, const std::vector<double>& samples);
   // Straight between points; two points with the same x make a jump.
   static Piecewise linear(const std::vector<double>& x, const std::vector<double>& y);
 
