@@ -215,7 +215,7 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
         "nothing limits the machine's speed: up to {:.6g} rpm the drive gives more than the load takes; give "
         "--mean-speed, or a motor whose torque falls with its speed",
         rpm(top)));
-  throw std::invalid_argument(
+  throw WeakDrive(
       fmt::format("the drive is too weak for the cycle: at its best, at {:.6g} rpm of the reduction link, it gives a "
                   "mean torque of "
                   "{:.6g} N·m there while the load takes {:.6g} N·m; {:.6g} N·m are missing ({:.3g} % of the load); "

@@ -2,6 +2,7 @@
 // angle.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,11 @@ MachineCycle machine_cycle(RigidMachine& machine, double speed);
 // Load edges of the cycle with its begin and end.
 std::vector<double> cycle_edges(RigidMachine& machine);
 
+// The drive cannot keep the machine going; what() says by how much.
+struct WeakDrive : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 // Where the mean torque over a cycle vanishes at constant speed, and slows a faster machine: the operating speed.
 struct OperatingSpeed {
   double speed = 0;            // [rad/s]
@@ -33,7 +39,7 @@ struct OperatingSpeed {
   std::vector<double> others;  // further stable ones [rad/s]
 };
 // The fastest stable one. Throws std::invalid_argument in words: no torque depends on the speed (then any mean speed is
-// a steady one); the drive is too weak, and by how much; nothing limits the speed.
+// a steady one); nothing limits the speed; as WeakDrive, the drive is too weak, and by how much.
 OperatingSpeed operating_speed(RigidMachine& machine);
 
 // Steady motion with torques of angle and speed: the periodic solution of dT/dφ = M(φ, ω), T = ½ I ω² (THEORY 2.3),
