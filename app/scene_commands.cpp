@@ -87,7 +87,11 @@ int new_scene(const std::string& kind, const std::string& file) {
 }
 
 // All keys as Markdown, or those of one kind as text for a terminal.
-int print_keys(const std::string& kind) {
+int print_keys(const std::string& kind, bool list_kinds) {
+  if (list_kinds) {
+    for (const std::string& name : names_of_keys()) fmt::print("{}\n", name);
+    return exit_done;
+  }
   if (kind.empty()) {
     fmt::print("{}", keys_in_markdown());
     return exit_done;
@@ -122,6 +126,7 @@ int figures(const std::string& file) {
 void add_scene_commands(CLI::App& app, int& code) {
   struct Words {
     std::string first, second;
+    bool list = false;
   };
   const auto add = [&](const char* name, const char* what, int (*action)(const Words&)) {
     const auto words = std::make_shared<Words>();
@@ -141,8 +146,9 @@ void add_scene_commands(CLI::App& app, int& code) {
   new_command->add_option("file", made->second,
                           "file to write (default: KIND.toml); one that exists is never overwritten");
   const auto [keys_command, kind] = add("keys", "print the keys of one kind, or of a whole scene (Markdown)",
-                                        [](const Words& w) { return print_keys(w.first); });
+                                        [](const Words& w) { return print_keys(w.first, w.list); });
   keys_command->add_option("kind", kind->first, "e.g. coupling, \"induction motor\", run (default: all)");
+  keys_command->add_flag("--list", kind->list, "only the names of the kinds, a line each");
   add("schema", "print the JSON Schema of a scene, for editors", [](const Words&) {
     fmt::print("{}", scene_schema());
     return exit_done;

@@ -83,11 +83,11 @@ double latency(F&& f) {
 
 // Microseconds of one Simbody sample, best of several rounds.
 double extraction_microseconds(const SliderCrankData& d) {
-  SliderCrankBodies bodies(d);
+  const auto bodies = make_bodies(d);
   double best = 1e9;
   for (int round = 0; round < 5; ++round) {
     const double start = seconds();
-    for (int i = 0; i < 500; ++i) sink = bodies.sample(0.0126 * i).inertia;
+    for (int i = 0; i < 500; ++i) sink = bodies->sample(0.0126 * i).inertia;
     best = std::min(best, (seconds() - start) / 500 * 1e6);
   }
   return best;
@@ -130,10 +130,10 @@ TableCost bench_tables() {
     double build = 1e9;
     for (int i = 0; i < 3; ++i) {
       const double start = seconds();
-      sink = extract_slider_crank(data).inertia(1).value;
+      sink = extract_mechanism(data).inertia(1).value;
       build = std::min(build, (seconds() - start) * 1e3);
     }
-    const ReducedMechanism table = extract_slider_crank(data);
+    const ReducedMechanism table = extract_mechanism(data);
     const auto from_table = [&](double phi) { return table.inertia(phi); };
     const auto from_closed_form = [&](double phi) { return closed.inertia_and_slope(phi); };
     const double table_ns = nanoseconds(from_table), closed_ns = nanoseconds(from_closed_form);

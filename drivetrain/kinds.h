@@ -7,6 +7,13 @@
 
 namespace kurbel {
 
-std::vector<Kind> drivetrain_kinds();
+std::vector<Kind> drivetrain_kinds();  // all of these:
+
+std::vector<Kind> inertia_kinds();
+std::vector<Kind> coupling_kinds();
+std::vector<Kind> gearbox_kinds();
+std::vector<Kind> motor_kinds();
+std::vector<Kind> source_kinds();
+std::vector<Kind> load_kinds();
 
 }  // namespace kurbel

@@ -160,9 +160,12 @@ class SceneReader {
         if (inner.key == "line") misplaced_line_ = &inner;
       }
     table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), is_top_key), table.entries.end());
+    const DocumentEntry* on = entry.value.find("on");
+    std::vector<std::string> read_elsewhere = {"kind"};
+    if (on || kind->placement == Placement::inline_one) read_elsewhere.push_back("on");
     Section section =
-        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, {"kind", "on"});
-    if (const DocumentEntry* on = entry.value.find("on")) read_on(section, on->value);
+        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, read_elsewhere);
+    if (on) read_on(section, on->value);
     index_[name] = scene_.components.size();
     scene_.components.push_back(std::move(section));
     return true;

@@ -9,7 +9,10 @@ namespace kurbel {
 
 std::vector<Kind> mechanism_kinds();
 
-// Loads on a slider, for the docs.
-const std::vector<Kind>& slider_load_kinds();
+// One file each.
+Kind four_bar_kind();
+Kind knuckle_press_kind();
+Kind quick_return_kind();
+Kind slider_crank_kind();
 
 }  // namespace kurbel

@@ -2,16 +2,15 @@
 //
 // Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
 // digits.
-//     (2.4)  M_d − M_c = I_r ε + ½ ω² I_r′        power of a slider force F: F x′ ω
+//     (2.4)  M_d − M_c = I_r ε + ½ ω² I_r′        power of a force F on the output: F x′ ω
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <memory>
 
+#include "mechanisms/mechanism_data.h"
 #include "mechanisms/periodic_table.h"
-#include "mechanisms/slider_crank_geometry.h"
-#include "mechanisms/slider_crank_simbody.h"
 
 namespace kurbel {
 
@@ -21,9 +20,9 @@ class ReducedMechanism {
     inertia_channel,            // I_r [kg·m²]
     inertia_slope,              // I_r′ [kg·m²/rad]
     inertia_curvature,          // I_r″ [kg·m²/rad²]
-    slider_position_channel,    // x [m]
-    slider_velocity_ratio,      // x′ [m/rad]
-    slider_acceleration_ratio,  // x″ [m/rad²]
+    output_position_channel,    // x [m], or ψ [rad] of an output that rocks; so with the next two
+    output_velocity_ratio,      // x′ [m/rad]
+    output_acceleration_ratio,  // x″ [m/rad²]
     gravity_torque_channel,     // M_g [N·m], positive when it drives
     gravity_torque_slope,       // M_g′ [N·m/rad]
     channel_count
@@ -42,8 +41,8 @@ class ReducedMechanism {
     double value(Channel channel) const { return PeriodicTable::value(cursor_, channel); }
     ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                  // I_r, I_r′
     ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }         // I_r′, I_r″
-    ValueAndSlope<double> slider_position() const { return pair(slider_position_channel); }  // x, x′
-    ValueAndSlope<double> slider_velocity() const { return pair(slider_velocity_ratio); }    // x′, x″
+    ValueAndSlope<double> output_position() const { return pair(output_position_channel); }  // x, x′
+    ValueAndSlope<double> output_velocity() const { return pair(output_velocity_ratio); }    // x′, x″
     ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }    // M_g, M_g′
 
    private:
@@ -60,8 +59,8 @@ class ReducedMechanism {
   At at(double phi) const { return At(table_, phi); }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
   ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
-  ValueAndSlope<double> slider_position(double phi) const { return at(phi).slider_position(); }
-  ValueAndSlope<double> slider_velocity(double phi) const { return at(phi).slider_velocity(); }
+  ValueAndSlope<double> output_position(double phi) const { return at(phi).output_position(); }
+  ValueAndSlope<double> output_velocity(double phi) const { return at(phi).output_velocity(); }
   ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
 
   // Pieces, samples and the measured error of every channel.
@@ -76,14 +75,18 @@ class ReducedMechanism {
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 
-// The slider-crank extracted from Simbody. Kept for the life of the process and shared by all who ask with equal data.
-// Throws as SliderCrankBodies does. Safe to call from several threads.
-std::shared_ptr<const ReducedMechanism> reduce_slider_crank(const SliderCrankData& data,
-                                                            double tolerance = table_tolerance,
-                                                            std::size_t max_pieces = table_max_pieces);
+// Simbody's model of any mechanism. Throws std::invalid_argument for data outside its domain.
+inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) {
+  return std::visit([](const auto& d) { return make_bodies(d); }, data);
+}
+
+// A mechanism extracted from Simbody. Kept for the life of the process and shared by all who ask with equal data.
+// Throws as make_bodies and MechanismBodies do. Safe to call from several threads.
+std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
+                                                         std::size_t max_pieces = table_max_pieces);
 
 // The same, always extracted afresh.
-ReducedMechanism extract_slider_crank(const SliderCrankData& data, double tolerance = table_tolerance,
-                                      std::size_t max_pieces = table_max_pieces);
+ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance = table_tolerance,
+                                   std::size_t max_pieces = table_max_pieces);
 
 }  // namespace kurbel

@@ -1,8 +1,9 @@
-// slider_loads.h — forces on the slider, each a page of physics over the slider's motion.
+// slider_loads.h — forces on a mechanism's output, each a page of physics over the output's motion.
 //
-// F is positive along +x, towards the extended end. Tables and profiles are given over the distance d to the working
-// end and are positive where they push the slider away from it; d = x_end − x at an extended working end, x − x_end at
-// a folded one.
+// Written for a slider; on an output that rocks read angle [rad] for position and N·m for N.
+// F is positive along +x, towards the extended end (the greatest x; the folded end is the least). Tables and profiles
+// are given over the distance d to the working end and are positive where they push the slider away from it; d = x_end
+// − x at an extended working end, x − x_end at a folded one.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace kurbel {
 template <class T>
 struct SliderState {
   T phi;           // crank angle [rad]
-  T x;             // position from the crank axis [m]
+  T x;             // position of the output [m]
   T v;             // speed [m/s]
   int travel = 0;  // sign of v, fixed between events; 0 = crank at standstill
   int mode = 0;    // piece of the load's law, fixed between events

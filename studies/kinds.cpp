@@ -88,7 +88,7 @@ std::string aligned(const std::vector<Key>& keys) {
     std::string line = "  ";
     std::size_t begin = 2;
     for (std::size_t k = 0; k < 5; ++k) {
-      if (width(line) > begin) {  // a long list of values has the line for itself
+      if (k > 0 && width(line) + 2 > begin) {  // a long list of values has the line for itself
         text += line + "\n";
         line.clear();
       }

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <ctime>
 
+#include "mechanisms/mechanism.h"
 #include "mechanisms/multibody_run.h"
-#include "mechanisms/slider_crank.h"
+#include "studies/report/trace.h"
 
 namespace kurbel {
 namespace {
@@ -24,11 +25,11 @@ double cpu_now() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-const SliderCrankMaker* only_mechanism(const Model& model) {
-  const SliderCrankMaker* found = nullptr;
+const MechanismMaker* only_mechanism(const Model& model) {
+  const MechanismMaker* found = nullptr;
   int count = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const SliderCrankMaker*>(e.element.get())) {
+    if (const auto* maker = dynamic_cast<const MechanismMaker*>(e.element.get())) {
       found = maker;
       ++count;
     }
@@ -55,7 +56,7 @@ class ShaftTorque {
   Equations equations_;
 };
 
-double slider_force(const SliderCrank& crank, double phi, double x, double v) {
+double slider_force(const Mechanism& crank, double phi, double x, double v) {
   double sum = 0;
   for (const SliderLoad& load : crank.loads) {
     SliderState<double> s{phi, x, v, v > 0 ? 1 : v < 0 ? -1 : 0, 0};
@@ -69,27 +70,47 @@ double slider_force(const SliderCrank& crank, double phi, double x, double v) {
   return sum;
 }
 
+// Under the names of the reduced model's traces, so that one report draws both.
+std::shared_ptr<const Traces> traces_of(const Model& model, const Mechanism& crank, const MultibodyResult& run) {
+  const std::string link = model.network.nodes[at(model.reduction_node)].component;
+  const auto traces = std::make_shared<Traces>();
+  traces->over_time = {{"angle", "rad", {}, {}},
+                       {"speed." + link, "rad/s", {}, {}},
+                       {"position." + crank.name, "m", {}, {}},
+                       {"velocity." + crank.name, "m/s", {}, {}},
+                       {"kinetic_energy", "J", {}, {}}};
+  for (const MultibodySample& s : run.samples) {
+    const double values[] = {s.phi - crank.phase, s.omega, s.x, s.v, s.kinetic_energy};
+    for (std::size_t i = 0; i < traces->over_time.size(); ++i) {
+      traces->over_time[i].x.push_back(s.t);
+      traces->over_time[i].y.push_back(values[i]);
+    }
+  }
+  return traces;
+}
+
 }  // namespace
 
 Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label,
                           const SimulateOptions& options) {
   const Model& model = *shared;
   const RunSettings& settings = model.scene.run;
-  const SliderCrankMaker* mechanism = only_mechanism(model);
+  const MechanismMaker* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
     throw SceneError({{model.scene.file, settings.start.at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
-  if (!mechanism) refuse("needs exactly one slider-crank");
+  if (!mechanism || !std::holds_alternative<SliderCrankData>(mechanism->mechanism().data))
+    refuse("needs exactly one slider-crank, and no other mechanism");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");
-  const SliderCrank& crank = mechanism->crank();
+  const Mechanism& crank = mechanism->mechanism();
   const auto torque = std::make_shared<ShaftTorque>(shared);
   Equations equations(shared, false);
   const std::vector<double> start = equations.start(0);
 
   MultibodyProblem problem;
-  problem.mechanism = crank.data;
+  problem.mechanism = std::get<SliderCrankData>(crank.data);
   problem.shaft_inertia = model.shafts.front().inertia;
   const auto phi_now = std::make_shared<double>(0);
   problem.shaft_torque = [torque, phi_now, phase = crank.phase, &options](double t, double phi, double omega) {
@@ -107,7 +128,8 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   const std::vector<std::string> integrators = multibody_integrators();
   const std::string method = options.method.value_or(settings.method);
   problem.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
-  const int rows = std::min(settings.samples, 201);
+  // Each report time ends a step of Simbody's: only a report's plots are worth that.
+  const int rows = options.traces ? std::clamp(settings.samples, 2, 1001) : 2;
   for (int i = 0; i < rows; ++i) problem.times.push_back(problem.t_end * i / (rows - 1));
 
   Result result;
@@ -162,6 +184,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};
     result.energy.kinetic_start = fine.samples.front().kinetic_energy;
     result.energy.kinetic_end = b.kinetic_energy;
+    if (options.traces) result.traces = traces_of(model, crank, fine);
     result.notes.push_back(fmt::format(
         "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
   } catch (const std::runtime_error& error) {

@@ -25,6 +25,7 @@ struct OneRun {
   std::unique_ptr<ExtremeRecorder> extremes;
   CycleRecorder cycles;
   std::unique_ptr<EnergyAudit> energy;
+  std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
   Periods periods;
 };
@@ -197,9 +198,9 @@ class Simulation {
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()};
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
-      const auto traces = std::make_shared<TraceRecorder>(*model_);
-      observers.push_back(traces.get());
-      result_.traces = traces;
+      run->traces = std::make_unique<TraceRecorder>(*model_);
+      observers.push_back(run->traces.get());
+      result_.traces = run->traces->traces();
     }
     run->outcome = integrate(equations_, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanisms/slider_crank.h"
+#include "mechanisms/mechanism.h"
 #include "studies/report/run_report.h"
 #include "studies/report/trace.h"
 
@@ -71,7 +71,7 @@ void add_parts(MachineView& view, const Model& model) {
 
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
   const Model& model = *r.model;
-  const TraceRecorder& traces = *r.traces;
+  const Traces& traces = *r.traces;
   MachineView::Motion motion{.label = r.label,
                              .role = role,
                              .angle = sampled(traces.find("angle"), view.time),
@@ -86,10 +86,9 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
       continue;
     }
     const Network::Ports& ports = model.network.ports.at(part.name);
-    motion.twist_in.push_back(sampled(traces.find(TraceRecorder::node_key(ports.in)), view.time));
-    motion.twist_out.push_back(ports.in == ports.out
-                                   ? motion.twist_in.back()
-                                   : sampled(traces.find(TraceRecorder::node_key(ports.out)), view.time));
+    motion.twist_in.push_back(sampled(traces.find(Traces::node_key(ports.in)), view.time));
+    motion.twist_out.push_back(ports.in == ports.out ? motion.twist_in.back()
+                                                     : sampled(traces.find(Traces::node_key(ports.out)), view.time));
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
     for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
       for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
@@ -111,11 +110,10 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
-    if (const auto* crank =
-            dynamic_cast<const SliderCrankMaker*>(model.network.elements[at(model.reduction_element)].element.get())) {
-      const SliderCrankData& d = crank->crank().data;
-      view.slider_crank = {d.radius, d.rod_length, d.offset, d.stroke_angle};
-    }
+    if (const auto* maker =
+            dynamic_cast<const MechanismMaker*>(model.network.elements[at(model.reduction_element)].element.get()))
+      if (const auto* d = std::get_if<SliderCrankData>(&maker->mechanism().data))
+        view.slider_crank = {d->radius, d->rod_length, d->offset, d->stroke_angle};
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());

@@ -374,4 +374,8 @@ void write_html(const Report& report, const std::string& path) {
   std::filesystem::rename(temporary, path);
 }
 
+std::string report_footer() {
+  return fmt::format("kurbel {} · g++ {} · Plotly.js 3.7.0 (basic)", KURBEL_VERSION, __VERSION__);
+}
+
 }  // namespace kurbel

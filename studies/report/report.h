@@ -141,6 +141,9 @@ int write_gnuplot(const Report& report, const std::string& folder);
 std::string rounded(double value, const std::optional<double>& error = {});
 std::string error_text(const std::optional<double>& error);
 
+// Versions, for the foot of a page.
+std::string report_footer();
+
 // The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; "rad/s" → 1/min.
 struct ReadableUnit {
   std::string unit;

@@ -85,8 +85,8 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
                                const std::string& label) {
   std::vector<std::pair<const Result*, const Trace*>> found;
   for (const Result* r : results) {
-    if (r->traces->last_cycles().empty()) continue;
-    for (const Trace& trace : r->traces->last_cycles().back().traces)
+    if (r->traces->last_cycles.empty()) continue;
+    for (const Trace& trace : r->traces->last_cycles.back().traces)
       if (trace.name == channel) found.emplace_back(r, &trace);
   }
   if (found.empty()) return {};
@@ -96,7 +96,7 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}, .series = {}};
   for (const auto& [r, trace] : found)
     plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));
-  const CycleTraces& last = results.back()->traces->last_cycles().back();
+  const CycleTraces& last = results.back()->traces->last_cycles.back();
   plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", results.back()->label, last.begin, last.end);
   return plot;
 }
@@ -129,7 +129,12 @@ Plot energy_plot(const Result& r) {
       {"work.driving", "driving work", Role::green},       {"work.useful", "useful work", Role::orange},
       {"work.harmful", "harmful work", Role::vermillion},  {"work.weight", "work of weight", Role::purple}};
   std::vector<const Trace*> traces;
-  for (const Line& line : lines) traces.push_back(r.traces->find(line.channel));
+  std::vector<Line> found;
+  for (const Line& line : lines)
+    if (const Trace* trace = r.traces->find(line.channel)) {
+      traces.push_back(trace);
+      found.push_back(line);
+    }
   const ReadableUnit unit = readable_unit(largest(traces), "J");
   Plot plot{.title = fmt::format("Where the energy goes, {} model", r.label),
             .x = {"time", "s"},
@@ -138,7 +143,8 @@ Plot energy_plot(const Result& r) {
             .marks = marks_of(r)};
   for (std::size_t i = 0; i < traces.size(); ++i)
     if (largest({traces[i]}) > 0)
-      plot.series.push_back(series_of(*traces[i], lines[i].name, lines[i].role, 1, unit.factor));
+      plot.series.push_back(series_of(*traces[i], found[i].name, found[i].role, 1, unit.factor));
+  if (r.energy.checks == 0) return plot;
   plot.note = fmt::format(
       "Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.",
       r.energy.relative);
@@ -221,7 +227,7 @@ void add_machine_and_plots(Report& report, const Results& results) {
   if (!drawable(results)) return;
   report.add("").cards.push_back(machine_view(results));
   ReportSection& plots =
-      report.add(results.back()->traces->last_cycles().empty() ? "Over time" : "Over time and over the crank's angle");
+      report.add(results.back()->traces->last_cycles.empty() ? "Over time" : "Over time and over the crank's angle");
   for (Plot& plot : motion_plots(results)) plots.cards.push_back(std::move(plot));
   if (const std::size_t all = couplings(*results.back()).size(); all > most_torque_plots)
     plots.cards.push_back(Text{
@@ -260,10 +266,6 @@ void add_notes(Report& report, const std::vector<std::string>& notes) {
 
 KeyFigure key_of(const Figure& f, const std::string& note) {
   return {in_words(f.name), f.value, f.unit, f.error, note};
-}
-
-std::string footer() {
-  return fmt::format("kurbel {} · g++ {} · Plotly.js 3.7.0 (basic)", KURBEL_VERSION, __VERSION__);
 }
 
 // Largest peak of torque in any coupling.
@@ -335,7 +337,7 @@ std::vector<Plot> motion_plots(const Results& results) {
     add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {} over the crank's angle", joints[i]),
                    "torque"));
   }
-  for (const Trace& trace : front.traces->traces()) {
+  for (const Trace& trace : front.traces->over_time) {
     if (trace.name.starts_with("position."))
       add(over_time(results, trace.name, fmt::format("Position of the slider of {}", trace.name.substr(9)),
                     "position"));
@@ -384,7 +386,7 @@ Report report_of(const Result& r) {
   add_delta_formula(figures, {&r});
   add_notes(report, r.notes);
   add_background(report, {&r});
-  report.footer = footer();
+  report.footer = report_footer();
   return report;
 }
 
@@ -442,7 +444,7 @@ Report report_of(const Comparison& c) {
     for (const std::string& note : r->notes) notes.push_back(r->label + ": " + note);
   add_notes(report, notes);
   add_background(report, results);
-  report.footer = footer();
+  report.footer = report_footer();
   return report;
 }
 

@@ -36,25 +36,25 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
         const double ratio = model.node_ratio[static_cast<std::size_t>(node)];
         if (ratio == 0 || node == link || (node == ports.out && ports.in == ports.out && node != ports.in)) continue;
         bool known = false;
-        for (const Channel& c : channels_) known = known || c.name == node_key(node);
+        for (const Channel& c : channels_) known = known || c.name == Traces::node_key(node);
         if (!known)
-          channels_.push_back({node_key(node), "rad",
+          channels_.push_back({Traces::node_key(node), "rad",
                                [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
       }
     }
   for (const Channel& channel : channels_) {
     if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") || channel.name.starts_with("speed."))
-      over_angle_.push_back(traces_.size());
-    traces_.push_back({channel.name, channel.unit, {}, {}});
+      over_angle_.push_back(traces_->over_time.size());
+    traces_->over_time.push_back({channel.name, channel.unit, {}, {}});
   }
   for (const char* name :
        {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
-    traces_.push_back({name, "J", {}, {}});
-  now_.resize(traces_.size());
+    traces_->over_time.push_back({name, "J", {}, {}});
+  now_.resize(traces_->over_time.size());
 }
 
-const Trace* TraceRecorder::find(const std::string& name) const {
-  for (const Trace& trace : traces_)
+const Trace* Traces::find(const std::string& name) const {
+  for (const Trace& trace : over_time)
     if (trace.name == name) return &trace;
   return nullptr;
 }
@@ -72,9 +72,10 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
       if (model_->accounts[a].kind == kind) sum += y[equations.work_index(a)];
     now_[k++] = sum;
   }
-  for (std::size_t i = 0; i < traces_.size(); ++i) {
-    const bool same = !traces_[i].y.empty() && std::abs(traces_[i].y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
-    if (!only_jumps || !same) push(traces_[i], t, now_[i]);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    Trace& trace = traces_->over_time[i];
+    const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
+    if (!only_jumps || !same) push(trace, t, now_[i]);
   }
   if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle);
 }
@@ -83,7 +84,8 @@ void TraceRecorder::follow_cycle(double t, double angle) {
   const double turn = std::floor(angle / model_->cycle + 1e-12);
   const auto start = [&] {
     open_ = {t, t, {}};
-    for (const std::size_t i : over_angle_) open_.traces.push_back({traces_[i].name, traces_[i].unit, {}, {}});
+    for (const std::size_t i : over_angle_)
+      open_.traces.push_back({traces_->over_time[i].name, traces_->over_time[i].unit, {}, {}});
   };
   const auto add = [&](double within) {
     for (std::size_t k = 0; k < over_angle_.size(); ++k) push(open_.traces[k], within, now_[over_angle_[k]]);
@@ -96,8 +98,8 @@ void TraceRecorder::follow_cycle(double t, double angle) {
   } else if (turn != turn_) {
     add(angle - turn_ * model_->cycle);
     if (open_whole_ && turn > turn_) {
-      cycles_.push_back(std::move(open_));
-      if (cycles_.size() > 2) cycles_.pop_front();
+      traces_->last_cycles.push_back(std::move(open_));
+      if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
     }
     open_whole_ = turn > turn_;
     turn_ = turn;

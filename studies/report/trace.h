@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,14 @@ struct CycleTraces {
   std::vector<Trace> traces;
 };
 
+// What a run leaves for plots, whoever integrated it.
+struct Traces {
+  std::vector<Trace> over_time;
+  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last
+  const Trace* find(const std::string& name) const;
+  static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
+};
+
 // Follows the steps of the integrator, which are short where something happens, and both sides of every jump. Beside
 // the model's channels:
 //   twist_to_link.NODE  angle of a node reduced to the reduction link, less the link's own angle [rad]
@@ -31,11 +40,7 @@ class TraceRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
 
-  const std::vector<Trace>& traces() const { return traces_; }
-  const Trace* find(const std::string& name) const;
-  // The last whole cycles, at most two, the latest last.
-  const std::deque<CycleTraces>& last_cycles() const { return cycles_; }
-  static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
+  std::shared_ptr<const Traces> traces() const { return traces_; }
 
  private:
   void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
@@ -43,9 +48,8 @@ class TraceRecorder final : public Observer {
 
   const Model* model_;  // outlives the run
   std::vector<Channel> channels_;
-  std::vector<Trace> traces_;
+  std::shared_ptr<Traces> traces_ = std::make_shared<Traces>();
   std::vector<std::size_t> over_angle_;  // traces that are also followed over the angle
-  std::deque<CycleTraces> cycles_;
   CycleTraces open_;
   double turn_ = 0;          // number of the open cycle
   bool open_whole_ = false;  // it was seen from its beginning

@@ -1,6 +1,7 @@
 // command_line_test.cpp — the program as its users meet it: exit codes, messages, files, Ctrl-C.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,6 +59,28 @@ class CommandLine : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
   }
   Ended kurbel(const std::vector<std::string>& arguments) { return wait(start(arguments)); }
+
+  // The same on a terminal of its own; what it shows is all of its output.
+  std::string on_terminal(const std::vector<std::string>& arguments, bool no_colour = false) {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      setenv("TERM", "xterm", 1);
+      no_colour ? setenv("NO_COLOR", "1", 1) : unsetenv("NO_COLOR");
+      std::vector<char*> argv = {const_cast<char*>("kurbel")};
+      for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+      argv.push_back(nullptr);
+      execv(KURBEL_EXECUTABLE, argv.data());
+      _exit(98);
+    }
+    std::string shown;
+    char piece[4096];
+    for (ssize_t n; (n = read(terminal, piece, sizeof piece)) > 0;) shown.append(piece, static_cast<std::size_t>(n));
+    waitpid(child, nullptr, 0);
+    close(terminal);
+    return shown;
+  }
 
   std::string scene(const std::string& run, const std::string& inertia = "\"1 kg*m2\"") {
     std::ofstream(folder_ / "scene.toml")
@@ -188,6 +211,24 @@ TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
   EXPECT_FALSE(summary["complete"]);
   EXPECT_FALSE(summary["diagnosis"].get<std::string>().empty());
   EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: stopped at t = "));
+}
+
+TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
+  const std::vector<std::string> spent = {"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"};
+  EXPECT_NE(on_terminal(spent).find("\033[31mINCOMPLETE\033[0m"), std::string::npos);
+  EXPECT_EQ(on_terminal(spent, true).find("\033["), std::string::npos);
+  EXPECT_EQ(kurbel(spent).out.find("\033["), std::string::npos);
+  // Five seconds of this chain come no nearer than 2e-12: said in yellow.
+  const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
+  const std::string shown = on_terminal({"run", chain, "--accuracy", "1e-12", "--no-files"});
+  EXPECT_NE(shown.find("\033[33mNOT reached\033[0m"), std::string::npos) << shown;
+}
+
+TEST_F(CommandLine, ProgressIsShownForLongWorkOnATerminalAndWipedOut) {
+  const std::vector<std::string> slow = {"run", scene("until = \"1000000 s\"\nbudget = \"2 s\"\n"), "--out", "out"};
+  const std::string shown = on_terminal(slow);
+  EXPECT_NE(shown.find("\r\033[Kelastic (tolerance "), std::string::npos) << shown.substr(0, 400);
+  EXPECT_EQ(kurbel(slow).err.find("elastic (tolerance"), std::string::npos);
 }
 
 TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {

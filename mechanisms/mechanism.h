@@ -1,5 +1,7 @@
-// slider_crank.h — the slider-crank as an element: variable inertia, weight and slider loads reduced to its crank.
+// mechanism.h — a mechanism of one degree of freedom as an element: variable inertia, weight and the loads on its
+// output reduced to its crank.
 //     M = −½ I_r′ ω² + M_g(φ) + Σ F x′(φ),   and I_r(φ) adds to the shaft's inertia            (THEORY 2.1, 2.2, 2.4)
+// The output slides (x [m], loads in N) or rocks (x is its angle [rad], loads in N·m).
 #pragma once
 
 #include <memory>
@@ -12,53 +14,64 @@
 
 namespace kurbel {
 
-struct SliderCrank {
+// What a turn of the crank does, read off the tables.
+struct TravelOfTurn {
+  double least = 0, greatest = 0;              // of the output's position [m] or [rad]
+  std::vector<double> reversals;               // crank angles where the output turns round, ascending [rad]
+  double mean_inertia = 0, least_inertia = 0;  // of I_r [kg·m²]
+};
+TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);
+
+struct Mechanism {
+  // Extracts the tables and finds the ends of the output's travel. Throws as make_bodies and MechanismBodies do.
+  Mechanism(std::string component, const MechanismData& what);
+
   std::string name;
-  SliderCrankData data;
+  MechanismData data;
   std::shared_ptr<const ReducedMechanism> reduced;
-  std::shared_ptr<SliderCrankBodies> bodies;  // for the independent kinetic energy
+  std::shared_ptr<MechanismBodies> bodies;  // for the independent kinetic energy
+  TravelOfTurn travel;
   std::vector<SliderLoad> loads;
-  double x_min = 0, x_max = 0;
-  double mean_inertia = 0;  // of I_r over a turn [kg·m²]
-  double least_inertia = 0;
   double phase = 0;  // added to the shaft's angle [rad]
 
-  bool has_weight() const { return data.gravity != 0; }
-  double stroke() const { return x_max - x_min; }
+  bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
+  bool has_weight() const;
+  double stroke() const { return travel.greatest - travel.least; }
+  double output_scale() const { return 0.5 * stroke(); }  // of x′
 };
 
-class SliderCrankMaker final : public ShaftElementMaker {
+class MechanismMaker final : public ShaftElementMaker {
  public:
-  explicit SliderCrankMaker(SliderCrank crank) : crank_(std::move(crank)) {}
-  const SliderCrank& crank() const { return crank_; }
+  explicit MechanismMaker(Mechanism mechanism) : mechanism_(std::move(mechanism)) {}
+  const Mechanism& mechanism() const { return mechanism_; }
 
   bool uses_angle() const override { return true; }
   bool directional() const override;
   Rated rated() const override;
   Account account() const override { return Account::weight; }
-  double mean_inertia() const override { return crank_.mean_inertia; }
-  double least_inertia() const override { return crank_.least_inertia; }
+  double mean_inertia() const override { return mechanism_.travel.mean_inertia; }
+  double least_inertia() const override { return mechanism_.travel.least_inertia; }
   double cycle() const override;
   InertiaAt inertia_at(double angle) const override {
-    const auto [value, slope] = crank_.reduced->inertia(angle);
+    const auto [value, slope] = mechanism_.reduced->inertia(angle);
     return {value, slope};
   }
   double angle_period() const override { return cycle(); }
   bool uses_time() const override { return false; }
   bool uses_speed() const override;
   std::string describe() const override;
-  int mode_count() const override { return 1 + static_cast<int>(crank_.loads.size()); }
+  int mode_count() const override { return 1 + static_cast<int>(mechanism_.loads.size()); }
   std::vector<std::pair<std::string, Account>> further_accounts() const override;
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
 
  private:
-  SliderCrank crank_;
+  Mechanism mechanism_;
 };
 
-// Modes of a placed slider-crank: the sign of x′ first, then the piece of each load.
-class SliderCrankPool final : public ElementPool {
+// Modes of a placed mechanism: the sign of x′ first, then the piece of each load.
+class MechanismPool final : public ElementPool {
  public:
-  void place(SliderCrank crank, ShaftPorts at);
+  void place(Mechanism mechanism, ShaftPorts at);
 
   void add(const Instant& now, Sums& sums) const override;
   void register_jacobian(JacobianPattern& pattern) override;
@@ -75,9 +88,11 @@ class SliderCrankPool final : public ElementPool {
 
  private:
   struct Placed {
-    SliderCrank crank;
+    Mechanism mechanism;
     ShaftPorts at;
     int slot_angle = 0, slot_rate = 0;
+    bool has_weight = false;
+    double output_scale = 1;
     bool watches_travel = false;  // some load depends on the direction of travel
   };
   struct GuardOwner {

@@ -1,0 +1,365 @@
+// mechanism.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
+#include "mechanisms/mechanism.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kurbel {
+namespace {
+
+template <class L>
+constexpr bool has_pieces = requires(const L& l, SliderState<double> s) {
+  l.first_mode(s);
+};
+
+// The end of the travel that the output has just left.
+const char* name_of_reversal(const Mechanism& m, bool now_growing) {
+  if (m.travel.reversals.size() > 2) return "output turns round";
+  if (m.rocks()) return now_growing ? "least angle" : "greatest angle";
+  return now_growing ? "folded dead centre" : "extended dead centre";
+}
+
+double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
+
+}  // namespace
+
+namespace {
+
+// x′ = 0 between two angles where it changes sign: bisection, which needs no good start.
+double reversal_between(const ReducedMechanism& reduced, double from, double to) {
+  const bool grows = reduced.output_velocity(from).value > 0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (from + to);
+    ((reduced.output_velocity(middle).value > 0) == grows ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+}  // namespace
+
+// The mean by the trapezium rule, which converges at once on periodic functions. I_r is least where the output stands
+// still or near a sample.
+TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
+  constexpr int n = 1024;
+  constexpr double turn = 2 * std::numbers::pi, shift = 0.37;  // no symmetric angle is a sample
+  const auto angle = [](int i) { return turn * (i + shift) / n; };
+  TravelOfTurn travel;
+  travel.least_inertia = travel.least = HUGE_VAL;
+  travel.greatest = -HUGE_VAL;
+  const auto visit = [&](double phi) {
+    const double x = reduced.output_position(phi).value, inertia = reduced.inertia(phi).value;
+    travel.least = std::min(travel.least, x);
+    travel.greatest = std::max(travel.greatest, x);
+    travel.least_inertia = std::min(travel.least_inertia, inertia);
+    return inertia;
+  };
+  for (int i = 0; i < n; ++i) {
+    travel.mean_inertia += visit(angle(i)) / n;
+    const bool grows = reduced.output_velocity(angle(i)).value > 0;
+    if (grows == (reduced.output_velocity(angle(i + 1)).value > 0)) continue;
+    const double phi = reversal_between(reduced, angle(i), angle(i + 1));
+    visit(phi);
+    travel.reversals.push_back(phi < turn ? phi : phi - turn);
+  }
+  std::sort(travel.reversals.begin(), travel.reversals.end());
+  return travel;
+}
+
+Mechanism::Mechanism(std::string component, const MechanismData& what)
+    : name(std::move(component)),
+      data(what),
+      reduced(reduce_mechanism(what)),
+      bodies(make_bodies(what)),
+      travel(travel_of_turn(*reduced)) {}
+
+bool Mechanism::has_weight() const {
+  return std::visit([](const auto& d) { return d.gravity != 0; }, data);
+}
+
+bool MechanismMaker::directional() const {
+  return std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
+                     [](const SliderLoad& l) { return l.depends_on_travel(); });
+}
+
+// Weight and forces over travel depend on the angle alone; so does I_r.
+bool MechanismMaker::uses_speed() const {
+  return std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
+                     [](const SliderLoad& l) { return l.uses_speed(); });
+}
+
+// Loads give a scale of torque: greatest force times half the stroke.
+Rated MechanismMaker::rated() const {
+  double force = 0;
+  for (const SliderLoad& load : mechanism_.loads) force = std::max(force, load.greatest_force());
+  return {force * mechanism_.output_scale(), 0};
+}
+
+double MechanismMaker::cycle() const {
+  double cycle = 2 * std::numbers::pi;
+  for (const SliderLoad& load : mechanism_.loads) cycle = std::max(cycle, load.period());
+  return cycle;
+}
+
+std::string MechanismMaker::describe() const {
+  const TableReport& report = mechanism_.reduced->report();
+  std::string text = fmt::format("table of {}: {} pieces from {} samples of Simbody, errors", mechanism_.name,
+                                 report.pieces, report.samples);
+  for (const TableReport::Channel& channel : report.channels)
+    text += fmt::format(" {} {:.0e},", channel.name, channel.error);
+  text.back() = report.converged ? ' ' : ';';
+  return text + (report.converged ? "(relative)" : " the tolerance was not reached");
+}
+
+std::vector<std::pair<std::string, Account>> MechanismMaker::further_accounts() const {
+  std::vector<std::pair<std::string, Account>> accounts;
+  for (const SliderLoad& load : mechanism_.loads) accounts.emplace_back(load.name, load.account);
+  return accounts;
+}
+
+void MechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
+  pools.of<MechanismPool>().place(mechanism_, ports);
+}
+
+void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
+  Placed placed{std::move(mechanism), std::move(at)};
+  placed.has_weight = placed.mechanism.has_weight();
+  placed.output_scale = placed.mechanism.output_scale();
+  for (const SliderLoad& load : placed.mechanism.loads)
+    placed.watches_travel = placed.watches_travel || load.depends_on_travel();
+  const std::size_t index = placed_.size();
+  if (placed.watches_travel) owners_.push_back({index, -1, 0});
+  for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>) {
+            owners_.push_back({index, static_cast<int>(k), 0});
+            owners_.push_back({index, static_cast<int>(k), 1});
+          }
+        },
+        placed.mechanism.loads[k].law);
+  guards_ = static_cast<int>(owners_.size());
+  placed_.push_back(std::move(placed));
+}
+
+SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, std::size_t load) const {
+  const double phi = angle_of(p.at, now), omega = p.at.gain * now.speed[p.at.shaft];
+  const auto here = p.mechanism.reduced->at(phi);
+  const auto [x, ratio] = here.output_position();
+  const int travel = p.watches_travel ? now.mode[p.at.mode] * now.direction[p.at.shaft] : (ratio * omega >= 0 ? 1 : -1);
+  return {phi, x, ratio * omega, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
+}
+
+double MechanismPool::load_force(const Placed& p, const Instant& now) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    const SliderState<double> s = slider(p, now, k);
+    sum += std::visit([&](const auto& law) { return law.value(s); }, p.mechanism.loads[k].law);
+  }
+  return sum;
+}
+
+void MechanismPool::add(const Instant& now, Sums& sums) const {
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft];
+    const double phi = angle_of(p.at, now);
+    const auto here = p.mechanism.reduced->at(phi);
+    const auto [inertia, slope] = here.inertia();
+    double torque = -0.5 * slope * omega * omega;
+    if (p.has_weight) {
+      const double weight = here.gravity_torque().value;
+      torque += weight;
+      if (sums.work_rate) sums.work_rate[p.at.account] += weight * omega;
+    }
+    if (!p.mechanism.loads.empty()) {
+      const auto [x, ratio] = here.output_position();
+      SliderState<double> s{phi, x, ratio * omega, 0, 0};
+      s.travel = p.watches_travel ? now.mode[p.at.mode] * now.direction[p.at.shaft] : (s.v >= 0 ? 1 : -1);
+      for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+        s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
+        const double force = std::visit([&](const auto& law) { return law.value(s); }, p.mechanism.loads[k].law);
+        torque += force * ratio;
+        if (sums.work_rate) sums.work_rate[p.at.account + 1 + static_cast<int>(k)] += force * s.v;
+      }
+    }
+    sums.element_torque[p.at.id] = torque;
+    sums.element_inertia[p.at.id] = inertia;
+    sums.torque[p.at.shaft] += p.at.gain * torque;
+    sums.inertia[p.at.shaft] += p.at.gain * p.at.gain * inertia;
+  }
+}
+
+void MechanismPool::register_jacobian(JacobianPattern& pattern) {
+  for (Placed& p : placed_) {
+    const int speed = pattern.speed(p.at.shaft);
+    p.slot_angle = pattern.entry(speed, pattern.angle(p.at.angle));
+    p.slot_rate = pattern.entry(speed, speed);
+  }
+}
+
+void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double* slots) const {
+  using D = Dual<2>;  // by crank angle and crank speed
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft], phi = angle_of(p.at, now);
+    const auto here = p.mechanism.reduced->at(phi);
+    const auto [slope, curvature] = here.inertia_derivative();
+    const D angle = D::input(phi, 0), speed = D::input(omega, 1);
+    D torque = -0.5 * angle.chain(slope, curvature) * speed * speed;
+    if (p.has_weight) {
+      const auto weight = here.gravity_torque();
+      torque = torque + angle.chain(weight.value, weight.slope);
+    }
+    const auto [x, ratio] = here.output_position();
+    const D x_ratio = angle.chain(ratio, here.output_velocity().slope);
+    const D v = x_ratio * speed;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+      const SliderState<double> s = slider(p, now, k);
+      const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
+      torque =
+          torque + std::visit([&](const auto& law) { return D(law.value(dual)); }, p.mechanism.loads[k].law) * x_ratio;
+    }
+    slots[p.slot_angle] += p.at.gain * (torque.d[0] - slope * p.at.gain * alpha[p.at.shaft]);
+    slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
+  }
+}
+
+void MechanismPool::guards(const Instant& now, double* g) const {
+  for (std::size_t i = 0; i < owners_.size(); ++i) {
+    const GuardOwner& owner = owners_[i];
+    const Placed& p = placed_[owner.placed];
+    if (owner.load < 0) {
+      const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
+      g[i] = now.mode[p.at.mode] * ratio / p.output_scale;
+      continue;
+    }
+    const auto load = static_cast<std::size_t>(owner.load);
+    const SliderState<double> s = slider(p, now, load);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>) law.guard(s, g + i);
+        },
+        p.mechanism.loads[load].law);
+    ++i;  // both ends of the piece were written
+  }
+}
+
+void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
+  const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
+  const Placed& p = placed_[owner.placed];
+  if (owner.load >= 0) {
+    const auto load = static_cast<std::size_t>(owner.load);
+    const SliderState<double> s = slider(p, now, load);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+            mode[p.at.mode + 1 + owner.load] = law.next_mode(s, owner.which);
+        },
+        p.mechanism.loads[load].law);
+    return;
+  }
+  // Dead centre: the slider turns round, and each load takes up the branch of the other stroke.
+  mode[p.at.mode] = -mode[p.at.mode];
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    if (!p.mechanism.loads[k].depends_on_travel()) continue;
+    SliderState<double> s = slider(p, now, k);
+    s.travel = mode[p.at.mode] * now.direction[p.at.shaft];
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+            mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
+        },
+        p.mechanism.loads[k].law);
+  }
+}
+
+GuardLabel MechanismPool::label(int guard, const int* mode) const {
+  const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
+  const Placed& p = placed_[owner.placed];
+  if (owner.load < 0) return {p.mechanism.name, name_of_reversal(p.mechanism, mode[p.at.mode] > 0)};
+  const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
+  SliderState<double> s{};
+  s.mode = mode[p.at.mode + 1 + owner.load];
+  std::string what;
+  std::visit(
+      [&](const auto& law) {
+        if constexpr (has_pieces<std::decay_t<decltype(law)>>) what = law.mode_name(s);
+      },
+      load.law);
+  return {load.name, what};
+}
+
+void MechanismPool::first_modes(const Instant& now, int* mode) const {
+  for (const Placed& p : placed_) {
+    const auto here = p.mechanism.reduced->at(angle_of(p.at, now));
+    double ratio = here.output_position().slope;
+    // On a dead centre the sign is that of the motion to come.
+    if (std::abs(ratio) < 1e-12 * p.output_scale)
+      ratio = here.output_velocity().slope * (now.direction[p.at.shaft] >= 0 ? 1 : -1);
+    mode[p.at.mode] = ratio >= 0 ? 1 : -1;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+      const SliderState<double> s = slider(p, now, k);
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (has_pieces<std::decay_t<decltype(law)>>)
+              mode[p.at.mode + 1 + static_cast<int>(k)] = law.first_mode(s);
+          },
+          p.mechanism.loads[k].law);
+    }
+  }
+}
+
+void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) const {
+  for (const Placed& p : placed_) {
+    const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+      const SliderState<double> s = slider(p, now, k);
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (Directional<std::decay_t<decltype(law)>>) {
+              const Hold force = law.hold(s);
+              const Hold torque = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio}
+                                             : Hold{force.high * ratio, force.low * ratio};
+              element[p.at.id].low += torque.low;
+              element[p.at.id].high += torque.high;
+              shaft[p.at.shaft].low += p.at.gain * torque.low;
+              shaft[p.at.shaft].high += p.at.gain * torque.high;
+            }
+          },
+          p.mechanism.loads[k].law);
+    }
+  }
+}
+
+double MechanismPool::kinetic_energy_of_bodies(const Instant& now) const {
+  double sum = 0;
+  for (const Placed& p : placed_)
+    sum += p.mechanism.bodies->kinetic_energy(angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft]);
+  return sum;
+}
+
+void MechanismPool::add_channels(std::vector<Channel>& channels) const {
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const auto here = [this, i](const Snapshot& s) {
+      return placed_[i].mechanism.reduced->at(angle_of(placed_[i].at, s.now));
+    };
+    const auto omega = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.now.speed[placed_[i].at.shaft]; };
+    const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
+    const std::string& name = placed_[i].mechanism.name;
+    const bool rocks = placed_[i].mechanism.rocks();
+    channels.push_back({"position." + name, rocks ? "rad" : "m",
+                        [here](const Snapshot& s) { return here(s).output_position().value; }});
+    channels.push_back({"velocity." + name, rocks ? "rad/s" : "m/s",
+                        [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); }});
+    channels.push_back({"acceleration." + name, rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
+                          const auto [ratio, second] = here(s).output_velocity();
+                          return second * omega(s) * omega(s) + ratio * alpha(s);
+                        }});
+    if (!placed_[i].mechanism.loads.empty())
+      channels.push_back({(rocks ? "load_torque." : "force.") + name, rocks ? "N*m" : "N",
+                          [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
+  }
+}
+
+}  // namespace kurbel

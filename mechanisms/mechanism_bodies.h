@@ -1,0 +1,55 @@
+// mechanism_bodies.h — a mechanism of one degree of freedom as a multibody system: the source of truth for every
+// reduced function of its crank angle φ.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kurbel {
+
+// Mass properties of a link. The centre of mass lies on the link's axis.
+struct LinkBody {
+  double mass = 0;     // [kg], ≥ 0
+  double com = 0;      // centre of mass from the link's first joint along the link [m]
+  double inertia = 0;  // links on a fixed bearing: about it, ≥ mass com²; all others: central [kg·m²], ≥ 0
+};
+
+// One configuration seen from the crank; primes are derivatives by φ, all from Simbody's bodies and constraints. The
+// output is the link that carries the loads: it slides (position in m) or rocks (angle in rad).
+struct ReducedSample {
+  double inertia, inertia_slope, inertia_curvature;  // I_r [kg·m²] (2.1), I_r′, I_r″
+  double output_position;                            // x [m] or ψ [rad]
+  double output_velocity_ratio;                      // x′ = v/ω [m/rad], ψ′ [1]
+  double output_acceleration_ratio;                  // x″ [m/rad²], ψ″ [1/rad]
+  double gravity_torque, gravity_torque_slope;  // of all weights on the crank [N·m], positive when it drives; by φ
+  double gravity_torque_scale;  // Σ weight · |velocity ratio| [N·m]: what its rounding is measured by
+  double closure_determinant;   // of the loop closures, with the sign that is > 0 on the right branch
+};
+
+// A point in the mechanism's axes.
+struct PlanePoint {
+  double x, y;  // [m]
+};
+
+// Simbody's model of a mechanism, sampled one configuration at a time. Costs some 20 µs a sample; not thread-safe.
+// Every member throws std::runtime_error with the numbers if a loop does not close or closes on the wrong branch.
+class MechanismBodies {
+ public:
+  virtual ~MechanismBodies() = default;
+
+  virtual ReducedSample sample(double phi) = 0;
+  // The same with Newton's method started from the given coordinates after the crank's, in the order of the joints.
+  virtual ReducedSample sample_from(double phi, const std::vector<double>& start) = 0;
+
+  // Summed by Simbody over its moving bodies, without I_r.
+  virtual double kinetic_energy(double phi, double omega) = 0;  // [J]
+  // Of all weights, zero at the height of the crank's axis.
+  virtual double potential_energy(double phi) = 0;  // [J]
+
+  // ω_k/ω of every link, in the order of the bodies.
+  virtual std::vector<double> turn_ratios(double phi) = 0;
+  // Where the joints are, for drawing.
+  virtual std::vector<PlanePoint> joints(double phi) = 0;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,100 @@
+// slider_crank_kind.cpp — the slider-crank's keys.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mechanisms/kinds.h"
+#include "mechanisms/load_kinds.h"
+#include "mechanisms/mechanism_keys.h"
+
+namespace kurbel {
+namespace {
+
+// The rod must pass both dead centres, and no body may have less inertia than its mass demands.
+DataFaults faults_of(const SliderCrankData& d) {
+  DataFaults faults;
+  const double reach = d.radius + std::abs(d.offset);
+  if (!(d.rod_length > reach))
+    faults.push_back(
+        {"rod", fmt::format("rod = {}; must be > radius + |offset| = {} + {} = {}, else the crank cannot turn fully; "
+                            "lengthen the rod or shorten the crank",
+                            in_mm(d.rod_length), in_mm(d.radius), in_mm(std::abs(d.offset)), in_mm(reach))});
+  const double least = d.crank_mass * d.crank_com * d.crank_com;
+  if (d.crank_inertia < least * (1 - 1e-12))
+    faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
+                                                   "crank_mass · crank_com² = {:.6g} kg·m²",
+                                                   d.crank_inertia, least)});
+  return faults;
+}
+
+void build_slider_crank(const Section& s, Network& net, Messages& messages) {
+  SliderCrankData d;
+  d.radius = s.number("radius");
+  d.rod_length = s.number("rod");
+  d.offset = s.number("offset");
+  d.crank_mass = s.number("crank_mass");
+  d.crank_com = s.number("crank_com");
+  d.crank_inertia = s.number("crank_inertia");
+  d.rod_mass = s.number("rod_mass");
+  d.rod_com = s.number_or("rod_com", d.rod_length / 2);
+  d.rod_inertia = s.number("rod_inertia");
+  d.slider_mass = s.number("slider_mass");
+  d.gravity = s.number("gravity");
+  d.stroke_angle = s.number("stroke_angle");
+  build_mechanism(s, d, faults_of(d), net, messages);
+}
+
+}  // namespace
+
+Kind slider_crank_kind() {
+  return {
+      .name = "slider-crank",
+      .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
+      .keys =
+          {{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
+           {.name = "rod",
+            .unit = "m",
+            .domain = positive,
+            .doc = "rod length l, > radius + |offset|",
+            .required = true},
+           {.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
+           {.name = "crank_mass",
+            .unit = "kg",
+            .fallback = "\"0 kg\"",
+            .domain = not_negative,
+            .doc = "mass of the crank"},
+           {.name = "crank_com",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .doc = "its centre of mass from the axis towards the pin; negative: counterweighted"},
+           {.name = "crank_inertia",
+            .unit = "kg*m2",
+            .fallback = "\"0 kg*m2\"",
+            .domain = not_negative,
+            .doc = "about the crank's axis"},
+           {.name = "rod_mass", .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = "mass of the rod"},
+           {.name = "rod_com",
+            .unit = "m",
+            .doc = "its centre of mass from the crank pin along the rod; default: half the rod"},
+           {.name = "rod_inertia",
+            .unit = "kg*m2",
+            .fallback = "\"0 kg*m2\"",
+            .domain = not_negative,
+            .doc = "about its centre of mass"},
+           {.name = "slider_mass",
+            .unit = "kg",
+            .fallback = "\"0 kg\"",
+            .domain = not_negative,
+            .doc = "mass of slider and what moves with it"},
+           gravity_key(),
+           {.name = "stroke_angle",
+            .unit = "rad",
+            .fallback = "\"0 deg\"",
+            .doc = "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg "
+                   "top-driven press"},
+           phase_key(),
+           load_key("force on the slider, or a list of them", slider_load_kinds())},
+      .build = build_slider_crank};
+}
+
+}  // namespace kurbel
