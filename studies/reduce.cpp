@@ -17,7 +17,7 @@ constexpr double turn = 2 * std::numbers::pi;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// x′ and x″ of a slider by the link's angle, from the model's own channels at ω = 1.
+// x′ and x″ of a slider, or of a rocker's angle, by the link's angle, from the model's own channels at ω = 1.
 class SliderRatio {
  public:
   struct At {
@@ -26,11 +26,15 @@ class SliderRatio {
   SliderRatio(std::shared_ptr<const Model> model, const std::string& mechanism)
       : model_(std::move(model)), equations_(model_, false) {
     for (const Channel& channel : model_->pool_channels) {
-      if (channel.name == "velocity." + mechanism) velocity_ = channel.value;
+      if (channel.name == "velocity." + mechanism) {
+        velocity_ = channel.value;
+        rocks_ = channel.unit == "rad/s";
+      }
       if (channel.name == "acceleration." + mechanism) acceleration_ = channel.value;
     }
   }
   bool found() const { return velocity_ && acceleration_; }
+  bool rocks() const { return rocks_; }
   // v = x′ ω,  a = x″ ω² + x′ ε
   At operator()(double phi) {
     const std::vector<double> y = equations_.modes_from_scratch(0, phi, 1.0);
@@ -45,12 +49,14 @@ class SliderRatio {
   std::shared_ptr<const Model> model_;
   Equations equations_;
   std::function<double(const Snapshot&)> velocity_, acceleration_;
+  bool rocks_ = false;
 };
 
 std::vector<std::string> sliders_of(const Model& model) {
   std::vector<std::string> names;
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.starts_with("velocity.")) names.push_back(channel.name.substr(9) + ".slider");
+    if (channel.name.starts_with("velocity."))
+      names.push_back(channel.name.substr(9) + (channel.unit == "rad/s" ? ".rocker" : ".slider"));
   return names;
 }
 
@@ -137,11 +143,12 @@ class Reducer {
     r_.to = r_.link;
     if (options_.to.empty()) return;
     const std::string& to = options_.to;
-    if (to.ends_with(".slider")) {
+    if (to.ends_with(".slider") || to.ends_with(".rocker")) {
       slider_ = std::make_unique<SliderRatio>(compile(model().scene, Effects{}), to.substr(0, to.size() - 7));
-      if (!slider_->found()) refuse_target(model(), to);
+      if (!slider_->found() || slider_->rocks() != to.ends_with(".rocker")) refuse_target(model(), to);
       r_.to = to;
-      r_.to_slider = true;
+      r_.to_output = true;
+      r_.to_rocker = slider_->rocks();
       return;
     }
     target_node_ = node_named(model(), to);
@@ -162,7 +169,7 @@ class Reducer {
       ratio = x.first, second = x.second;
       p.ratio = ratio;
       if (std::abs(ratio) < 1e-9 * largest_ratio()) {
-        p.singular = "dead centre: the slider stands still, so its reduced mass is infinite";
+        p.singular = "dead centre: it stands still, so what is reduced to it is infinite";
         return p;
       }
     }
@@ -232,9 +239,9 @@ class Reducer {
           left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
       if (!left_out.empty())
         r_.notes.push_back(fmt::format(
-            "left out: position {}: a dead centre, where the slider stands still; reduced mass m_r = I_r/x′² and force "
-            "F_r = M/x′ are infinite there",
-            left_out));
+            "left out: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
+            r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
+                         : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
     }
   }
 
@@ -248,7 +255,7 @@ class Reducer {
     if (peak == r_.curve.end() || std::abs(peak->load) <= 1.05 * seen) return;
     r_.notes.push_back(
         fmt::format("between the positions the resistance reaches {} at {:.5g}°; more --positions show it",
-                    with_unit(peak->load, r_.to_slider ? "N" : "N*m"), peak->phi * 360 / turn));
+                    with_unit(peak->load, r_.to_output && !r_.to_rocker ? "N" : "N*m"), peak->phi * 360 / turn));
   }
 
   RigidMachine machine_;

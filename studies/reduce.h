@@ -13,7 +13,7 @@ namespace kurbel {
 
 struct ReduceOptions {
   int positions = 12;           // of the cycle, ≥ 1
-  std::string to;               // "gearbox.in", "flywheel", "press.slider"; empty: the reduction link
+  std::string to;               // "gearbox.in", "flywheel", "press.slider", "screen.rocker"; empty: the reduction link
   std::optional<double> speed;  // of the reduction link, for torques that depend on it [rad/s]
   int orders = 12;              // of the harmonics, per turn of the reduction link
 };
@@ -65,8 +65,9 @@ struct Chain {
 
 struct MachineReduction {
   std::string title, scene_file;
-  std::string link, to;  // the reduction link, and what all is reduced to
-  bool to_slider = false;
+  std::string link, to;    // the reduction link, and what all is reduced to
+  bool to_output = false;  // the mechanism's slider or rocker, whose ratio varies
+  bool to_rocker = false;
   double to_ratio = 1;  // speed of the chosen shaft over the link's
   double speed = 0;     // of the link, where torques depend on it [rad/s]
   std::string speed_source;

@@ -23,7 +23,7 @@ struct Names {
   std::string inertia, inertia_unit, slope_unit, torque, torque_unit;
 };
 Names names_of(const MachineReduction& r) {
-  if (r.to_slider) return {"m", "kg", "kg/m", "F", "N"};
+  if (r.to_output && !r.to_rocker) return {"m", "kg", "kg/m", "F", "N"};
   return {"I", "kg*m2", "kg*m2/rad", "M", "N*m"};
 }
 
@@ -86,9 +86,9 @@ std::string conclusion_of(const MachineReduction& r) {
     if (!most || p.inertia > most->inertia) most = &p;
     if (!least || p.inertia < least->inertia) least = &p;
   }
-  if (r.to_slider)
-    return fmt::format("{}: reduced to {} the machine is a mass of {:.5g} kg or more, infinite in the dead centres",
-                       r.title, r.to, least ? least->inertia : 0.0);
+  if (r.to_output)
+    return fmt::format("{}: reduced to {} the machine has {:.5g} {} or more, infinite in the dead centres", r.title,
+                       r.to, least ? least->inertia : 0.0, pretty_unit(names_of(r).inertia_unit));
   return fmt::format(
       "{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.title,
       r.to, least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
@@ -103,7 +103,7 @@ Table positions_table(const MachineReduction& r) {
 }
 
 Table chain_table(const MachineReduction& r) {
-  Table t{.title = fmt::format("Drive as an elastic chain, reduced to {}", r.to_slider ? r.link : r.to),
+  Table t{.title = fmt::format("Drive as an elastic chain, reduced to {}", r.to_output ? r.link : r.to),
           .columns = {"part", "what", "own", "speed ratio i", "reduced", "own c", "reduced c"},
           .rows = {},
           .text_columns = 2};
@@ -171,8 +171,8 @@ Json position_json(const MachineReduction& r, const ReducedPosition& p) {
     j["singular"] = p.singular;
     return j;
   }
-  const char* inertia = r.to_slider ? "mass" : "inertia";
-  const char* torque = r.to_slider ? "force" : "torque";
+  const char* inertia = r.to_output && !r.to_rocker ? "mass" : "inertia";
+  const char* torque = r.to_output && !r.to_rocker ? "force" : "torque";
   j[inertia] = p.inertia;
   j[fmt::format("drive_{}", inertia)] = p.drive_inertia;
   j[fmt::format("mechanism_{}", inertia)] = p.mechanism_inertia;
@@ -211,7 +211,7 @@ std::string json_of(const MachineReduction& r) {
   j["conclusion"] = conclusion_of(r);
   j["link"] = r.link;
   j["reduced_to"] = r.to;
-  j["speed_ratio"] = r.to_slider ? Json() : Json(r.to_ratio);
+  j["speed_ratio"] = r.to_output ? Json() : Json(r.to_ratio);
   j["speed"] = {{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}};
   j["units"] = {{"inertia", names_of(r).inertia_unit}, {"torque", names_of(r).torque_unit}, {"angle", "rad"}};
   j["positions"] = Json::array();
@@ -284,14 +284,14 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
   const Names n = names_of(r);
   const std::string angle = fmt::format("angle of {}", r.link);
   std::vector<Plot> plots;
-  Plot inertia{.title = fmt::format("Reduced {} of the mechanism, on {}", r.to_slider ? "mass" : "inertia", r.to),
+  Plot inertia{.title = fmt::format("Reduced {} of the mechanism, on {}", n.inertia == "m" ? "mass" : "inertia", r.to),
                .x = {angle, "°"},
                .y = {n.inertia + "_em", pretty_unit(n.inertia_unit)},
                .series = {}};
   const auto mechanism = [](const ReducedPosition& p) { return p.mechanism_inertia; };
   inertia.series = {over_angle(r, n.inertia + "_em", Role::elastic, mechanism),
                     at_positions(r, Role::vermillion, mechanism)};
-  if (!r.to_slider)
+  if (!r.to_output)
     inertia.note = fmt::format("The drive adds a constant {:.6g} kg·m².", r.constant_inertia);
   else
     inertia.note = "Near the dead centres it grows beyond all bounds and is left out.";
@@ -300,12 +300,13 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
       .x = {angle, "°"},
       .y = {n.inertia + "_r′", pretty_unit(n.slope_unit)},
       .series = {over_angle(r, n.inertia + "_r′", Role::elastic, [](const ReducedPosition& p) { return p.slope; })}};
-  Plot torque{.title = fmt::format("Driving and resisting {}, reduced to {}", r.to_slider ? "force" : "torque", r.to),
-              .x = {angle, "°"},
-              .y = {n.torque, pretty_unit(n.torque_unit)},
-              .series = {over_angle(r, n.torque + "_d", Role::green, [](const ReducedPosition& p) { return p.drive; }),
-                         over_angle(r, n.torque + "_c", Role::orange, [](const ReducedPosition& p) { return p.load; })},
-              .note = speed_text(r)};
+  Plot torque{
+      .title = fmt::format("Driving and resisting {}, reduced to {}", n.torque == "F" ? "force" : "torque", r.to),
+      .x = {angle, "°"},
+      .y = {n.torque, pretty_unit(n.torque_unit)},
+      .series = {over_angle(r, n.torque + "_d", Role::green, [](const ReducedPosition& p) { return p.drive; }),
+                 over_angle(r, n.torque + "_c", Role::orange, [](const ReducedPosition& p) { return p.load; })},
+      .note = speed_text(r)};
   Plot shares{.title = "Share of each force, positive when it drives",
               .x = {angle, "°"},
               .y = {n.torque, pretty_unit(n.torque_unit)},
@@ -399,17 +400,20 @@ void add_formulas(ReportSection& section, const MachineReduction& r) {
     if (one.singular.empty() && (!p || std::abs(one.load) > std::abs(p->load))) p = &one;
   if (!p) return;
   const std::string where = fmt::format("At φ = {:.5g}°.", p->phi * degrees);
-  if (r.to_slider) {
-    section.cards.push_back(Formula{.title = "Reduced mass (THEORY 2.1)",
-                                    .symbols = "m_r = I_r / x′²",
-                                    .numbers = fmt::format("m_r = {:.6g} kg·m² / ({:.6g} m)² = {:.6g} kg",
-                                                           p->inertia * *p->ratio * *p->ratio, *p->ratio, p->inertia),
+  if (r.to_output) {
+    const Names n = names_of(r);
+    const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit), x = r.to_rocker ? "" : " m";
+    section.cards.push_back(
+        Formula{.title = fmt::format("Reduced {} (THEORY 2.1)", r.to_rocker ? "inertia" : "mass"),
+                .symbols = fmt::format("{}_r = I_r / x′²", n.inertia),
+                .numbers = fmt::format("{}_r = {:.6g} kg·m² / ({:.6g}{})² = {:.6g} {}", n.inertia,
+                                       p->inertia * *p->ratio * *p->ratio, *p->ratio, x, p->inertia, i),
+                .note = where});
+    section.cards.push_back(Formula{.title = "Resistance reduced to it (THEORY 2.2)",
+                                    .symbols = fmt::format("{}_r = M_c / x′", n.torque),
+                                    .numbers = fmt::format("{}_r = {:.6g} N·m / {:.6g}{} = {:.6g} {}", n.torque,
+                                                           p->load * *p->ratio, *p->ratio, x, p->load, t),
                                     .note = where});
-    section.cards.push_back(Formula{
-        .title = "Reduced force of resistance (THEORY 2.2)",
-        .symbols = "F_r = M_c / x′",
-        .numbers = fmt::format("F_r = {:.6g} N·m / {:.6g} m = {:.6g} N", p->load * *p->ratio, *p->ratio, p->load),
-        .note = where});
     return;
   }
   section.cards.push_back(Formula{.title = "Reduced inertia (THEORY 2.1)",
@@ -430,7 +434,7 @@ Report report_of(const MachineReduction& r) {
   Report report{
       .title = r.title, .subtitle = fmt::format("Machine reduced to {}", r.to), .conclusion = conclusion_of(r)};
   report.figures = {
-      {"constant inertia of the drive", r.constant_inertia, "kg*m2", {}, r.to_slider ? "on " + r.link : ""},
+      {"constant inertia of the drive", r.constant_inertia, "kg*m2", {}, r.to_output ? "on " + r.link : ""},
       {"mean driving torque", r.mean_drive, "N*m", {}, "on " + r.link},
       {"mean resisting torque", r.mean_load, "N*m", {}, "on " + r.link}};
   ReportSection& section = report.add("Over the cycle");
