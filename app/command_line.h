@@ -56,6 +56,7 @@ double quantity_of(const std::string& option, const std::string& text, const std
 int present(const StudyOutput& output, const StudyOptions& options);
 
 // Each registers its commands; an action leaves its exit code in `code`.
+void add_forces_command(CLI::App& app, int& code);  // forces
 void add_run_commands(CLI::App& app, int& code);    // run, compare
 void add_reduce_command(CLI::App& app, int& code);  // reduce
 void add_size_command(CLI::App& app, int& code);    // size

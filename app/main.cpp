@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   add_run_commands(app, code);
   add_reduce_command(app, code);
   add_size_command(app, code);
+  add_forces_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();
   try {

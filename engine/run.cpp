@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/work_stepper.h"
+
 namespace kurbel {
 namespace {
 
@@ -27,8 +29,9 @@ Method method_named(const std::string& name) {
   if (name == "esdirk") return Method::esdirk_43;
   if (name == "bdf") return Method::bdf;
   if (name == "adams") return Method::adams;
+  if (name == "work") return Method::work_equation;
   throw std::invalid_argument(fmt::format(
-      "method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
+      "method \"{}\" integrates no reduced model; allowed: auto, work, dopri5, dop853, esdirk, bdf, adams", name));
 }
 
 // Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
@@ -57,6 +60,9 @@ constexpr int held_steps_before_trial = 200;
 constexpr int trial_warm_up = 30, trial_length = 60;
 constexpr double implicit_step_cost = 3;
 
+// Turns after which the work equation has earned its search for the edges.
+constexpr double turns_to_pay = 3;
+
 class Loop {
  public:
   Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
@@ -69,6 +75,7 @@ class Loop {
 
   RunOutcome run() {
     begin_ = cpu_now();
+    choose_method();
     try {
       start();
       while (stepper_->t() < options_.until && advance()) {
@@ -85,24 +92,48 @@ class Loop {
   }
 
  private:
-  void start() {
-    std::vector<double> y = equations_.start(0);
+  void choose_method() {
     method_ = method_named(options_.method);
-    out_.statistics.method = std::string(name_of(method_));
+    std::string& reason = out_.statistics.reason;
     if (options_.method != "auto") {
-      out_.statistics.reason = "asked for";
+      reason = "asked for";
+      if (method_ == Method::work_equation)
+        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty())
+          throw std::invalid_argument("method \"work\": " + why);
+    } else if (work_equation_pays()) {
+      method_ = Method::work_equation;
+      reason = "rigid, torques of angle and speed: load edges lie at known angles";
     } else if (equations_.model().elastic.empty()) {
-      out_.statistics.reason = "rigid: nothing is stiff, and a high order takes the longest steps";
+      reason = "rigid: nothing is stiff, and a high order takes the longest steps";
     } else {
-      out_.statistics.reason = "explicit while its steps are held by accuracy, not by stability";
+      reason = "explicit while its steps are held by accuracy, not by stability";
     }
+    out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // Where inertia or torques vary with the angle, over more than a few turns.
+  bool work_equation_pays() const {
+    const Model& m = equations_.model();
+    if (!m.elastic.empty() || m.free_shafts != 1) return false;
+    if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
+    if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
+    return options_.work_tables || WorkTables::refusal(equations_.shared_model()).empty();
+  }
+
+  void start() {
+    const std::vector<double> y = equations_.start(0);
     make(method_, 0, y);
     for (Observer* observer : observers_) observer->begin(0, stepper_->y(), equations_);
   }
 
   void make(Method method, double t, std::span<const double> y) {
     if (stepper_) add_statistics();
-    stepper_ = make_stepper(method, equations_, equations_.error_control(options_.tolerance));
+    const ErrorControl control = equations_.error_control(options_.tolerance);
+    if (method == Method::work_equation) {
+      stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
+    } else {
+      stepper_ = make_stepper(method, equations_, control);
+    }
     method_ = method;
     view_.watch(*stepper_);
     restart(t, y);
@@ -120,7 +151,8 @@ class Loop {
     if (out_of_budget()) return false;
     stepper_->step(limit());
     equations_.guards(stepper_->t(), stepper_->y(), guard_);
-    const std::vector<std::size_t> fired = locate_event();
+    std::vector<std::size_t> fired = locate_event();
+    if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
     if (stepper_->t() > stepper_->t_previous())
       for (Observer* observer : observers_) observer->step(view_);
     const double t = stepper_->t();
@@ -147,6 +179,7 @@ class Loop {
   // unseen.
   double limit() const {
     double t = std::min(options_.until, edge_);
+    if (stepper_->ends_on_edges()) return t;
     const Model& m = equations_.model();
     for (const TrackedAngle& angle : m.angles) {
       const auto shaft = static_cast<std::size_t>(angle.shaft);
@@ -208,6 +241,22 @@ class Loop {
     return fired;
   }
 
+  // The step ended on an edge of the angle: what is zero there and negative a little further on.
+  std::vector<std::size_t> fired_at_edge() {
+    constexpr double here = 1e-9, further = 1e-7;  // guards are of order one per radian
+    std::vector<std::size_t> fired;
+    if (std::none_of(guard_.begin(), guard_.end(), [](double g) { return g < here; })) return fired;
+    work_.assign(stepper_->y().begin(), stepper_->y().end());
+    const Model& m = equations_.model();
+    for (std::size_t i = 0; i < m.angles.size(); ++i)
+      work_[i] += std::copysign(further, work_[equations_.speed_index(m.angles[i].shaft)]) * m.angles[i].gain;
+    probe_.resize(guard_.size());
+    equations_.guards(stepper_->t(), work_, probe_);
+    for (std::size_t i = 0; i < guard_.size(); ++i)
+      if (guard_[i] < here && probe_[i] < fired_below) fired.push_back(i);
+    return fired;
+  }
+
   // A true step onto the event, corrected by the secant until the guard is zero to round-off.
   void land_on(double t, std::size_t guard) {
     const double t0 = stepper_->t_previous(), t1 = stepper_->t();
@@ -250,7 +299,7 @@ class Loop {
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
   void watch_stiffness() {
-    if (options_.method != "auto" || equations_.model().elastic.empty()) return;
+    if (options_.method != "auto" || equations_.model().elastic.empty() || method_ == Method::work_equation) return;
     const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
     const double t = stepper_->t();
     if (method_ == Method::dormand_prince_853) {

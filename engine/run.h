@@ -12,13 +12,16 @@
 
 namespace kurbel {
 
+class WorkTables;
+
 struct RunOptions {
   double tolerance = 1e-8;      // local, over the scale of each state
-  std::string method = "auto";  // auto, dopri5, dop853, esdirk, bdf, adams
+  std::string method = "auto";  // auto, work, dopri5, dop853, esdirk, bdf, adams
   double until = 1;             // [s]
   double budget = 300;          // processor time [s]
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double fraction)> progress;
+  std::shared_ptr<WorkTables> work_tables = nullptr;  // of the model, where runs share them; null: made when needed
 };
 
 struct RunStatistics {
@@ -66,7 +69,7 @@ struct RunOutcome {
 };
 
 // Never throws for a run that fails on its way: the outcome says so and keeps what was computed.
-// Throws std::invalid_argument for an unknown method.
+// Throws std::invalid_argument for an unknown method, and for the work equation where it does not apply.
 RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers);
 
 // Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.

@@ -558,7 +558,7 @@ const Section* Scene::find(const std::string& name) const {
 }
 
 const std::vector<std::string>& methods_of(const std::string& model) {
-  static const std::vector<std::string> reduced = {"auto", "dop853", "dopri5", "esdirk", "bdf", "adams"};
+  static const std::vector<std::string> reduced = {"auto", "work", "dop853", "dopri5", "esdirk", "bdf", "adams"};
   static const std::vector<std::string> multibody = {
       "auto",   "RungeKuttaMerson",   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
       "Verlet", "SemiExplicitEuler2", "ExplicitEuler",      "CPodes"};
@@ -579,9 +579,10 @@ const std::vector<Key>& run_keys() {
       {.name = "method",
        .type = KeyType::text,
        .fallback = "\"auto\"",
-       .doc = "integrator",
-       .choices = {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson", "RungeKuttaFeldberg",
-                   "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
+       .doc = "integrator; work: the work equation over the angle (rigid, no torque over time)",
+       .choices = {"auto", "work", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson",
+                   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler",
+                   "CPodes"}},
       {.name = "model",
        .type = KeyType::text,
        .fallback = "\"reduced\"",

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mechanisms/joint_keys.h"
 #include "mechanisms/kinds.h"
 #include "mechanisms/load_kinds.h"
 #include "mechanisms/mechanism_keys.h"
@@ -28,26 +29,15 @@ DataFaults faults_of(const SliderCrankData& d) {
 }
 
 void build_slider_crank(const Section& s, Network& net, Messages& messages) {
-  SliderCrankData d;
-  d.radius = s.number("radius");
-  d.rod_length = s.number("rod");
-  d.offset = s.number("offset");
-  d.crank_mass = s.number("crank_mass");
-  d.crank_com = s.number("crank_com");
-  d.crank_inertia = s.number("crank_inertia");
-  d.rod_mass = s.number("rod_mass");
-  d.rod_com = s.number_or("rod_com", d.rod_length / 2);
-  d.rod_inertia = s.number("rod_inertia");
-  d.slider_mass = s.number("slider_mass");
-  d.gravity = s.number("gravity");
-  d.stroke_angle = s.number("stroke_angle");
+  const SliderCrankData d = slider_crank_data(s);
+  check_joints(s, messages);
   build_mechanism(s, d, faults_of(d), net, messages);
 }
 
 }  // namespace
 
 Kind slider_crank_kind() {
-  return {
+  Kind kind{
       .name = "slider-crank",
       .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
       .keys =
@@ -95,6 +85,8 @@ Kind slider_crank_kind() {
            phase_key(),
            load_key("force on the slider, or a list of them", slider_load_kinds())},
       .build = build_slider_crank};
+  kind.keys = joined({kind.keys, slider_crank_joint_keys()});
+  return kind;
 }
 
 }  // namespace kurbel

@@ -53,14 +53,21 @@ std::string rows(const std::vector<Key>& keys) {
   return text;
 }
 
+// What may stand in its tables, each once.
+std::vector<const std::vector<Kind>*> nested_in(const Kind& kind) {
+  std::vector<const std::vector<Kind>*> lists;
+  for (const Key& key : kind.keys)
+    if (key.nested && std::find(lists.begin(), lists.end(), key.nested) == lists.end()) lists.push_back(key.nested);
+  return lists;
+}
+
 std::string chapter(const Kind& kind, const char* level) {
   std::string text = fmt::format("{} `{}`\n\n{}.", level, kind.name, kind.doc);
   if (kind.elastic) text += " Its elasticity is an effect.";
   if (kind.placement == Placement::inline_two) text += " Two shafts: `.in` and `.out`.";
   text += fmt::format("\n\n{}\n", rows(kind.keys));
-  for (const Key& key : kind.keys)
-    if (key.nested)
-      for (const Kind& nested : *key.nested) text += chapter(nested, "####");
+  for (const std::vector<Kind>* kinds : nested_in(kind))
+    for (const Kind& nested : *kinds) text += chapter(nested, "####");
   return text;
 }
 
@@ -105,8 +112,7 @@ std::string aligned(const std::vector<Key>& keys) {
 void add_kinds(const std::vector<Kind>& kinds, std::vector<const Kind*>& list) {
   for (const Kind& kind : kinds) list.push_back(&kind);
   for (const Kind& kind : kinds)
-    for (const Key& key : kind.keys)
-      if (key.nested) add_kinds(*key.nested, list);
+    for (const std::vector<Kind>* nested : nested_in(kind)) add_kinds(*nested, list);
 }
 
 // Components first, then what stands inside them.

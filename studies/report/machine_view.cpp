@@ -14,6 +14,7 @@ constexpr double frames_per_turn = 240, fewest_per_turn = 60;
 constexpr int fewest_frames = 400, most_frames = 3000;
 constexpr double turns_shown = most_frames / fewest_per_turn;
 constexpr std::size_t most_parts = 60;
+constexpr int places_of_turn = 240;  // straight between them: 1e-4 of the crank's radius
 constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
 
@@ -53,6 +54,9 @@ void add_parts(MachineView& view, const Model& model) {
     const Network::Ports& ports = model.network.ports.at(name);
     part.ratio_in = model.node_ratio[at(ports.in)];
     part.ratio_out = model.node_ratio[at(ports.out)];
+    for (const Network::ShaftElement& element : model.network.elements)
+      part.crank =
+          part.crank || (element.component == name && dynamic_cast<const MechanismMaker*>(element.element.get()));
     for (const ElasticJoint& joint : model.elastic)
       part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
     view.parts.push_back(std::move(part));
@@ -67,6 +71,54 @@ void add_parts(MachineView& view, const Model& model) {
     view.parts.insert(view.parts.begin() + ends_shown,
                       MachineView::Part{.name = "…", .kind = "gap", .row = view.parts.front().row});
   }
+}
+
+// How the joints of each mechanism are joined up; see its make_bodies for their order.
+struct Joined {
+  std::string name;
+  double direction;
+  std::vector<MachineView::Linkage::Link> links;
+  std::vector<int> fixed;
+  int output;
+};
+Joined joined(const SliderCrankData& d) {
+  return {"Slider-crank", d.stroke_angle, {{"link", {1, 2}}, {"slider", {2}}, {"crank", {0, 1}}}, {0}, 2};
+}
+Joined joined(const FourBarData& d) {
+  return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3};
+}
+Joined joined(const QuickReturnData& d) {
+  return {"Quick-return",
+          d.stroke_angle,
+          {{"slot", {2, 1}}, {"link", {2, 3}}, {"link", {3, 4}}, {"slider", {4}}, {"crank", {0, 1}}, {"block", {1, 2}}},
+          {0, 2},
+          4};
+}
+Joined joined(const KnucklePressData& d) {
+  return {"Knuckle press",
+          d.stroke_angle,
+          {{"link", {1, 2}}, {"link", {3, 2}}, {"link", {2, 4}}, {"slider", {4}}, {"crank", {0, 1}}},
+          {0, 3},
+          4};
+}
+
+MachineView::Linkage linkage_of(const Mechanism& mechanism) {
+  Joined how = std::visit([](const auto& d) { return joined(d); }, mechanism.data);
+  MachineView::Linkage linkage{.name = how.name,
+                               .direction = how.direction,
+                               .x = {},
+                               .y = {},
+                               .links = std::move(how.links),
+                               .fixed = std::move(how.fixed),
+                               .output = how.output};
+  for (int i = 0; i <= places_of_turn; ++i) {
+    const double angle = 2 * std::numbers::pi * i / places_of_turn;
+    const std::vector<PlanePoint> joints = mechanism.bodies->joints(angle + mechanism.phase);
+    linkage.x.resize(joints.size()), linkage.y.resize(joints.size());
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      linkage.x[k].push_back(joints[k].x), linkage.y[k].push_back(joints[k].y);
+  }
+  return linkage;
 }
 
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
@@ -92,8 +144,9 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
     for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
       for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
-    if (part.kind == "slider-crank" && motion.force.empty())
-      motion.force = sampled(traces.find("force." + part.name), view.time);
+    if (part.crank && motion.force.empty())
+      for (const char* load : {"force.", "load_torque."})
+        if (const Trace* trace = traces.find(load + part.name)) motion.force = sampled(trace, view.time);
   }
   if (!any_twist || model.elastic.empty()) motion.twist_in.clear(), motion.twist_out.clear();
   return motion;
@@ -112,8 +165,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   if (model.reduction_element >= 0)
     if (const auto* maker =
             dynamic_cast<const MechanismMaker*>(model.network.elements[at(model.reduction_element)].element.get()))
-      if (const auto* d = std::get_if<SliderCrankData>(&maker->mechanism().data))
-        view.slider_crank = {d->radius, d->rod_length, d->offset, d->stroke_angle};
+      view.linkage = linkage_of(maker->mechanism());
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());

@@ -152,17 +152,17 @@
   }
 
   // --- the moving machine ----------------------------------------------------------------------------------------------
-  const widths = {motor: 110, coupling: 92, gearbox: 130, flywheel: 90, 'slider-crank': 110};
-  const partWidth = part => widths[part.kind] || (/motor|turbine/.test(part.kind) ? 110 : 84);
+  const widths = {motor: 110, coupling: 92, gearbox: 130, flywheel: 90};
+  const partWidth = part => part.crank ? 110 : widths[part.kind] || (/motor|turbine/.test(part.kind) ? 110 : 84);
 
   function addMachine(m, card) {
     card.classList.add('machine');
     const front = m.motions[m.motions.length - 1], ghosts = m.motions.slice(0, -1);
     const head = make('header', '', null, card);
     make('h3', '', m.title, head);
-    const stage = make('div', 'stage' + (m.sliderCrank ? '' : ' alone'), null, card);
+    const stage = make('div', 'stage' + (m.linkage ? '' : ' alone'), null, card);
     const shaftLine = drawShaftLine(m, front, stage);
-    const mechanism = m.sliderCrank ? drawSliderCrank(m, front, ghosts, stage) : null;
+    const mechanism = m.linkage ? drawLinkage(m, front, ghosts, stage) : null;
 
     // Controls.
     const controls = make('div', 'controls', null, card);
@@ -308,11 +308,11 @@
           if (p.elastic) draw('polyline', {points: [-12, -8, -4, 0, 4, 8, 12].map((d, j) => `${middle + d},${y - 24 + (j % 2 ? -5 : 5)}`).join(' '), class: 'front', 'stroke-width': 1.6}, svg);
           else draw('rect', {x: middle - 12, y: y - 27, width: 24, height: 6, class: 'shaft'}, svg);
         } else {
-          const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : kind === 'slider-crank' ? 72 : kind === 'load' ? 84 : 84;
-          const thick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : kind === 'slider-crank' ? 0 : 26;
+          const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : p.crank ? 72 : kind === 'load' ? 84 : 84;
+          const thick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : p.crank ? 0 : 26;
           if (thick) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
           if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) draw('line', {x1: middle - thick / 2 + 8, x2: middle + thick / 2 - 8, y1: y - height / 2 + j * height / 6, y2: y - height / 2 + j * height / 6, stroke: 'var(--metal-edge)', 'stroke-width': .6}, svg);
-          if (kind === 'slider-crank') {
+          if (p.crank) {
             shaft(middle, middle + 22, y);
             const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg);
             updates.push(at => {
@@ -322,7 +322,7 @@
             });
           }
           if (!/motor|turbine/.test(kind) || n > 0) line.push({x: middle - thick / 2, y, k, side: 'twistIn', hidden: thick > 60});
-          line.push({x: middle + thick / 2 + (kind === 'slider-crank' ? 14 : 0), y, k, side: 'twistOut'});
+          line.push({x: middle + thick / 2 + (p.crank ? 14 : 0), y, k, side: 'twistOut'});
           if (n === 0) line.shift();
         }
         if (n < list.length - 1) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
@@ -348,7 +348,7 @@
   }
 
   const hand = (x, y, r, angle) => ({x1: x, y1: y, x2: x + r * Math.cos(angle), y2: y - r * Math.sin(angle)});
-  const withPrefix = (value, unit) => Math.abs(value) >= 1000 ? `${(value / 1000).toPrecision(3)} k${unit}` : `${Math.abs(value) < 0.5 ? 0 : +value.toPrecision(3)} ${unit}`;
+  const withPrefix = (value, unit) => Math.abs(value) >= 1e6 ? `${(value / 1e6).toPrecision(3)} M${unit}` : Math.abs(value) >= 1000 ? `${(value / 1000).toPrecision(3)} k${unit}` : `${Math.abs(value) < 0.5 ? 0 : +value.toPrecision(3)} ${unit}`;
   function drawArrowHead(path, head, x, y, direction, size) {
     const c = Math.cos(direction), s = Math.sin(direction);
     place(head, {points: [[size, 0], [-size * 0.5, size * 0.65], [-size * 0.5, -size * 0.65]].map(([a, b]) => `${x + a * c - b * s},${y - a * s - b * c}`).join(' ')});
@@ -382,66 +382,99 @@
     };
   }
 
-  // Crank, rod and slider to scale, in the direction of the stroke.
-  function drawSliderCrank(m, front, ghosts, stage) {
-    const g = m.sliderCrank, c = Math.cos(g.direction), s = Math.sin(g.direction);
-    const far = Math.sqrt((g.radius + g.rod) ** 2 - g.offset ** 2), body = 0.16 * (g.radius + g.rod);
-    const forceRoom = 0.62 * (g.radius + g.rod) * 0.6;
-    // Corners of what is seen, in the frame of the stroke.
-    const side = Math.max(g.radius * 1.25, body * 0.75 + Math.abs(g.offset), 0.22 * far);
-    const corners = [[-g.radius * 1.25, -side], [-g.radius * 1.25, side], [far + body + (m.motions.some(q => q.force.length) ? forceRoom * 0.55 : 0), -side], [far + body, side]].map(([u, v]) => [u * c - v * s, -(u * s + v * c)]);
+  // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
+  function drawLinkage(m, front, ghosts, stage) {
+    const g = m.linkage, c = Math.cos(g.direction), s = Math.sin(g.direction), steps = g.x[0].length - 1;
+    const jointAt = (k, angle) => {
+      const place = ((angle / (2 * Math.PI)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
+      return [g.x, g.y].map(list => list[k][i] + share * (list[k][i + 1] - list[k][i]));
+    };
+    const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
+    const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
+    const slider = g.links.find(link => link.shape === 'slider'), end = slider ? slider.joints[0] : g.output;
+    const forced = m.motions.some(motion => motion.force.length);
+    // Corners of what is seen, in the mechanism's axes.
+    const far = most(g.x) + (slider ? body + (forced ? 0.55 * room : 0) : 0.4 * body);
+    const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [least(g.y) - 0.75 * body, most(g.y) + 0.75 * body].map(v => [u * c - v * s, -(u * s + v * c)]));
     const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
     const w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - Math.min(...ys);
-    const scale = 380 / Math.max(w, h), padding = 14;
-    const W = Math.max(w * scale + 2 * padding, 250), H = h * scale + 2 * padding;
+    const scale = 380 / Math.max(w, h), padding = 18;
+    const top = 36;  // above all, the scale bar
+    const W = Math.max(w * scale + 2 * padding, 250), H = h * scale + padding + top;
     const X = (u, v) => (u * c - v * s - (Math.max(...xs) + Math.min(...xs)) / 2) * scale + W / 2;
-    const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + padding;
+    const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + top;
     const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
-    draw('title', {}, svg, 'Slider-crank to scale');
+    draw('title', {}, svg, `${g.name} to scale`);
     const at2 = (u, v) => `${X(u, v).toFixed(2)},${Y(u, v).toFixed(2)}`;
-    // Guide, and a scale bar.
-    for (const v of [-1, 1]) {
-      const low = g.rod - g.radius - body, off = g.offset + v * body * 0.62;
-      draw('line', {x1: X(low, off), y1: Y(low, off), x2: X(far + body * 0.6, off), y2: Y(far + body * 0.6, off), stroke: 'var(--metal-edge)', 'stroke-width': 2}, svg);
+    // Guide, fixed bearings, and a scale bar.
+    if (slider) for (const v of [-1, 1]) {
+      const low = Math.min(...g.x[end]) - body, high = Math.max(...g.x[end]) + body * 1.1, off = g.y[end][0] + v * body * 0.62;
+      draw('line', {x1: X(low, off), y1: Y(low, off), x2: X(high, off), y2: Y(high, off), stroke: 'var(--metal-edge)', 'stroke-width': 2}, svg);
+    }
+    for (const k of g.fixed) {
+      const x = X(g.x[k][0], g.y[k][0]), y = Y(g.x[k][0], g.y[k][0]);
+      draw('polygon', {points: `${x},${y} ${x - 9},${y + 14} ${x + 9},${y + 14}`, class: 'body'}, svg);
     }
     const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
     draw('text', {x: 10, y: 30, class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
 
+    // A rectangle about a joint, along the direction of another or of the stroke.
+    const block = (p, along, length, width) => {
+      const [a, b] = along, points = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([i, j]) => [p[0] + i * length * a - j * width * b, p[1] + i * length * b + j * width * a]);
+      return points.map(q => at2(...q)).join(' ');
+    };
+    const styles = {
+      crank: {class: 'front', 'stroke-width': 7, 'stroke-linecap': 'round'}, link: {stroke: 'var(--metal-edge)', 'stroke-width': 9, 'stroke-linecap': 'round', 'stroke-linejoin': 'round'},
+      slot: {stroke: 'var(--metal-edge)', 'stroke-width': 4, 'stroke-dasharray': '2 3'}, slider: {class: 'body'}, block: {class: 'body'},
+    };
     function linkage(parent, ghost) {
-      const kind = ghost ? 'ghost' : 'front', width = ghost ? 2 : 1;
-      const disc = draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: g.radius * scale, class: ghost ? 'ghost' : 'dial', fill: 'none', 'stroke-dasharray': ghost ? '4 3' : '', opacity: ghost ? 0 : 1}, parent);
-      const rod = draw('line', ghost ? {class: kind, 'stroke-width': 2, 'stroke-dasharray': '6 4'} : {stroke: 'var(--metal-edge)', 'stroke-width': 9, 'stroke-linecap': 'round'}, parent);
-      const slider = draw('polygon', ghost ? {class: kind, 'stroke-width': 2, 'stroke-dasharray': '6 4'} : {class: 'body'}, parent);
-      const crank = draw('line', {class: kind, 'stroke-width': ghost ? 2 : 7, 'stroke-linecap': 'round', 'stroke-dasharray': ghost ? '6 4' : ''}, parent);
-      const joints = ghost ? [] : [0, 1, 2].map(() => draw('circle', {r: 4.5, class: 'dial'}, parent));
+      const ghostly = {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '6 4'};
+      if (!ghost) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]) * scale, class: 'dial'}, parent);
+      const parts = g.links.filter(link => !ghost || link.shape !== 'slot').map(link => {
+        const filled = link.shape === 'slider' || link.shape === 'block';
+        return {link, filled, shape: draw(filled ? 'polygon' : 'polyline', {fill: 'none', ...(ghost ? ghostly : styles[link.shape])}, parent)};
+      });
+      const joints = ghost ? [] : g.x.map(() => draw('circle', {r: 4.5, class: 'dial'}, parent));
       return angle => {
-        const u = g.radius * Math.cos(angle), v = g.radius * Math.sin(angle), x = u + Math.sqrt(g.rod ** 2 - (v - g.offset) ** 2);
-        place(crank, {x1: X(0, 0), y1: Y(0, 0), x2: X(u, v), y2: Y(u, v)});
-        place(rod, {x1: X(u, v), y1: Y(u, v), x2: X(x, g.offset), y2: Y(x, g.offset)});
-        const half = body * 0.58;
-        place(slider, {points: [[x - half, g.offset - half], [x + half, g.offset - half], [x + half, g.offset + half], [x - half, g.offset + half]].map(p => at2(...p)).join(' ')});
-        joints.forEach((joint, i) => place(joint, {cx: X(...[[0, 0], [u, v], [x, g.offset]][i]), cy: Y(...[[0, 0], [u, v], [x, g.offset]][i])}));
-        return x;
+        const points = g.x.map((_, k) => jointAt(k, angle));
+        for (const {link, filled, shape} of parts) {
+          const [first, second] = link.joints.map(k => points[k]);
+          if (!filled) place(shape, {points: link.joints.map(k => at2(...points[k])).join(' ')});
+          else if (link.shape === 'slider') place(shape, {points: block(first, [1, 0], body * 0.58, body * 0.58)});
+          else {
+            const d = Math.hypot(first[0] - second[0], first[1] - second[1]) || 1;
+            place(shape, {points: block(first, [(first[0] - second[0]) / d, (first[1] - second[1]) / d], body * 0.36, body * 0.22)});
+          }
+        }
+        joints.forEach((joint, k) => place(joint, {cx: X(...points[k]), cy: Y(...points[k])}));
+        return points;
       };
     }
     const main = linkage(svg, false);
     const shadows = ghosts.map(() => linkage(svg, true));
     const largest = front.force.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
-    const group = draw('g', {}, svg), shaft = draw('line', {class: 'arrow', 'stroke-width': 4}, group), head = draw('polygon', {class: 'head'}, group);
-    const text = draw('text', {class: 'load', 'text-anchor': 'end'}, group);
+    const group = draw('g', {}, svg), arrow = draw('path', {class: 'arrow', 'stroke-width': 4, fill: 'none'}, group), head = draw('polygon', {class: 'head'}, group);
+    const onLeft = X(g.x[end][0], g.y[end][0]) > 0.6 * W;  // the figure stands where the arrow does not
+    const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
     return (at, loads) => {
-      const x = main(at(front.angle));
+      const points = main(at(front.angle));
       ghosts.forEach((ghost, i) => shadows[i](at(ghost.angle)));
       const force = at(front.force), shown = loads && Math.abs(force) > 1e-4 * largest;
       group.setAttribute('visibility', shown ? 'visible' : 'hidden');
       if (!shown) return;
-      // A push towards the crank ends at the slider's face, a pull begins there.
-      const face = x + body * 0.58, length = forceRoom * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
-      place(shaft, {x1: X(from, g.offset), y1: Y(from, g.offset), x2: X(to, g.offset), y2: Y(to, g.offset)});
-      drawArrowHead(shaft, head, X(to, g.offset), Y(to, g.offset), g.direction + (force < 0 ? Math.PI : 0), 9);
-      place(text, {x: W - 6, y: H - 8});
-      text.textContent = withPrefix(force, 'N');
+      text.textContent = withPrefix(force, slider ? 'N' : 'N·m');
+      if (slider) {
+        // A push towards the crank ends at the slider's face, a pull begins there.
+        const [x, y] = points[end], face = x + body * 0.58, length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
+        place(arrow, {d: `M${at2(from, y)} L${at2(to, y)}`});
+        drawArrowHead(arrow, head, X(to, y), Y(to, y), g.direction + (force < 0 ? Math.PI : 0), 9);
+      } else {
+        // About the rocker's bearing.
+        const [u, v] = points[end], x = X(u, v), y = Y(u, v), R = 30, turn = 2.6 * force / largest, start = Math.PI / 2 - turn / 2, stop = start + turn;
+        place(arrow, {d: `M${x + R * Math.cos(start)},${y - R * Math.sin(start)} A${R},${R} 0 0 ${turn > 0 ? 0 : 1} ${x + R * Math.cos(stop)},${y - R * Math.sin(stop)}`});
+        drawArrowHead(arrow, head, x + R * Math.cos(stop), y - R * Math.sin(stop), stop + (turn > 0 ? 1 : -1) * Math.PI / 2, Math.abs(turn) < 0.08 ? 0 : 8);
+      }
     };
   }
 

@@ -178,6 +178,24 @@ void write(Writer& w, const Text& t) {
   w.field("folded", t.folded);
 }
 
+void write(Writer& w, const MachineView::Linkage& linkage) {
+  w.field("name", linkage.name);
+  w.field("direction", linkage.direction);
+  w.field("x", linkage.x, 5);
+  w.field("y", linkage.y, 5);
+  w.key("links");
+  w.list(linkage.links, [&](const MachineView::Linkage::Link& link) {
+    w.object([&] {
+      w.field("shape", link.shape);
+      w.key("joints");
+      w.list(link.joints, [&](int joint) { w.value(static_cast<double>(joint)); });
+    });
+  });
+  w.key("fixed");
+  w.list(linkage.fixed, [&](int joint) { w.value(static_cast<double>(joint)); });
+  w.field("output", static_cast<double>(linkage.output));
+}
+
 void write(Writer& w, const MachineView& machine) {
   w.field("kind", "machine");
   w.field("title", machine.title);
@@ -192,17 +210,13 @@ void write(Writer& w, const MachineView& machine) {
       w.field("ratioIn", part.ratio_in);
       w.field("ratioOut", part.ratio_out);
       w.field("elastic", part.elastic);
+      w.field("crank", part.crank);
       w.field("row", static_cast<double>(part.row));
     });
   });
-  if (machine.slider_crank) {
-    w.key("sliderCrank");
-    w.object([&] {
-      w.field("radius", machine.slider_crank->radius);
-      w.field("rod", machine.slider_crank->rod);
-      w.field("offset", machine.slider_crank->offset);
-      w.field("direction", machine.slider_crank->direction);
-    });
+  if (machine.linkage) {
+    w.key("linkage");
+    w.object([&] { write(w, *machine.linkage); });
   }
   w.field("time", machine.time, 7);
   w.key("motions");

@@ -77,17 +77,27 @@ struct Text {
   bool verbatim = false, folded = false;
 };
 
-// The moving machine: a shaft line, and a slider-crank to scale.
+// The moving machine: a shaft line, and its mechanism to scale.
 struct MachineView {
   struct Part {
     std::string name, kind;              // kind "gap": parts that are left out
     double ratio_in = 1, ratio_out = 1;  // speed over the crank's
     bool elastic = false;
-    int row = 0;  // 0: the main line
+    bool crank = false;  // of a mechanism
+    int row = 0;         // 0: the main line
   };
-  struct SliderCrank {
-    double radius = 0, rod = 0, offset = 0;  // [m]
-    double direction = 0;                    // of the stroke, above the horizontal [rad]
+  // The mechanism by its joints over one turn of the crank, in equal steps; the last place is the first again.
+  struct Linkage {
+    struct Link {
+      std::string shape;  // "crank", "link", "slot": a line; "slider" on a joint; "block" on a joint, along the next
+      std::vector<int> joints;  // that it goes through
+    };
+    std::string name;
+    double direction = 0;                   // of +x above the horizontal [rad]
+    std::vector<std::vector<double>> x, y;  // per joint [m]
+    std::vector<Link> links;                // in the order of drawing
+    std::vector<int> fixed;                 // joints that are bearings in the frame
+    int output = 0;                         // joint that the load is shown at
   };
   // Per frame; twists and torques per part, empty where there are none.
   struct Motion {
@@ -96,11 +106,11 @@ struct MachineView {
     std::vector<double> angle;                             // of the crank, or of the reduction link [rad]
     std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it [rad]
     std::vector<std::vector<double>> torque;               // [N·m]
-    std::vector<double> force;                             // on the slider, positive towards the extended end [N]
+    std::vector<double> force;  // on the output, positive towards its greatest x [N], or angle [N·m]
   };
   std::string title, link;
   std::vector<Part> parts;
-  std::optional<SliderCrank> slider_crank;
+  std::optional<Linkage> linkage;
   std::vector<double> time;     // of the frames [s]
   std::vector<Motion> motions;  // the last one in front, those before it as grey ghosts
   double enlargement = 1;       // of the twists

@@ -339,11 +339,22 @@ std::vector<Plot> motion_plots(const Results& results) {
   }
   for (const Trace& trace : front.traces->over_time) {
     if (trace.name.starts_with("position."))
-      add(over_time(results, trace.name, fmt::format("Position of the slider of {}", trace.name.substr(9)),
-                    "position"));
+      add(over_time(results, trace.name,
+                    fmt::format("{} of {}", trace.unit == "m" ? "Position of the slider" : "Angle of the rocker",
+                                trace.name.substr(9)),
+                    trace.unit == "m" ? "position" : "angle"));
     if (trace.name.starts_with("velocity."))
-      add(over_time(results, trace.name, fmt::format("Speed of the slider of {}", trace.name.substr(9)),
-                    "slider speed"));
+      add(over_time(
+          results, trace.name,
+          fmt::format("Speed of the {} of {}", trace.unit == "m/s" ? "slider" : "rocker", trace.name.substr(9)),
+          trace.unit == "m/s" ? "slider speed" : "rocker speed"));
+    if (trace.name.starts_with("load_torque.")) {
+      add(over_time(results, trace.name, fmt::format("Load torque on the rocker of {}", trace.name.substr(12)),
+                    "torque"));
+      add(over_angle(results, trace.name,
+                     fmt::format("Load torque on the rocker of {} over the crank's angle", trace.name.substr(12)),
+                     "torque"));
+    }
     if (trace.name.starts_with("force.")) {
       add(over_time(results, trace.name, fmt::format("Force on the slider of {}", trace.name.substr(6)), "force"));
       add(over_angle(results, trace.name,

@@ -43,7 +43,8 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
       }
     }
   for (const Channel& channel : channels_) {
-    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") || channel.name.starts_with("speed."))
+    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") ||
+        channel.name.starts_with("load_torque.") || channel.name.starts_with("speed."))
       over_angle_.push_back(traces_->over_time.size());
     traces_->over_time.push_back({channel.name, channel.unit, {}, {}});
   }

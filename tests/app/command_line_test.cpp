@@ -108,6 +108,30 @@ TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(file("out/trajectory.csv"));
 }
 
+TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
+  const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
+  const Ended r = kurbel({"forces", press, "--speed", "60 rpm", "--no-run", "--out", "out"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.err.empty()) << r.err;
+  EXPECT_NE(r.out.find("reaction of the main bearing"), std::string::npos) << r.out;
+  for (const char* name : {"out/summary.json", "out/report.html", "out/forces_prescribed.csv"})
+    EXPECT_TRUE(file(name)) << name;
+  const struct {
+    std::vector<std::string> arguments;
+    std::string said;
+  } bad[] = {{{"--speed", "60 mm"}, "--speed \"60 mm\": must be a speed with its unit, e.g. \"300 rpm\""},
+             {{"--speed", "0 rpm"}, "must be a speed ≠ 0"},
+             {{"--positions", "2"}, "--positions 2: must be 4 … 3600 of a turn"},
+             {{"--mechanism", "pres"}, "--mechanism pres: no slider-crank of that name; allowed: \"press\""}};
+  for (const auto& request : bad) {
+    std::vector<std::string> arguments = {"forces", press, "--no-run"};
+    arguments.insert(arguments.end(), request.arguments.begin(), request.arguments.end());
+    const Ended refused = kurbel(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find(request.said), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(CommandLine, BadSceneEndsWithTwoAndWritesNothing) {
   const Ended r = kurbel({"run", scene("until = \"1 s\"\n", "\"-1 kg*m2\""), "--out", "out"});
   EXPECT_EQ(r.code, 2);
@@ -154,7 +178,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "fine", "--accuracy"},
       {"--accuracy", "nan", "--accuracy"},
       {"--accuracy", "0", "--accuracy"},
-      {"--method", "euler", "allowed: \"auto\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
+      {"--method", "euler", "allowed: \"auto\", \"work\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
       {"--method", "CPodes",
        "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
