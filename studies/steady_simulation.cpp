@@ -122,6 +122,10 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
     result.phi = last.phi;
     result.link = last.speed[0];
     result.motor = last.speed[1];
+    // The cycle closes: its first point comes again.
+    result.phi.push_back(result.phi.front() + cycle);
+    result.link.push_back(result.link.front());
+    result.motor.push_back(result.motor.front());
     const double ratio = model->node_ratio[static_cast<std::size_t>(motor_node)];
     for (double& v : result.motor) v /= ratio;
     if (!outcome.complete) return result;
