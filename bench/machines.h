@@ -44,14 +44,15 @@ inline std::shared_ptr<const Model> model_of(const std::string& scene) {
 
 // A bare run: no audit, nobody watching.
 inline RunOutcome bare_run(const std::shared_ptr<const Model>& model, double tolerance,
-                           const std::string& method = "auto") {
+                           const std::string& method = "auto", std::shared_ptr<WorkTables> tables = nullptr) {
   Equations equations(model, false);
   RunOptions options{.tolerance = tolerance,
                      .method = method,
                      .until = model->scene.run.until,
                      .budget = 600,
                      .interrupted = nullptr,
-                     .progress = {}};
+                     .progress = {},
+                     .work_tables = std::move(tables)};
   return integrate(equations, options, {});
 }
 
@@ -71,10 +72,16 @@ inline TimedRun timed(int repetitions, const std::function<RunOutcome()>& run) {
   return result;
 }
 
-inline double final_angle(const std::shared_ptr<const Model>& model, double tolerance) {
+inline double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+inline double final_angle(const std::shared_ptr<const Model>& model, double tolerance, const std::string& method) {
   Equations equations(model, false);
   RunOptions options{.tolerance = tolerance,
-                     .method = "auto",
+                     .method = method,
                      .until = model->scene.run.until,
                      .budget = 600,
                      .interrupted = nullptr,

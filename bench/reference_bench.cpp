@@ -5,6 +5,7 @@
 
 #include "bench/machines.h"
 #include "engine/recorders.h"
+#include "engine/work_equation.h"
 #include "mechanisms/multibody_run.h"
 
 using namespace kurbel;
@@ -16,15 +17,34 @@ double r1_cost_at_1e6 = 0;
 
 void crank_problem(const char* name, const char* scene, double reference) {
   const auto model = model_of(scene);
-  std::printf("%s: error of the crank angle after 10 s against processor time\n  %-10s %12s %10s %8s\n", name,
+  std::printf("%s: error of the crank angle after 10 s against processor time\n  %-14s %-10s %12s %10s %8s\n", name, "",
               "tolerance", "error [rad]", "time [ms]", "steps");
-  for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8, 5e-9, 1e-9, 1e-10, 1e-11}) {
-    const TimedRun t = timed(15, [&] { return bare_run(model, tolerance); });
-    const double error = std::abs(final_angle(model, tolerance) - reference);
-    std::printf("  %-10.0e %12.2e %10.3f %8lld\n", tolerance, error, 1e3 * t.median_seconds,
-                static_cast<long long>(t.outcome.statistics.stepper.steps));
-    if (error <= 1e-6 && r1_cost_at_1e6 == 0 && std::string(name) == "R1") r1_cost_at_1e6 = t.median_seconds;
-  }
+  const auto tables = std::make_shared<WorkTables>(model);
+  tables->edges(1);
+  if (tables->of_angle_alone()) tables->diagram(1);
+  for (const char* method : {"dop853", "work"})
+    for (const double tolerance : {1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 5e-9, 1e-9, 1e-10, 1e-11}) {
+      const TimedRun t = timed(101, [&] { return bare_run(model, tolerance, method, tables); });
+      const double error = std::abs(final_angle(model, tolerance, method) - reference);
+      std::printf("  %-14s %-10.0e %12.2e %10.3f %8lld\n",
+                  std::string(method) == "work" ? "over the angle" : "over time", tolerance, error,
+                  1e3 * t.median_seconds, static_cast<long long>(t.outcome.statistics.stepper.steps));
+      if (error <= 1e-6 && r1_cost_at_1e6 == 0 && std::string(name) == "R1") r1_cost_at_1e6 = t.median_seconds;
+    }
+  if (!tables->of_angle_alone()) return;
+  const WorkDiagram& diagram = tables->diagram(1);
+  WorkDiagram::Motion end;
+  constexpr int many = 1000;
+  const StartSettings& begin = model->scene.run.start;
+  const TimedRun t = timed(101, [&] {
+    RunOutcome out;
+    const double before = processor_seconds();
+    for (int i = 0; i < many; ++i) end = diagram.advance(begin.angle, begin.speed, model->scene.run.until);
+    out.statistics.cpu_seconds = (processor_seconds() - before) / many;
+    return out;
+  });
+  std::printf("  %-14s %-10s %12.2e %10.4f\n", "work diagram", "",
+              std::abs(static_cast<double>(end.cycles) * diagram.cycle() + end.s - reference), 1e3 * t.median_seconds);
 }
 
 void multibody() {

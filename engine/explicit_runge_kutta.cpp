@@ -304,14 +304,23 @@ void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
   if (t <= t_previous_) return void(std::copy(y_previous_, y_previous_ + size_, y.begin()));
   prepare_dense_output();
 
-  const double h = t_ - t_previous_, x = (t - t_previous_) / h, u = 1 - x;
-  const double *f0 = slope_[0], *f1 = slope_[table_.stages];
-  for (std::size_t i = 0; i < size_; ++i) {
-    double tail = 0;
-    for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense_[d][i] + (d % 2 == 0 ? x : u) * tail;
-    const double rise = y_[i] - y_previous_[i];
-    y[i] = y_previous_[i] + x * (rise + u * (h * f0[i] - rise + x * (2 * rise - h * (f0[i] + f1[i]) + u * tail)));
-  }
+  const double x = (t - t_previous_) / (t_ - t_previous_);
+  for (std::size_t i = 0; i < size_; ++i) y[i] = dense_value(x, i);
+}
+
+double ExplicitRungeKutta::interpolate(double t, std::size_t state) {
+  if (t >= t_) return y_[state];
+  if (t <= t_previous_) return y_previous_[state];
+  prepare_dense_output();
+  return dense_value((t - t_previous_) / (t_ - t_previous_), state);
+}
+
+double ExplicitRungeKutta::dense_value(double x, std::size_t i) const {
+  const double h = t_ - t_previous_, u = 1 - x, f0 = slope_[0][i], f1 = slope_[table_.stages][i];
+  double tail = 0;
+  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense_[d][i] + (d % 2 == 0 ? x : u) * tail;
+  const double rise = y_[i] - y_previous_[i];
+  return y_previous_[i] + x * (rise + u * (h * f0 - rise + x * (2 * rise - h * (f0 + f1) + u * tail)));
 }
 
 // A step of no length at t_: what start() leaves behind.

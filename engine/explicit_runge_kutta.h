@@ -16,6 +16,7 @@ class ExplicitRungeKutta final : public Stepper {
   void step(double t_limit) override;
   void retake(double t) override;
   void interpolate(double t, std::span<double> y) override;
+  double interpolate(double t, std::size_t state);  // one state alone
 
   double t() const override { return t_; }
   double t_previous() const override { return t_previous_; }
@@ -44,6 +45,7 @@ class ExplicitRungeKutta final : public Stepper {
   void adapt(double error, const Aim& done, bool after_rejection);
   void watch_stability(double h);
   void prepare_dense_output();
+  double dense_value(double x, std::size_t state) const;  // at the part x of the step
   void stand_still();
   [[noreturn]] void fail(double h, double error) const;
 

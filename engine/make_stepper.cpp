@@ -38,6 +38,8 @@ std::string_view name_of(Method method) {
       return "bdf";
     case Method::adams:
       return "adams";
+    case Method::work_equation:
+      return "work_equation";
   }
   return "unknown";
 }
@@ -55,6 +57,8 @@ std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorCon
       return make_bdf_stepper(system, control);
     case Method::adams:
       return make_adams_stepper(system, control);
+    case Method::work_equation:
+      throw std::invalid_argument("the work equation is that of a machine; a WorkStepper integrates it");
   }
   throw std::invalid_argument(fmt::format("method {} is unknown", static_cast<int>(method)));
 }

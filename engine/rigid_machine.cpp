@@ -17,8 +17,9 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr int most_turns = 24;         // of a cycle
 constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts as here
+constexpr double farthest = 1e-5;      // rad: where rounding hides what is ahead
 constexpr int cells_a_turn = 720;      // of the search for edges
-constexpr double below_zero = -1e-12;  // of a guard of order one: a touch within rounding is no edge
+constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
 
 std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
@@ -60,6 +61,8 @@ RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, Eff
 
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
+  for (const Network::ShaftElement& e : model_->network.elements)
+    if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[at_index(e.node)], e.phase});
   find_cycle();
   set_modes(0, 1);
   // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed.
@@ -110,10 +113,8 @@ double RigidMachine::constant_inertia() const { return model_->shafts[0].inertia
 // I = Σ i² I_own(i φ + ψ),  I′ = Σ i³ I′_own with i = ω_own/ω
 RigidMachine::Inertia RigidMachine::mechanism_inertia(double phi) const {
   Inertia sum;
-  for (const Network::ShaftElement& e : model_->network.elements) {
-    if (!(e.element->cycle() > 0)) continue;
-    const double ratio = model_->node_ratio[at_index(e.node)];
-    const auto own = e.element->inertia_at(ratio * phi + e.phase);
+  for (const auto& [maker, ratio, phase] : mechanisms_) {
+    const auto own = maker->inertia_at(ratio * phi + phase);
     sum.value += ratio * ratio * own.value;
     sum.slope += ratio * ratio * ratio * own.slope;
   }
@@ -126,10 +127,12 @@ void RigidMachine::fill_state(double phi, double omega) {
   state_[equations_.speed_index(0)] = omega;
 }
 
-void RigidMachine::set_modes(double phi, double omega) {
+void RigidMachine::set_modes(double phi, double omega) { look_ahead(phi, omega, ahead); }
+
+void RigidMachine::look_ahead(double phi, double omega, double distance) {
   const double here = periodic_ ? within(phi, cycle_) : phi;
-  const double before = std::copysign(ahead * std::max(1.0, std::abs(here)), omega);
-  state_ = equations_.modes_from_scratch(0, here + before, omega);
+  const double further = std::copysign(distance * std::max(1.0, std::abs(here)), omega);
+  state_ = equations_.modes_from_scratch(0, here + further, omega);
 }
 
 // M = Σ torques of the equations, which hold −½ I_r′ ω² for the mechanisms.
@@ -169,11 +172,11 @@ std::vector<double> RigidMachine::edges(int direction) {
   };
   const auto one = [&](std::size_t i) { return [&, i](double s) { return guards_at(s)[i]; }; };
   set_modes(sign * begin, sign);
-  double here = begin;
+  double here = begin, looked = ahead;
   while (here < end) {
     const double to = std::min(here + cell, end), middle = 0.5 * (here + to);
     const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
-    double edge = HUGE_VAL;
+    double edge = HUGE_VAL, value_here = 1;
     for (const std::size_t i : watched) {
       double below = HUGE_VAL;  // where the guard is negative, first guess
       if (at_middle[i] < below_zero) {
@@ -187,12 +190,23 @@ std::vector<double> RigidMachine::edges(int direction) {
       }
       if (below == HUGE_VAL) continue;
       const double from = at_here[i];
-      edge = std::min(edge, from > 0 ? find_root(one(i), here, from, below, guards_at(below)[i]) : here);
+      const double root = from > 0 ? find_root(one(i), here, from, below, guards_at(below)[i]) : here;
+      if (root < edge) value_here = from;
+      edge = std::min(edge, root);
     }
     if (edge == HUGE_VAL) {
       here = to;
+      looked = ahead;
       continue;
     }
+    // Nothing but rounding above zero already here: at a dead centre the slider's place tells the piece only further
+    // on.
+    if (value_here < -below_zero && looked < farthest) {
+      looked *= 10;
+      look_ahead(sign * here, sign, looked);
+      continue;
+    }
+    looked = ahead;
     edge = std::max(edge, here);
     const double angle = periodic_ ? within(sign * edge, cycle_) : sign * edge;
     found.push_back(cycle_ - angle < 1e-13 ? 0 : angle);

@@ -61,13 +61,19 @@ class RigidMachine {
   std::vector<double> edges(int direction);
 
  private:
+  struct Mechanism {
+    const ShaftElementMaker* maker;  // belongs to the model
+    double ratio, phase;             // own angle = ratio · φ + phase
+  };
   void find_cycle();
+  void look_ahead(double phi, double omega, double distance);
   void fill_state(double phi, double omega);
 
   std::shared_ptr<const Model> model_;
   Equations equations_;
   double cycle_ = 0;
   bool periodic_ = true;
+  std::vector<Mechanism> mechanisms_;
   std::vector<double> state_, share_;
 };
 

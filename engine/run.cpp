@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/work_stepper.h"
+
 namespace kurbel {
 namespace {
 
@@ -27,8 +29,9 @@ Method method_named(const std::string& name) {
   if (name == "esdirk") return Method::esdirk_43;
   if (name == "bdf") return Method::bdf;
   if (name == "adams") return Method::adams;
+  if (name == "work") return Method::work_equation;
   throw std::invalid_argument(fmt::format(
-      "method \"{}\" integrates no reduced model; allowed: auto, dopri5, dop853, esdirk, bdf, adams", name));
+      "method \"{}\" integrates no reduced model; allowed: auto, work, dopri5, dop853, esdirk, bdf, adams", name));
 }
 
 // Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
@@ -57,21 +60,26 @@ constexpr int held_steps_before_trial = 200;
 constexpr int trial_warm_up = 30, trial_length = 60;
 constexpr double implicit_step_cost = 3;
 
+// Turns after which the work equation has earned its search for the edges.
+constexpr double turns_to_pay = 3;
+
 class Loop {
  public:
   Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
       : equations_(equations),
         options_(options),
         observers_(observers),
-        view_(equations),
-        guard_(equations.guard_count()),
+        system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
+        view_(equations, system_.size()),
+        guard_(equations.guard_count() + (options.stop ? 1 : 0)),
         guard_before_(guard_.size()) {}
 
   RunOutcome run() {
     begin_ = cpu_now();
+    choose_method();
     try {
       start();
-      while (stepper_->t() < options_.until && advance()) {
+      while (!out_.stopped && stepper_->t() < options_.until && advance()) {
       }
       out_.complete = out_.diagnosis.empty();
     } catch (const StepFailure& failure) {
@@ -85,24 +93,51 @@ class Loop {
   }
 
  private:
-  void start() {
-    std::vector<double> y = equations_.start(0);
+  void choose_method() {
     method_ = method_named(options_.method);
-    out_.statistics.method = std::string(name_of(method_));
+    std::string& reason = out_.statistics.reason;
     if (options_.method != "auto") {
-      out_.statistics.reason = "asked for";
+      reason = "asked for";
+      if (method_ == Method::work_equation)
+        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty())
+          throw std::invalid_argument("method \"work\": " + why);
+    } else if (work_equation_pays()) {
+      method_ = Method::work_equation;
+      reason = "rigid, torques of angle and speed: load edges lie at known angles";
     } else if (equations_.model().elastic.empty()) {
-      out_.statistics.reason = "rigid: nothing is stiff, and a high order takes the longest steps";
+      reason = "rigid: nothing is stiff, and a high order takes the longest steps";
     } else {
-      out_.statistics.reason = "explicit while its steps are held by accuracy, not by stability";
+      reason = "explicit while its steps are held by accuracy, not by stability";
     }
-    make(method_, 0, y);
-    for (Observer* observer : observers_) observer->begin(0, stepper_->y(), equations_);
+    out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // Where inertia or torques vary with the angle, over more than a few turns.
+  bool work_equation_pays() const {
+    const Model& m = equations_.model();
+    if (options_.from || options_.stop || options_.extension) return false;
+    if (!m.elastic.empty() || m.free_shafts != 1) return false;
+    if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
+    if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
+    return options_.work_tables || WorkTables::refusal(equations_.shared_model()).empty();
+  }
+
+  void start() {
+    const double t = options_.from ? options_.from->t : 0;
+    const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
+    make(method_, t, y);
+    for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
   }
 
   void make(Method method, double t, std::span<const double> y) {
     if (stepper_) add_statistics();
-    stepper_ = make_stepper(method, equations_, equations_.error_control(options_.tolerance));
+    const ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
+                                                    : equations_.error_control(options_.tolerance);
+    if (method == Method::work_equation) {
+      stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
+    } else {
+      stepper_ = make_stepper(method, system_, control);
+    }
     method_ = method;
     view_.watch(*stepper_);
     restart(t, y);
@@ -111,7 +146,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
-    equations_.guards(t, state_, guard_before_);
+    find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
 
@@ -119,9 +154,10 @@ class Loop {
   bool advance() {
     if (out_of_budget()) return false;
     stepper_->step(limit());
-    equations_.guards(stepper_->t(), stepper_->y(), guard_);
-    const std::vector<std::size_t> fired = locate_event();
-    if (stepper_->t() > stepper_->t_previous())
+    find_guards(stepper_->t(), stepper_->y(), guard_);
+    std::vector<std::size_t> fired = locate_event();
+    if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
@@ -147,6 +183,7 @@ class Loop {
   // unseen.
   double limit() const {
     double t = std::min(options_.until, edge_);
+    if (stepper_->ends_on_edges()) return t;
     const Model& m = equations_.model();
     for (const TrackedAngle& angle : m.angles) {
       const auto shaft = static_cast<std::size_t>(angle.shaft);
@@ -157,11 +194,17 @@ class Loop {
     return t;
   }
 
+  // The equations' guards, and behind them the one that ends the run.
+  void find_guards(double t, std::span<const double> y, std::span<double> g) {
+    equations_.guards(t, y, g);
+    if (options_.stop) g.back() = options_.stop(t, y);
+  }
+
   double guard_at(double t, std::size_t which) {
-    work_.resize(equations_.size());
+    work_.resize(system_.size());
     stepper_->interpolate(t, work_);
     probe_.resize(guard_.size());
-    equations_.guards(t, work_, probe_);
+    find_guards(t, work_, probe_);
     return probe_[which];
   }
 
@@ -201,10 +244,26 @@ class Loop {
       for (std::size_t k = 0; k < below.size(); ++k)
         if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k]);
       land_on(first, fired.front());
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       // What is at its root now counts as fired; another guard may have fired before it.
       for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
     }
+    return fired;
+  }
+
+  // The step ended on an edge of the angle: what is zero there and negative a little further on.
+  std::vector<std::size_t> fired_at_edge() {
+    constexpr double here = 1e-9, further = 1e-7;  // guards are of order one per radian
+    std::vector<std::size_t> fired;
+    if (std::none_of(guard_.begin(), guard_.end(), [](double g) { return g < here; })) return fired;
+    work_.assign(stepper_->y().begin(), stepper_->y().end());
+    const Model& m = equations_.model();
+    for (std::size_t i = 0; i < m.angles.size(); ++i)
+      work_[i] += std::copysign(further, work_[equations_.speed_index(m.angles[i].shaft)]) * m.angles[i].gain;
+    probe_.resize(guard_.size());
+    equations_.guards(stepper_->t(), work_, probe_);
+    for (std::size_t i = 0; i < guard_.size(); ++i)
+      if (guard_[i] < here && probe_[i] < fired_below) fired.push_back(i);
     return fired;
   }
 
@@ -218,7 +277,7 @@ class Loop {
     for (int i = 0; i < 4; ++i) {
       if (!(t > t0)) t = std::nextafter(t0, t1);
       stepper_->retake(t);
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       const double residual = guard_[guard];
       if (std::abs(residual) < 1e-14 || std::abs(residual) > 0.1 * last || slope == 0) return;
       last = std::abs(residual);
@@ -230,6 +289,14 @@ class Loop {
 
   bool pass_event(double t, const std::vector<std::size_t>& fired) {
     const bool at_begin = std::exchange(at_begin_, false);
+    if (options_.stop && fired.back() == equations_.guard_count()) {
+      out_.stopped = true;
+      if (at_begin) {
+        const std::vector<double> before(stepper_->y_previous().begin(), stepper_->y_previous().end());
+        restart(stepper_->t_previous(), before);
+      }
+      return false;
+    }
     const double time = at_begin ? stepper_->t_previous() : t;
     const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
     std::vector<double> y(source.begin(), source.end());
@@ -242,7 +309,9 @@ class Loop {
       return false;
     }
     ++out_.statistics.events;
+    if (options_.extension) options_.extension->before_event(time, y, fired);
     equations_.fire(time, y, fired, out_.events);
+    if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
     return true;
@@ -250,7 +319,7 @@ class Loop {
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
   void watch_stiffness() {
-    if (options_.method != "auto" || equations_.model().elastic.empty()) return;
+    if (options_.method != "auto" || equations_.model().elastic.empty() || method_ == Method::work_equation) return;
     const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
     const double t = stepper_->t();
     if (method_ == Method::dormand_prince_853) {
@@ -325,6 +394,7 @@ class Loop {
   Equations& equations_;
   const RunOptions& options_;
   const std::vector<Observer*>& observers_;
+  OdeSystem& system_;
   StepView view_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
@@ -342,7 +412,7 @@ class Loop {
 std::span<const double> StepView::at(double time) {
   if (time >= stepper_->t()) return stepper_->y();
   if (time <= stepper_->t_previous()) return stepper_->y_previous();
-  scratch_.resize(equations_.size());
+  scratch_.resize(size_);
   stepper_->interpolate(time, scratch_);
   return scratch_;
 }

@@ -70,6 +70,10 @@ class Stepper {
   virtual std::span<const double> y_previous() const = 0;
   virtual std::span<const double> ydot() const = 0;           // f(t(), y())
   virtual std::span<const double> ydot_previous() const = 0;  // f(t_previous(), y_previous())
+  // Steps end where a law changes at a known angle, of their own; at_edge(): the last one did, and guards that are zero
+  // there and fall have fired.
+  virtual bool ends_on_edges() const { return false; }
+  virtual bool at_edge() const { return false; }
   // True while the step size is held down by stability rather than by accuracy (explicit methods on stiff equations).
   virtual bool held_by_stability() const { return false; }
 
@@ -84,7 +88,8 @@ enum class Method {
   dormand_prince_853,  // explicit, order 8
   esdirk_43,           // implicit, L-stable, order 4 (SUNDIALS ARKStep)
   bdf,                 // implicit, multistep, order 1…5 (SUNDIALS CVODE)
-  adams                // multistep, order 1…12 (SUNDIALS CVODE, fixed-point iteration)
+  adams,               // multistep, order 1…12 (SUNDIALS CVODE, fixed-point iteration)
+  work_equation        // rigid machines over their angle (work_stepper.h)
 };
 
 std::string_view name_of(Method method);

@@ -8,6 +8,7 @@
 //     const double inertia = table.value(cursor, 0);  // channel 0 there
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -65,7 +66,11 @@ class PeriodicTable {
 
   // Any angle. One that is not finite gives values that are NaN.
   Cursor locate(double phi) const {
-    if (!(phi >= 0 && phi < period)) return locate_wrapped(phi);
+    if (!(phi >= 0 && phi < period)) {
+      constexpr double rest = 2.4492935982947064e-16;  // of 2π beyond `period`
+      if (!(phi >= period && phi < 2 * period - 1e-9)) return locate_wrapped(phi);
+      phi = std::max(0.0, (phi - period) - rest);  // the second turn of a four-stroke cycle; the difference is exact
+    }
     const double* piece = pieces_.data() + grid_[static_cast<std::size_t>(phi * cells_per_radian_)];
     return {piece + header, (phi - piece[0]) * piece[1]};
   }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "engine/work_equation.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
 #include "studies/report/trace.h"
@@ -179,6 +181,14 @@ class Simulation {
     if (options_.log) options_.log(text);
   }
 
+  // Work and edges over the angle, made once for all runs of the ladder.
+  std::shared_ptr<WorkTables> work_tables() {
+    const bool asked = settings_.method == "auto" || settings_.method == "work";
+    if (result_.runs == 0 && asked && WorkTables::refusal(model_).empty())
+      work_tables_ = std::make_shared<WorkTables>(model_);
+    return work_tables_;
+  }
+
   std::unique_ptr<OneRun> one_run(double tolerance) {
     auto run = std::make_unique<OneRun>();
     run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until,
@@ -190,7 +200,8 @@ class Simulation {
                        .until = settings_.until,
                        .budget = settings_.budget,
                        .interrupted = options_.interrupted,
-                       .progress = {}};
+                       .progress = {},
+                       .work_tables = work_tables()};
     if (options_.progress)
       options.progress = [&](double fraction) {
         options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
@@ -249,6 +260,26 @@ class Simulation {
     result_.model = model_;
     fill_energy(*run.energy);
     if (!run.outcome.state.empty()) fill_final(run.outcome);
+    note_stall(run.outcome);
+  }
+  // A reduction link that is held at the end although something drives.
+  void note_stall(const RunOutcome& outcome) {
+    const Model& m = *model_;
+    const std::size_t shaft = at(m.shaft_of_node[at(m.reduction_node)]);
+    if (outcome.state.empty() || !equations_.at_standstill(shaft)) return;
+    const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
+    double drive = 0;  // on the reduction link
+    for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+      if (m.network.elements[e].element->account() == Account::driving)
+        drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];
+    const auto stop = std::find_if(outcome.events.rbegin(), outcome.events.rend(),
+                                   [](const Event& e) { return e.what == "comes to rest and is held"; });
+    if (drive == 0 || stop == outcome.events.rend()) return;
+    const double degrees = s.node_angle[m.reduction_node] * 180 / std::numbers::pi;
+    result_.notes.push_back(fmt::format(
+        "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
+        "the end",
+        m.network.nodes[at(m.reduction_node)].component, degrees - 360 * std::floor(degrees / 360), stop->t, drive));
   }
   void fill_energy(const EnergyAudit& audit) {
     EnergyBalance& e = result_.energy;
@@ -284,6 +315,7 @@ class Simulation {
   const SimulateOptions& options_;
   RunSettings settings_;
   Equations equations_;
+  std::shared_ptr<WorkTables> work_tables_;
   Result result_;
 };
 

@@ -108,6 +108,30 @@ TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(file("out/trajectory.csv"));
 }
 
+TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
+  const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
+  const Ended r = kurbel({"forces", press, "--speed", "60 rpm", "--no-run", "--out", "out"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.err.empty()) << r.err;
+  EXPECT_NE(r.out.find("reaction of the main bearing"), std::string::npos) << r.out;
+  for (const char* name : {"out/summary.json", "out/report.html", "out/forces_prescribed.csv"})
+    EXPECT_TRUE(file(name)) << name;
+  const struct {
+    std::vector<std::string> arguments;
+    std::string said;
+  } bad[] = {{{"--speed", "60 mm"}, "--speed \"60 mm\": must be a speed with its unit, e.g. \"300 rpm\""},
+             {{"--speed", "0 rpm"}, "must be a speed ≠ 0"},
+             {{"--positions", "2"}, "--positions 2: must be 4 … 3600 of a turn"},
+             {{"--mechanism", "pres"}, "--mechanism pres: no slider-crank of that name; allowed: \"press\""}};
+  for (const auto& request : bad) {
+    std::vector<std::string> arguments = {"forces", press, "--no-run"};
+    arguments.insert(arguments.end(), request.arguments.begin(), request.arguments.end());
+    const Ended refused = kurbel(arguments);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find(request.said), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(CommandLine, BadSceneEndsWithTwoAndWritesNothing) {
   const Ended r = kurbel({"run", scene("until = \"1 s\"\n", "\"-1 kg*m2\""), "--out", "out"});
   EXPECT_EQ(r.code, 2);
@@ -140,7 +164,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   const struct {
     std::string option, value, said;
   } cases[] = {
-      {"--effects", "elastic", "allowed: none, elasticity, or elasticity:COUPLING"},
+      {"--effects", "elastic", "allowed: none, elasticity, elasticity:COUPLING"},
       {"--effects", "elasticity:copling",
        "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
       {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},
@@ -154,7 +178,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "fine", "--accuracy"},
       {"--accuracy", "nan", "--accuracy"},
       {"--accuracy", "0", "--accuracy"},
-      {"--method", "euler", "allowed: \"auto\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
+      {"--method", "euler", "allowed: \"auto\", \"work\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
       {"--method", "CPodes",
        "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
@@ -246,6 +270,30 @@ TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
     EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv" ||
                 entry.path().extension() == ".html")
         << entry.path();
+}
+
+TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {
+  const std::string scenes = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
+  const Ended press = kurbel({"steady", scenes + "crank_press.toml", "--json"});
+  EXPECT_EQ(press.code, 0) << press.err;
+  EXPECT_EQ(nlohmann::json::parse(press.out)["cycles"].size(), 2u);
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/report.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/operating_points.csv"));
+  const Ended family = kurbel({"steady", scenes + "free_slider_crank.toml"});
+  EXPECT_EQ(family.code, 2);
+  EXPECT_NE(family.err.find("--mean-speed"), std::string::npos) << family.err;
+  const Ended member = kurbel({"steady", scenes + "free_slider_crank.toml", "--mean-speed", "100 rpm", "--no-files"});
+  EXPECT_EQ(member.code, 0) << member.err;
+  const Ended mistyped = kurbel({"steady", scenes + "crank_press.toml", "--mean-speed", "3 m"});
+  EXPECT_EQ(mistyped.code, 2);
+  std::ofstream(folder_ / "stall.toml")
+      << "line = [\"motor\", \"load\"]\n"
+         "motor = { kind = \"dc shunt motor\", stall_torque = \"10 N*m\", no_load_speed "
+         "= \"40 rad/s\", inertia = \"0.5 kg*m2\" }\n"
+         "load = { kind = \"load\", torque = \"15 N*m\" }\n";
+  const Ended stall = kurbel({"steady", "stall.toml"});
+  EXPECT_EQ(stall.code, 3);
+  EXPECT_NE(stall.err.find("stall"), std::string::npos) << stall.err;
 }
 
 }  // namespace

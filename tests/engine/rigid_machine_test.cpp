@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -174,6 +175,22 @@ TEST(RigidMachine, PressProfileHasItsEdgesAtTheGivenTravels) {
   for (std::size_t k = 0; k < at.share.size(); ++k)
     if (machine.model().accounts[k].kind == Account::useful) useful += at.share[k];
   EXPECT_NEAR(useful, -630e3 * ratio, 1e-9 * 630e3 * std::abs(ratio));
+}
+
+// Three plungers by table over travel with a branch for the return: each has two dead centres and a knot on either
+// stroke; the knots that lie at the ends of travel are touched, not crossed, and are no edges of their own.
+TEST(RigidMachine, KnotsAtTheEndsOfTravelAddNoEdges) {
+  RigidMachine machine(test::scene_file("scenes/piston_pump.toml"));
+  const std::vector<double> edges = machine.edges(1);
+  ASSERT_EQ(edges.size(), 12U);
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_LT(
+        *std::min_element(edges.begin(), edges.end(),
+                          [&](double a, double b) { return std::abs(a - k * pi / 3) < std::abs(b - k * pi / 3); }) -
+            k * pi / 3,
+        1e-12)
+        << k;
+  }
 }
 
 TEST(RigidMachine, CycleIsTwoTurnsForFourStrokes) {
