@@ -63,9 +63,10 @@ int gears(GearsArguments a) {
                                           : "gears: give a scene, or a pair alone: --teeth 19 95 --module \"4 mm\"");
   if (!a.alone()) {
     if (const std::string option = a.alone_option(); !option.empty())
-      throw std::invalid_argument(fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it "
-                                              "themselves",
-                                              option));
+      throw std::invalid_argument(
+          fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it "
+                      "themselves",
+                      option));
     const Scene scene = read(a.study);
     check_folder(a.study);
     return present(output_of(find_gears(scene, {.pair = a.pair, .speed = speed})), a.study);
@@ -85,7 +86,8 @@ void add_gears_command(CLI::App& app, int& code) {
   command->get_option("scene")->required(false);
   command->add_option("--pair", a->pair, "one stage, e.g. gearbox.stage1 (default: all whose module is given)");
   command->add_option("--speed", a->speed, "of the first wheel, e.g. \"1500 rpm\": sliding speeds, mesh frequency");
-  command->add_option("--teeth", a->teeth, "a pair alone: teeth of both wheels, driving one first; an internal wheel < 0")
+  command
+      ->add_option("--teeth", a->teeth, "a pair alone: teeth of both wheels, driving one first; an internal wheel < 0")
       ->expected(2);
   command->add_option("--module", a->module, "normal module, e.g. \"4 mm\"");
   command->add_option("--shift", a->shift, "profile shifts x1 x2 (default: 0, or by the centre distance)")

@@ -33,8 +33,8 @@ struct BevelPair {
 // Worm and wheel. Lead angle tan γ = z₁ m/d₁; d₁ reference diameter of the worm, m axial module.
 struct WormPair {
   int starts, teeth;
-  double module, worm_diameter;                    // [m]
-  double friction = 0;                             // μ
+  double module, worm_diameter;                  // [m]
+  double friction = 0;                           // μ
   double pressure_angle = std::numbers::pi / 9;  // α_n [rad]
 
   double ratio() const { return static_cast<double>(teeth) / starts; }
@@ -55,7 +55,8 @@ struct WormPair {
 };
 
 inline void check(const BevelPair& b) {
-  if (b.teeth[0] < 5 || b.teeth[1] < 5) throw std::invalid_argument("bevel pair: both wheels must have 5 teeth or more");
+  if (b.teeth[0] < 5 || b.teeth[1] < 5)
+    throw std::invalid_argument("bevel pair: both wheels must have 5 teeth or more");
   if (!(b.module > 0)) throw std::invalid_argument("bevel pair: module must be > 0");
   if (!(b.shaft_angle > 0 && b.shaft_angle < std::numbers::pi && b.cone_angle(1) < std::numbers::pi))
     throw std::invalid_argument("bevel pair: shaft angle must be > 0 and < 180 deg");
@@ -63,7 +64,8 @@ inline void check(const BevelPair& b) {
 inline void check(const WormPair& w) {
   if (w.starts < 1 || w.starts > 20) throw std::invalid_argument("worm pair: the worm must have 1 … 20 starts");
   if (w.teeth < 5) throw std::invalid_argument("worm pair: the wheel must have 5 teeth or more");
-  if (!(w.module > 0 && w.worm_diameter > 0)) throw std::invalid_argument("worm pair: module and worm diameter must be > 0");
+  if (!(w.module > 0 && w.worm_diameter > 0))
+    throw std::invalid_argument("worm pair: module and worm diameter must be > 0");
   if (!(w.friction >= 0 && w.friction <= 1)) throw std::invalid_argument("worm pair: friction must be 0 … 1");
 }
 

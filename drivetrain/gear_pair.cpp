@@ -27,13 +27,15 @@ void check(const GearPairData& d) {
   const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
   if (!(d.module > 0) || !std::isfinite(d.module)) refuse(fmt::format("module = {:g} mm; must be > 0", 1e3 * d.module));
   if (d.teeth[0] < 5)
-    refuse(fmt::format("teeth = [{}, {}]; wheel 1 must have 5 teeth or more; of an internal pair the internal wheel "
-                       "stands second, with negative teeth",
-                       d.teeth[0], d.teeth[1]));
+    refuse(
+        fmt::format("teeth = [{}, {}]; wheel 1 must have 5 teeth or more; of an internal pair the internal wheel "
+                    "stands second, with negative teeth",
+                    d.teeth[0], d.teeth[1]));
   if (std::abs(d.teeth[1]) < 5 || (d.teeth[1] < 0 && -d.teeth[1] <= d.teeth[0]))
-    refuse(fmt::format("teeth = [{}, {}]; wheel 2 must have 5 teeth or more, an internal one (negative) more than "
-                       "wheel 1",
-                       d.teeth[0], d.teeth[1]));
+    refuse(
+        fmt::format("teeth = [{}, {}]; wheel 2 must have 5 teeth or more, an internal one (negative) more than "
+                    "wheel 1",
+                    d.teeth[0], d.teeth[1]));
   if (!(std::abs(d.helix) <= pi / 3)) refuse(fmt::format("helix = {:g} deg; must be −60 … 60 deg", d.helix / degree));
   if (!(d.rack.pressure_angle >= 10 * degree && d.rack.pressure_angle <= 35 * degree))
     refuse(fmt::format("pressure_angle = {:g} deg; must be 10 … 35 deg", d.rack.pressure_angle / degree));
@@ -58,14 +60,13 @@ std::array<double, 2> shifts_of(const GearPairData& d, double mating_sum) {
 
 // inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂) (THEORY 6).
 double working_angle_by_shift(const GearPairData& d, double sum) {
-  const double value = involute(transverse_angle_of(d)) +
-                       2 * std::tan(d.rack.pressure_angle) * sum / (d.teeth[0] + d.teeth[1]);
+  const double value =
+      involute(transverse_angle_of(d)) + 2 * std::tan(d.rack.pressure_angle) * sum / (d.teeth[0] + d.teeth[1]);
   if (value < 0)
-    throw std::invalid_argument(
-        fmt::format("shift: x1 + x2 = {:.4g} leaves no working pressure angle (inv = {:.3g} < 0); it must be {} {:.4g}",
-                    sum, value, d.teeth[1] < 0 ? "below" : "above",
-                    -involute(transverse_angle_of(d)) * (d.teeth[0] + d.teeth[1]) /
-                        (2 * std::tan(d.rack.pressure_angle))));
+    throw std::invalid_argument(fmt::format(
+        "shift: x1 + x2 = {:.4g} leaves no working pressure angle (inv = {:.3g} < 0); it must be {} {:.4g}", sum, value,
+        d.teeth[1] < 0 ? "below" : "above",
+        -involute(transverse_angle_of(d)) * (d.teeth[0] + d.teeth[1]) / (2 * std::tan(d.rack.pressure_angle))));
   return involute_angle(value);
 }
 
@@ -115,8 +116,8 @@ void add_path(GearPair& p) {
 
 void add_backlash(GearPair& p) {
   const double pitch = pi * p.wheel[0].working_diameter / p.data.teeth[0];
-  p.backlash_arc = pitch - p.wheel[0].thickness(p.wheel[0].working_diameter) -
-                   p.wheel[1].thickness(p.wheel[1].working_diameter);
+  p.backlash_arc =
+      pitch - p.wheel[0].thickness(p.wheel[0].working_diameter) - p.wheel[1].thickness(p.wheel[1].working_diameter);
   if (std::abs(p.backlash_arc) < 1e-12 * p.data.module) p.backlash_arc = 0;  // rounding
   p.backlash_normal = p.backlash_arc * std::cos(p.working_angle) * std::cos(p.wheel[0].base_helix);
 }
@@ -133,11 +134,11 @@ void add_wheels_in_mesh(GearPair& p) {
     w.bore = p.data.bore[at(i)];
     if (w.internal() && w.bore == 0) w.bore = -w.root_diameter + 2 * 3.5 * p.data.module;
     if (w.internal() ? !(w.bore > -w.root_diameter) : !(w.bore >= 0 && w.bore < w.root_diameter))
-      throw std::invalid_argument(fmt::format("bore = {:g} mm of the wheel with z = {}; must be {} its root diameter, "
-                                              "{:.4f} mm",
-                                              1e3 * w.bore, w.teeth,
-                                              w.internal() ? "(as the rim's outer diameter) above" : "below",
-                                              1e3 * std::abs(w.root_diameter)));
+      throw std::invalid_argument(
+          fmt::format("bore = {:g} mm of the wheel with z = {}; must be {} its root diameter, "
+                      "{:.4f} mm",
+                      1e3 * w.bore, w.teeth, w.internal() ? "(as the rim's outer diameter) above" : "below",
+                      1e3 * std::abs(w.root_diameter)));
     w.inertia = w.width > 0 ? wheel_inertia(w, w.width, p.data.density, w.bore) : 0;
   }
   p.wheel[0].active_diameter = 2 * p.radius(p.start)[0];
@@ -175,8 +176,7 @@ GearPair solve_gear_pair(const GearPairData& data) {
   p.shift_sum = shift[0] + shift[1];
   if (!data.centre_distance) {
     p.working_angle = working_angle_by_shift(data, p.shift_sum);
-    p.centre_distance =
-        p.reference_centre_distance * std::cos(transverse_angle_of(data)) / std::cos(p.working_angle);
+    p.centre_distance = p.reference_centre_distance * std::cos(transverse_angle_of(data)) / std::cos(p.working_angle);
     p.mating_shift_sum = p.shift_sum;
   }
   // k = (a_w − a)/m_n − Σx keeps the clearance; tips are never lengthened.
@@ -269,8 +269,8 @@ MeshStiffness mesh_stiffness(const GearPair& p) {
   const double v1 = reciprocal(0), v2 = reciprocal(1), x1 = p.wheel[0].shift, x2 = p.wheel[1].shift;
   const double q = 0.04723 + 0.15551 * v1 + 0.25791 * v2 - 0.00635 * x1 - 0.11654 * x1 * v1 - 0.00193 * x2 -
                    0.24188 * x2 * v2 + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;  // mm·µm/N
-  const double rack = (1 + 0.5 * (1.2 - p.data.rack.dedendum())) *
-                      (1 - 0.02 * (20 - p.data.rack.pressure_angle / degree));
+  const double rack =
+      (1 + 0.5 * (1.2 - p.data.rack.dedendum())) * (1 - 0.02 * (20 - p.data.rack.pressure_angle / degree));
   MeshStiffness s;
   s.single = 1e9 / q * 0.8 * rack * cos_helix * p.data.young / 206e9;
   s.mean = s.single * (0.75 * p.contact_ratio + 0.25);

@@ -14,19 +14,19 @@
 namespace kurbel {
 
 struct GearPairData {
-  double module = 0;               // m_n [m], > 0
-  std::array<int, 2> teeth{};      // z₁ ≥ 5; z₂ ≥ 5, or < 0: internal, with more teeth than wheel 1
+  double module = 0;           // m_n [m], > 0
+  std::array<int, 2> teeth{};  // z₁ ≥ 5; z₂ ≥ 5, or < 0: internal, with more teeth than wheel 1
   std::array<std::optional<double>, 2> shift{};  // x; see solve_gear_pair for what is not given
-  double helix = 0;                // β [rad], −60° … 60°
+  double helix = 0;                              // β [rad], −60° … 60°
   BasicRack rack = {};
-  std::optional<double> centre_distance = {};       // |a_w| [m], > 0
-  double backlash = 0;                              // j_bn [m], ≥ 0: allowance along the normal, half off each wheel
+  std::optional<double> centre_distance = {};  // |a_w| [m], > 0
+  double backlash = 0;                         // j_bn [m], ≥ 0: allowance along the normal, half off each wheel
   std::array<std::optional<double>, 2> tip_diameter{};  // |d_a| [m]; by addendum, shift and shortening otherwise
-  bool shorten_tips = true;                         // of external pairs, so that the clearance stays c* m
-  std::array<double, 2> width{};                    // b [m], 0: not known
-  std::array<double, 2> bore{};                     // [m]; of an internal wheel: outer diameter, 0: rim of 3.5 m_n
-  double density = 7850;                            // [kg/m³]
-  double young = 206e9;                             // E [Pa]
+  bool shorten_tips = true;                             // of external pairs, so that the clearance stays c* m
+  std::array<double, 2> width{};                        // b [m], 0: not known
+  std::array<double, 2> bore{};                         // [m]; of an internal wheel: outer diameter, 0: rim of 3.5 m_n
+  double density = 7850;                                // [kg/m³]
+  double young = 206e9;                                 // E [Pa]
 };
 
 // Geometry of a wheel in its mesh.
@@ -51,17 +51,17 @@ struct GearPair {
   GearPairData data;
   std::array<MeshedWheel, 2> wheel;
 
-  double ratio = 1;                          // u = z₂/z₁, with its sign
-  double reference_centre_distance = 0;      // a
-  double centre_distance = 0;                // a_w
-  double working_angle = 0;                  // α_wt
-  double shift_sum = 0;                      // x₁ + x₂
-  double mating_shift_sum = 0;               // Σx whose flanks touch on both sides at this a_w
-  double tip_shortening = 0;                 // k, in modules, ≤ 0
-  double base_pitch = 0;                     // p_et = π m_t cos α_t
-  double start = 0, end = 0;                 // g of A and E: by the tips, or where undercut flanks begin
-  double limit_start = 0, limit_end = 0;     // g of T₁ and T₂, where the line of action leaves the base circles
-  double contact_ratio = 0, overlap_ratio = 0;  // ε_α, ε_β
+  double ratio = 1;                              // u = z₂/z₁, with its sign
+  double reference_centre_distance = 0;          // a
+  double centre_distance = 0;                    // a_w
+  double working_angle = 0;                      // α_wt
+  double shift_sum = 0;                          // x₁ + x₂
+  double mating_shift_sum = 0;                   // Σx whose flanks touch on both sides at this a_w
+  double tip_shortening = 0;                     // k, in modules, ≤ 0
+  double base_pitch = 0;                         // p_et = π m_t cos α_t
+  double start = 0, end = 0;                     // g of A and E: by the tips, or where undercut flanks begin
+  double limit_start = 0, limit_end = 0;         // g of T₁ and T₂, where the line of action leaves the base circles
+  double contact_ratio = 0, overlap_ratio = 0;   // ε_α, ε_β
   double backlash_arc = 0, backlash_normal = 0;  // j_wt on the working circle, j_bn [m]
 
   bool internal() const { return data.teeth[1] < 0; }
@@ -82,8 +82,8 @@ struct GearPair {
 };
 
 // Everything from the data. Shifts not given: without a centre distance they are 0; with one they follow from it
-// (THEORY 6 backwards), the whole rest to the one that is missing, or half to each. Both shifts and a centre distance may
-// be given: the backlash then follows. Throws std::invalid_argument in words.
+// (THEORY 6 backwards), the whole rest to the one that is missing, or half to each. Both shifts and a centre distance
+// may be given: the backlash then follows. Throws std::invalid_argument in words.
 GearPair solve_gear_pair(const GearPairData& data);
 
 // α_wt from a centre distance, and back (signed distances; THEORY 6): a_w = a cos α_t/cos α_wt.
@@ -98,15 +98,16 @@ double least_pinion_teeth(double ratio, double pressure_angle, double addendum =
 // What is wrong or worth knowing: undercut, pointed tips, contact ratio, interference, clearance, backlash.
 std::vector<GearVerdict> verdicts(const GearPair& pair);
 // Interferences of internal pairs (Colbourne, The Geometry of Involute Gears, 1987, ch. 12): ≥ 0 is free [rad].
-double tip_fouling_margin(const GearPair& pair);       // tips outside the path of contact ("trochoid")
-double radial_assembly_margin(const GearPair& pair);   // wheel 1 can be moved in radially ("trimming")
+double tip_fouling_margin(const GearPair& pair);      // tips outside the path of contact ("trochoid")
+double radial_assembly_margin(const GearPair& pair);  // wheel 1 can be moved in radially ("trimming")
 
-// Mesh stiffness by ISO 6336-1 method B. Simplified: solid wheels (C_R = 1), loads of at least 100 N/mm, E of both wheels
-// the same; valid for x₁ ≥ x₂, −0.5 ≤ Σx ≤ 2, 1.2 < ε_α < 2.5: `within` says so. No width, no torsional stiffness.
+// Mesh stiffness by ISO 6336-1 method B. Simplified: solid wheels (C_R = 1), loads of at least 100 N/mm, E of both
+// wheels the same; valid for x₁ ≥ x₂, −0.5 ≤ Σx ≤ 2, 1.2 < ε_α < 2.5: `within` says so. No width, no torsional
+// stiffness.
 struct MeshStiffness {
-  double single = 0;      // c′ of one pair of teeth per width [N/m per m]
-  double mean = 0;        // c_γα = c′ (0.75 ε_α + 0.25)
-  double torsional = 0;   // c_γα b r_b1² about wheel 1 [N·m/rad]
+  double single = 0;            // c′ of one pair of teeth per width [N/m per m]
+  double mean = 0;              // c_γα = c′ (0.75 ε_α + 0.25)
+  double torsional = 0;         // c_γα b r_b1² about wheel 1 [N·m/rad]
   double torsional_single = 0;  // c′ b r_b1²: while one pair carries
   bool within = true;
 };

@@ -1,6 +1,8 @@
 // gear_verdicts.cpp — what an engineer would say about a pair of wheels, in words and numbers.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "drivetrain/gear_pair.h"
@@ -46,28 +48,33 @@ class Verdicts {
       add(Finding::warning, "Contact ratio ε_α = {:.4f}; at least 1.2 is customary.", e);
     if (p_.data.helix != 0 && p_.overlap_ratio > 0 && p_.overlap_ratio < 1)
       add(Finding::note, "Overlap ε_β = {:.3f} < 1: a width of {:.1f} mm would make it 1.", p_.overlap_ratio,
-          mm * std::min(p_.wheel[0].width > 0 ? p_.wheel[0].width : p_.wheel[1].width,
-                        p_.wheel[1].width > 0 ? p_.wheel[1].width : p_.wheel[0].width) /
+          mm *
+              std::min(p_.wheel[0].width > 0 ? p_.wheel[0].width : p_.wheel[1].width,
+                       p_.wheel[1].width > 0 ? p_.wheel[1].width : p_.wheel[0].width) /
               p_.overlap_ratio);
   }
 
   void wheel(int i) {
-    const MeshedWheel &w = p_.wheel[static_cast<std::size_t>(i)], &mate = p_.wheel[static_cast<std::size_t>(1 - i)];
+    const MeshedWheel& w = p_.wheel[static_cast<std::size_t>(i)];
     if (w.undercut)
-      add(Finding::warning, "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} "
-          "mm.", i + 1, w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
-    // A fillet that is not undercut begins above the involute's root: the mate's tip must not run into it.
-    else if (std::abs(w.active_diameter) < std::abs(w.form_diameter) == !w.internal() &&
-             std::abs(std::abs(w.active_diameter) - std::abs(w.form_diameter)) > 1e-4 * p_.data.module)
-      add(Finding::fault, "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
-          "fillet at {:.4f} mm.", 2 - i, mm * std::abs(w.active_diameter), i + 1, mm * std::abs(w.form_diameter));
+      add(Finding::warning,
+          "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} "
+          "mm.",
+          i + 1, w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
+    else if (runs_into_fillet(i))
+      add(Finding::fault,
+          "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
+          "fillet at {:.4f} mm.",
+          2 - i, mm * std::abs(w.active_diameter), i + 1, mm * std::abs(w.form_diameter));
     const double tip = w.tip_thickness() / p_.data.module;
     if (tip <= 0)
-      add(Finding::fault, "Wheel {} is pointed: its flanks meet at {:.4f} mm, inside the tip circle of {:.4f} mm.", i + 1,
-          mm * w.pointed_diameter(), mm * w.tip_diameter);
+      add(Finding::fault, "Wheel {} is pointed: its flanks meet at {:.4f} mm, inside the tip circle of {:.4f} mm.",
+          i + 1, mm * w.pointed_diameter(), mm * w.tip_diameter);
     else if (tip < least_tip)
-      add(Finding::warning, "Tips of wheel {} are nearly pointed: s_an = {:.3f} m_n; at least {:.1f} (hardened {:.1f}) is "
-          "customary.", i + 1, tip, least_tip, hardened_tip);
+      add(Finding::warning,
+          "Tips of wheel {} are nearly pointed: s_an = {:.3f} m_n; at least {:.1f} (hardened {:.1f}) is "
+          "customary.",
+          i + 1, tip, least_tip, hardened_tip);
     else if (tip < hardened_tip)
       add(Finding::note, "Tips of wheel {} have s_an = {:.3f} m_n, too thin for hardened teeth (0.4).", i + 1, tip);
     if (w.tip_clearance <= 0)
@@ -76,14 +83,23 @@ class Verdicts {
     else if (w.tip_clearance < 0.1 * p_.data.module)
       add(Finding::warning, "Clearance of the tip of wheel {} is only {:.3f} m_n.", i + 1,
           w.tip_clearance / p_.data.module);
-    (void)mate;
+  }
+
+  // The mate's tip goes below the involute, or beyond the end of the line of action on the base circle.
+  bool runs_into_fillet(int i) const {
+    const MeshedWheel& w = p_.wheel[static_cast<std::size_t>(i)];
+    const double below = (std::abs(w.form_diameter) - std::abs(w.active_diameter)) * (w.internal() ? -1 : 1);
+    const bool beyond = i == 0 ? p_.start < p_.limit_start : !w.internal() && p_.end > p_.limit_end;
+    return beyond || below > 1e-4 * p_.data.module;
   }
 
   void internal_pair() {
     const double fouling = tip_fouling_margin(p_), assembly = radial_assembly_margin(p_);
     if (fouling < 0)
-      add(Finding::fault, "Tip fouling: the tips overlap outside the path of contact (margin {:.4f} rad); take more "
-          "difference of teeth or shorter tips.", fouling);
+      add(Finding::fault,
+          "Tip fouling: the tips overlap outside the path of contact (margin {:.4f} rad); take more "
+          "difference of teeth or shorter tips.",
+          fouling);
     if (assembly < 0)
       add(Finding::note, "Wheel 1 cannot be put in radially (margin {:.4f} rad): assemble along the axis.", assembly);
   }
@@ -98,8 +114,10 @@ class Verdicts {
 
   void wear() {
     if (std::gcd(p_.data.teeth[0], p_.data.teeth[1]) > 1)
-      add(Finding::note, "Teeth {} and {} have the common divisor {}: the same teeth meet again every {} turns of wheel "
-          "1.", p_.data.teeth[0], std::abs(p_.data.teeth[1]), std::gcd(p_.data.teeth[0], p_.data.teeth[1]),
+      add(Finding::note,
+          "Teeth {} and {} have the common divisor {}: the same teeth meet again every {} turns of wheel "
+          "1.",
+          p_.data.teeth[0], std::abs(p_.data.teeth[1]), std::gcd(p_.data.teeth[0], p_.data.teeth[1]),
           std::lcm(p_.data.teeth[0], p_.data.teeth[1]) / p_.data.teeth[0]);
   }
 

@@ -146,12 +146,10 @@ std::vector<FlankPoint> half_internal(const GearWheel& w, int n) {
 
 void check(const GearWheel& w) {
   const auto refuse = [](const std::string& text) { throw std::invalid_argument(text); };
-  if (!(w.module > 0) || !std::isfinite(w.module))
-    refuse(fmt::format("module = {:g} mm; must be > 0", 1e3 * w.module));
+  if (!(w.module > 0) || !std::isfinite(w.module)) refuse(fmt::format("module = {:g} mm; must be > 0", 1e3 * w.module));
   if (std::abs(w.teeth) < 5)
     refuse(fmt::format("teeth = {}; must be 5 or more (negative for an internal wheel)", w.teeth));
-  if (!(std::abs(w.helix) <= pi / 3))
-    refuse(fmt::format("helix = {:g} deg; must be −60 … 60 deg", w.helix * 180 / pi));
+  if (!(std::abs(w.helix) <= pi / 3)) refuse(fmt::format("helix = {:g} deg; must be −60 … 60 deg", w.helix * 180 / pi));
   if (!(w.rack.pressure_angle >= pi / 18 && w.rack.pressure_angle <= 35 * pi / 180))
     refuse(fmt::format("pressure_angle = {:g} deg; must be 10 … 35 deg", w.rack.pressure_angle * 180 / pi));
   if (!(w.rack.addendum > 0 && w.rack.addendum <= 2 && w.rack.clearance >= 0 && w.rack.clearance <= 1))
@@ -256,8 +254,8 @@ GearWheel finish(GearWheel w) {
   const RackTip rack(w);
   w.form_diameter = 2 * rack.cut(w.undercut ? undercut_crossing(w) : rack.first()).radius;
   if (w.form_diameter >= std::min(w.tip_diameter, w.pointed_diameter()))
-    throw std::invalid_argument(fmt::format(
-        "wheel with z = {}: the rack cuts the whole involute away; take x ≥ {:.3f}", w.teeth, w.least_shift_generated()));
+    throw std::invalid_argument(fmt::format("wheel with z = {}: the rack cuts the whole involute away; take x ≥ {:.3f}",
+                                            w.teeth, w.least_shift_generated()));
   return w;
 }
 

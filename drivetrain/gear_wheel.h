@@ -1,7 +1,7 @@
 // gear_wheel.h — one involute wheel, spur or helical, external or internal: diameters, thicknesses, flanks, inertia.
 //
-// Symbols and signs of ISO 21771: an internal wheel has z < 0, and with it negative diameters and radii; x > 0 makes the
-// tooth thicker in either case. Lengths in m, angles in rad. Cutting is by the basic rack; an internal wheel is its
+// Symbols and signs of ISO 21771: an internal wheel has z < 0, and with it negative diameters and radii; x > 0 makes
+// the tooth thicker in either case. Lengths in m, angles in rad. Cutting is by the basic rack; an internal wheel is its
 // complement with circular fillets, because its cutter is not known.
 #pragma once
 
@@ -46,16 +46,16 @@ struct FlankPoint {
 
 struct GearWheel {
   // Given.
-  int teeth = 0;           // z
-  double module = 0;       // m_n
-  double helix = 0;        // β
+  int teeth = 0;      // z
+  double module = 0;  // m_n
+  double helix = 0;   // β
   BasicRack rack;
   double shift = 0;             // x, nominal
   double generating_shift = 0;  // x_E: with the tooth thinned for backlash
   double tip_diameter = 0;      // d_a
 
   // Computed by finish().
-  double transverse_module = 0, transverse_angle = 0, base_helix = 0;  // m_t, α_t, β_b
+  double transverse_module = 0, transverse_angle = 0, base_helix = 0;   // m_t, α_t, β_b
   double reference_diameter = 0, base_diameter = 0, root_diameter = 0;  // d, d_b, d_f
   double form_diameter = 0;                                             // d_Ff: the involute begins here
   bool undercut = false;                                                // the rack cut into the involute

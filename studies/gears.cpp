@@ -51,10 +51,11 @@ Gears find_gears(const Scene& scene, const GearsOptions& options) {
   std::vector<std::string> names;
   for (const GearStage& stage : gears.stages) names.push_back(stage.name);
   if (names.empty())
-    throw std::invalid_argument(fmt::format(
-        "{}: no gearbox stage has its module given; write e.g. {{ teeth = [19, 95], module = \"4 mm\", width = \"40 mm\" "
-        "}}{}",
-        scene.file, without_module.empty() ? "" : fmt::format(" for {}", listed(without_module, "and"))));
+    throw std::invalid_argument(
+        fmt::format("{}: no gearbox stage has its module given; write e.g. {{ teeth = [19, 95], module = \"4 mm\", "
+                    "width = \"40 mm\" "
+                    "}}{}",
+                    scene.file, without_module.empty() ? "" : fmt::format(" for {}", listed(without_module, "and"))));
   std::erase_if(gears.stages, [&](const GearStage& stage) { return !wanted(stage.name, options.pair); });
   if (gears.stages.empty()) {
     const auto near = nearest(options.pair, names);

@@ -30,8 +30,8 @@ struct GearsOptions {
   std::optional<double> speed = {};  // of the first wheel of each gearbox [rad/s]
 };
 
-// Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument in words where there is none,
-// or none of that name.
+// Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument in words where there is
+// none, or none of that name.
 Gears find_gears(const Scene& scene, const GearsOptions& options);
 
 // A pair without a scene. Throws std::invalid_argument.

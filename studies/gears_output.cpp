@@ -88,10 +88,13 @@ Rows wheel_rows(const GearPair& p) {
   row("start of active profile", "d_Nf", "mm", [](const MeshedWheel& w) { return length(w.active_diameter); });
   row("tooth thickness on the reference circle, normal", "s_n", "mm",
       [](const MeshedWheel& w) { return length(w.thickness_normal(w.reference_diameter)); });
-  row("the same, transverse", "s_t", "mm", [](const MeshedWheel& w) { return length(w.thickness(w.reference_diameter)); });
-  row("on the working circle", "s_wt", "mm", [](const MeshedWheel& w) { return length(w.thickness(w.working_diameter)); });
+  row("the same, transverse", "s_t", "mm",
+      [](const MeshedWheel& w) { return length(w.thickness(w.reference_diameter)); });
+  row("on the working circle", "s_wt", "mm",
+      [](const MeshedWheel& w) { return length(w.thickness(w.working_diameter)); });
   row("at the tip, normal", "s_an", "mm", [](const MeshedWheel& w) { return length(w.tip_thickness()); });
-  row("diameter where the tooth is pointed", "", "mm", [](const MeshedWheel& w) { return length(w.pointed_diameter()); });
+  row("diameter where the tooth is pointed", "", "mm",
+      [](const MeshedWheel& w) { return length(w.pointed_diameter()); });
   row("tip clearance", "c", "mm", [](const MeshedWheel& w) { return length(w.tip_clearance); });
   if (p.wheel[0].inertia > 0 || p.wheel[1].inertia > 0) {
     row("width", "b", "mm", [](const MeshedWheel& w) { return length(w.width); });
@@ -140,8 +143,8 @@ Rows mesh_rows(const GearStage& s) {
 
 Rows path_rows(const GearStage& s) {
   const GearPair& p = s.pair;
-  Rows rows = {{"point", "g [mm]", "d₁ [mm]", "d₂ [mm]", "ρ₁ [mm]", "ρ₂ [mm]",
-                s.speed ? "v_g [m/s]" : "v_g/ω₁ [mm]", "ζ₁", "ζ₂"}};
+  Rows rows = {{"point", "g [mm]", "d₁ [mm]", "d₂ [mm]", "ρ₁ [mm]", "ρ₂ [mm]", s.speed ? "v_g [m/s]" : "v_g/ω₁ [mm]",
+                "ζ₁", "ζ₂"}};
   for (const char name : {'A', 'B', 'C', 'D', 'E'}) {
     const double g = p.point(name);
     const auto rho = p.curvature(g), r = p.radius(g), zeta = p.specific_sliding(g);
@@ -277,9 +280,11 @@ GearView::Wheel view_of(const GearPair& p, int i) {
 
 GearView drawing_of(const GearStage& s) {
   const GearPair& p = s.pair;
-  GearView view{.title = fmt::format("{}: both wheels in mesh, transverse section", s.name), .wheels = {}, .points = {}};
+  GearView view{
+      .title = fmt::format("{}: both wheels in mesh, transverse section", s.name), .wheels = {}, .points = {}};
   view.note =
-      "Wheel 1 turns counterclockwise and drives. Flanks are involutes, external fillets the trochoids that the rounded "
+      "Wheel 1 turns counterclockwise and drives. Flanks are involutes, external fillets the trochoids that the "
+      "rounded "
       "rack cuts; fillets of an internal wheel are drawn as circles.";
   view.wheels = {view_of(p, 0), view_of(p, 1)};
   view.pitch_point = 0.5 * p.wheel[0].working_diameter;
@@ -351,7 +356,8 @@ Plot thickness_plot(const MeshedWheel& w, int i) {
             .y = {"transverse tooth thickness s_t", "mm"},
             .series = {}};
   Series s{.name = fmt::format("wheel {}", i + 1), .role = i == 0 ? Role::elastic : Role::orange, .x = {}, .y = {}};
-  const double from = w.internal() ? w.tip_diameter : w.form_diameter, to = w.internal() ? w.form_diameter : w.tip_diameter;
+  const double from = w.internal() ? w.tip_diameter : w.form_diameter,
+               to = w.internal() ? w.form_diameter : w.tip_diameter;
   for (int k = 0; k < 101; ++k) {
     const double d = from + (to - from) * k / 100;
     s.x.push_back(mm * 0.5 * std::abs(d));
@@ -367,47 +373,43 @@ void add_formulas(ReportSection& section, const GearStage& s) {
   const GearPair& p = s.pair;
   const double alpha_n = p.data.rack.pressure_angle;
   const MeshedWheel& one = p.wheel[0];
-  section.cards.push_back(
-      Formula{.title = "Working pressure angle (THEORY 6)",
-              .symbols = "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
-              .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
-                                     involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
-                                     p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle),
-                                     p.working_angle / degree)});
+  section.cards.push_back(Formula{
+      .title = "Working pressure angle (THEORY 6)",
+      .symbols = "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
+      .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
+                             involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
+                             p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle), p.working_angle / degree)});
   section.cards.push_back(
       Formula{.title = "Centre distance (THEORY 6)",
               .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
               .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", mm * one.transverse_module,
                                      p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
                                      std::cos(p.working_angle), mm * p.centre_distance)});
-  section.cards.push_back(
-      Formula{.title = "Contact ratio",
-              .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
-              .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", mm * p.end, mm * p.start,
-                                     mm * p.base_pitch, p.contact_ratio)});
-  section.cards.push_back(
-      Formula{.title = "Specific sliding at both ends",
-              .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
-              .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}",
-                                     number(p.specific_sliding(p.start)[0], 5), number(p.specific_sliding(p.start)[1], 5),
-                                     number(p.specific_sliding(p.end)[0], 5), number(p.specific_sliding(p.end)[1], 5))});
-  section.cards.push_back(
-      Formula{.title = "Undercut of wheel 1",
-              .symbols = "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
-              .numbers = fmt::format("x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}",
-                                     p.data.rack.straight_depth(), one.teeth,
-                                     std::pow(std::sin(one.transverse_angle), 2), std::cos(p.data.helix),
-                                     one.least_shift_generated(), one.generating_shift)});
-  section.cards.push_back(
-      Formula{.title = "Mesh stiffness, ISO 6336-1 method B",
-              .symbols = "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
-              .numbers = fmt::format("c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}",
-                                     1e-9 * s.stiffness.single, p.contact_ratio, 1e-9 * s.stiffness.mean,
-                                     s.stiffness.torsional > 0
-                                         ? fmt::format(",   k = {:.5g} N·m/rad about wheel 1", s.stiffness.torsional)
-                                         : ""),
-              .note = fmt::format("An estimate: solid wheels, a load of at least 100 N per mm of width.{}",
-                                  s.stiffness.within ? "" : " Outside the range that the method was fitted for.")});
+  section.cards.push_back(Formula{.title = "Contact ratio",
+                                  .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
+                                  .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", mm * p.end,
+                                                         mm * p.start, mm * p.base_pitch, p.contact_ratio)});
+  section.cards.push_back(Formula{
+      .title = "Specific sliding at both ends",
+      .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
+      .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}", number(p.specific_sliding(p.start)[0], 5),
+                             number(p.specific_sliding(p.start)[1], 5), number(p.specific_sliding(p.end)[0], 5),
+                             number(p.specific_sliding(p.end)[1], 5))});
+  section.cards.push_back(Formula{
+      .title = "Undercut of wheel 1",
+      .symbols = "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
+      .numbers = fmt::format("x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}",
+                             p.data.rack.straight_depth(), one.teeth, std::pow(std::sin(one.transverse_angle), 2),
+                             std::cos(p.data.helix), one.least_shift_generated(), one.generating_shift)});
+  section.cards.push_back(Formula{
+      .title = "Mesh stiffness, ISO 6336-1 method B",
+      .symbols = "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
+      .numbers = fmt::format(
+          "c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}", 1e-9 * s.stiffness.single, p.contact_ratio,
+          1e-9 * s.stiffness.mean,
+          s.stiffness.torsional > 0 ? fmt::format(",   k = {:.5g} N·m/rad about wheel 1", s.stiffness.torsional) : ""),
+      .note = fmt::format("An estimate: solid wheels, a load of at least 100 N per mm of width.{}",
+                          s.stiffness.within ? "" : " Outside the range that the method was fitted for.")});
 }
 
 Table table_card(const std::string& title, Rows rows, std::size_t text_columns) {
@@ -439,9 +441,13 @@ Report report_of(const Gears& g, const std::string& conclusion) {
     const std::string prefix = g.stages.size() > 1 ? s.name + ": " : "";
     report.figures.push_back({prefix + "centre distance", mm * std::abs(s.pair.centre_distance), "mm", {}, "", 7});
     report.figures.push_back({prefix + "contact ratio ε_α", s.pair.contact_ratio, "", {}, "", 4});
-    report.figures.push_back({prefix + "greatest specific sliding",
-                              std::min(s.pair.specific_sliding(s.pair.start)[0], s.pair.specific_sliding(s.pair.end)[1]),
-                              "", {}, "at the foot of a flank", 3});
+    report.figures.push_back(
+        {prefix + "greatest specific sliding",
+         std::min(s.pair.specific_sliding(s.pair.start)[0], s.pair.specific_sliding(s.pair.end)[1]),
+         "",
+         {},
+         "at the foot of a flank",
+         3});
     report.figures.push_back({prefix + "backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", {}, "", 4});
     if (s.stiffness.torsional > 0)
       report.figures.push_back(

@@ -61,8 +61,7 @@ TEST(GearWheel, InvoluteBeginsAtTheRootOfTheStraightRackFlank) {
     for (const MeshedWheel& w : p.wheel) {
       if (w.internal() || w.undercut) continue;
       const double s = std::sin(w.transverse_angle);
-      const double leg = w.reference_diameter * s -
-                         2 * w.module * (w.rack.straight_depth() - w.generating_shift) / s;
+      const double leg = w.reference_diameter * s - 2 * w.module * (w.rack.straight_depth() - w.generating_shift) / s;
       EXPECT_NEAR(w.form_diameter, std::hypot(leg, w.base_diameter), 1e-11 * w.form_diameter);
     }
 }
@@ -108,8 +107,8 @@ TEST(GearWheel, OutlineIsContinuousAndStaysBetweenRootAndTip) {
     for (std::size_t i = 0; i + 1 < half.size(); ++i) {
       EXPECT_GE(half[i].radius, low * (1 - 1e-12));
       EXPECT_LE(half[i].radius, high * (1 + 1e-12));
-      const double step = std::hypot(half[i + 1].radius - half[i].radius,
-                                     half[i].radius * (half[i + 1].angle - half[i].angle));
+      const double step =
+          std::hypot(half[i + 1].radius - half[i].radius, half[i].radius * (half[i + 1].angle - half[i].angle));
       EXPECT_LT(step, 0.05 * w.module) << "z = " << w.teeth << " at point " << i;
     }
   }
@@ -201,8 +200,7 @@ TEST(GearPair, FlanksTouchOnTheLineOfActionAllTheWay) {
       const double a1 = place.angle_1 + half_1;
       const double a2 = place.angle_2 + (two.internal() ? -half_2 : half_2);
       EXPECT_LT(distance({r[0] * std::cos(a1), r[0] * std::sin(a1)}, contact), 1e-9 * p.data.module);
-      EXPECT_LT(distance({p.centre_distance + r[1] * std::cos(a2), r[1] * std::sin(a2)}, contact),
-                1e-9 * p.data.module)
+      EXPECT_LT(distance({p.centre_distance + r[1] * std::cos(a2), r[1] * std::sin(a2)}, contact), 1e-9 * p.data.module)
           << "z2 = " << two.teeth;
     }
   }
@@ -345,7 +343,7 @@ TEST(GearVerdicts, TipFoulingOfInternalPairsAgreesWithTheDrawing) {
       }
     }
     const double margin = tip_fouling_margin(p);
-    if (std::abs(margin) > 2e-3) EXPECT_EQ(margin < 0, deepest > 1e-3 * d.module) << difference << ": " << margin;
+    if (std::abs(margin) > 2e-3) EXPECT_EQ(margin<0, deepest> 1e-3 * d.module) << difference << ": " << margin;
   }
 }
 
@@ -430,7 +428,8 @@ TEST(PlanetaryTrain, TorquesBalanceAndLossesTakePower) {
           EXPECT_NEAR(t.sun + t.ring + t.carrier, 0, 1e-12);
           const double loss = t.sun * sun + t.ring * ring + t.carrier * carrier;
           const double rolling = std::abs(t.sun * (sun - carrier));
-          EXPECT_NEAR(loss, torque * (sun - carrier) >= 0 ? (1 - efficiency) * rolling : (1 / efficiency - 1) * -rolling * -1,
+          EXPECT_NEAR(loss,
+                      torque * (sun - carrier) >= 0 ? (1 - efficiency) * rolling : (1 / efficiency - 1) * -rolling * -1,
                       1e-10 * (1 + rolling));
         }
 }

@@ -55,7 +55,8 @@ TEST(KhurmiGears, SlidingOfExamples4And5) {
 TEST(KhurmiGears, SlidingOverRollingOfExample6) {
   const GearPair p = solve_gear_pair(pair_of(6, 17, 49));
   // The pinion is slightly short of teeth: the path by the tips, as the book counts it.
-  const double tip_2 = std::sqrt(std::pow(0.5 * p.wheel[1].tip_diameter, 2) - std::pow(0.5 * p.wheel[1].base_diameter, 2));
+  const double tip_2 =
+      std::sqrt(std::pow(0.5 * p.wheel[1].tip_diameter, 2) - std::pow(0.5 * p.wheel[1].base_diameter, 2));
   const double start = p.limit_end - tip_2;
   expect_relative((p.end - start) / p.base_pitch, 1.6329737649);
   expect_relative((p.end - start) / (0.5 * p.wheel[0].base_diameter) / degree, 34.5806209);
@@ -156,8 +157,12 @@ TEST(PlanetaryTrain, WillisRatiosOfKhurmi) {
 TEST(PlanetaryTrain, InertiaReducedToTheSun) {
   expect_relative(simple_planetary(30, 80).carrier_speed(1, 0), 0.2727272727272727, 1e-12);
   expect_relative(planet_speed(30, 25, 1, 3.0 / 11), -0.6, 1e-12);
-  const PlanetaryInertia j{.sun = 2e-4, .carrier = 3e-3, .planet = 5e-5, .planet_mass = 0.15,
-                           .planet_distance = 0.5 * 2 * mm * (30 + 25), .planets = 3};
+  const PlanetaryInertia j{.sun = 2e-4,
+                           .carrier = 3e-3,
+                           .planet = 5e-5,
+                           .planet_mass = 0.15,
+                           .planet_distance = 0.5 * 2 * mm * (30 + 25),
+                           .planets = 3};
   // Each planet turns by its own absolute speed −0.6.
   expect_relative(reduced_to_sun(30, 25, 80, j), 5.783904958677685e-4, 1e-12);
 }
