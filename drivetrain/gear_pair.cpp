@@ -141,8 +141,9 @@ void add_wheels_in_mesh(GearPair& p) {
                       1e3 * std::abs(w.root_diameter)));
     w.inertia = w.width > 0 ? wheel_inertia(w, w.width, p.data.density, w.bore) : 0;
   }
-  p.wheel[0].active_diameter = 2 * p.radius(p.start)[0];
-  p.wheel[1].active_diameter = (p.internal() ? -2 : 2) * p.radius(p.end)[1];
+  // Never below the base circle.
+  p.wheel[0].active_diameter = 2 * p.radius(std::max(p.start, p.limit_start))[0];
+  p.wheel[1].active_diameter = p.internal() ? -2 * p.radius(p.end)[1] : 2 * p.radius(std::min(p.end, p.limit_end))[1];
 }
 
 }  // namespace

