@@ -1,10 +1,11 @@
-// gears_command.cpp — kurbel gears: the gear pairs of a scene, or one from the command line.
+// gears_command.cpp — kurbel gears: the gear pairs of a scene, or one (also bevel or worm) from the command line.
 #include <fmt/format.h>
 
 #include <memory>
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "studies/bevel_worm.h"
 #include "studies/gears.h"
 
 namespace kurbel::app {
@@ -12,7 +13,8 @@ namespace {
 
 struct GearsArguments {
   StudyOptions study;
-  std::string pair, speed;
+  std::string pair, speed, shaft_angle, worm_diameter;
+  double friction = 0;
   std::vector<int> teeth;
   std::vector<double> shift;
   std::string module, helix, centre_distance, backlash, width, pressure_angle;
@@ -55,6 +57,27 @@ GearPairData pair_of(const GearsArguments& a) {
   return d;
 }
 
+// A bevel pair has a shaft angle, a worm pair a worm's diameter; else the shafts are parallel.
+StudyOutput alone(const GearsArguments& a, std::optional<double> speed) {
+  const GearPairData d = pair_of(a);
+  if (!a.shaft_angle.empty() && !a.worm_diameter.empty())
+    throw std::invalid_argument("--shaft-angle makes a bevel pair, --worm-diameter a worm pair; give one of them");
+  if (!a.shaft_angle.empty())
+    return output_of(
+        BevelPair{.teeth = d.teeth,
+                  .module = d.module,
+                  .shaft_angle = quantity_of("--shaft-angle", a.shaft_angle, "an angle > 0", "90 deg", positive)});
+  if (!a.worm_diameter.empty())
+    return output_of(WormPair{.starts = d.teeth[0],
+                              .teeth = d.teeth[1],
+                              .module = d.module,
+                              .worm_diameter = length_of("--worm-diameter", a.worm_diameter, "50 mm"),
+                              .friction = a.friction,
+                              .pressure_angle = d.rack.pressure_angle},
+                     speed);
+  return output_of(single_pair(d, speed));
+}
+
 int gears(GearsArguments a) {
   std::optional<double> speed;
   if (!a.speed.empty()) speed = quantity_of("--speed", a.speed, "a speed", "1500 rpm", any_number);
@@ -73,7 +96,7 @@ int gears(GearsArguments a) {
   }
   a.study.scene = "gear_pair";  // names the folder of the results
   check_folder(a.study);
-  return present(output_of(single_pair(pair_of(a), speed)), a.study);
+  return present(alone(a, speed), a.study);
 }
 
 }  // namespace
@@ -103,6 +126,9 @@ void add_gears_command(CLI::App& app, int& code) {
   command->add_option("--addendum", a->rack.addendum, "of the basic rack, in modules (default: 1)");
   command->add_option("--clearance", a->rack.clearance, "of the basic rack, in modules (default: 0.25)");
   command->add_option("--root-radius", a->rack.root_radius, "of the basic rack, in modules (default: 0.38)");
+  command->add_option("--shaft-angle", a->shaft_angle, "of a bevel pair, e.g. \"90 deg\"");
+  command->add_option("--worm-diameter", a->worm_diameter, "of a worm pair: --teeth STARTS TEETH, --module axial");
+  command->add_option("--friction", a->friction, "coefficient of friction of a worm pair (default: 0)");
   command->callback([&code, a] { code = gears(*a); });
 }
 

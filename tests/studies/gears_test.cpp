@@ -145,6 +145,15 @@ TEST(GearsCommand, PairAloneOnTheCommandLine) {
   EXPECT_EQ(kurbel("gears --no-files --quiet --teeth 18 -72 --module '4 mm'").code, 0);
 }
 
+TEST(GearsCommand, BevelAndWormPairs) {
+  const Said bevel = kurbel("gears --no-files --json --teeth 20 40 --module '3 mm' --shaft-angle '90 deg'");
+  ASSERT_EQ(bevel.code, 0) << bevel.text;
+  EXPECT_NEAR(nlohmann::json::parse(bevel.text)["cone_angle"][0].get<double>(), std::atan(0.5), 1e-12);
+  const Said worm = kurbel("gears --no-files --teeth 1 40 --module '4 mm' --worm-diameter '50 mm' --friction 0.09");
+  ASSERT_EQ(worm.code, 0) << worm.text;
+  EXPECT_NE(worm.text.find("self-locking"), std::string::npos) << worm.text;
+}
+
 TEST(GearsCommand, SceneOfTheExample) {
   const std::string scene = std::string(KURBEL_SOURCE_DIR) + "/scenes/gear_pair.toml";
   const Said said = kurbel("gears --no-files " + scene + " --speed '1450 rpm'");
