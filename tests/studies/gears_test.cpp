@@ -50,7 +50,9 @@ TEST(GearboxFromTeeth, GivenInertiasGoFirst) {
       test::scene_from(train("teeth = [19, 95], module = \"4 mm\", inertia = [\"0.5 kg*m2\", \"0.25 kg*m2\"]"));
   const auto model = compile(scene, {});
   for (const Network::Node& node : model->network.nodes)
-    if (node.component == "gearbox") EXPECT_EQ(node.inertia, node.label == "in" ? 0.5 : 0.25);
+    if (node.component == "gearbox") {
+      EXPECT_EQ(node.inertia, node.label == "in" ? 0.5 : 0.25);
+    }
 }
 
 std::string fault_of(const std::string& stage) {
