@@ -97,7 +97,7 @@ double least_pinion_teeth(double ratio, double pressure_angle, double addendum =
 
 // What is wrong or worth knowing: undercut, pointed tips, contact ratio, interference, clearance, backlash.
 std::vector<GearVerdict> verdicts(const GearPair& pair);
-// Interferences of internal pairs (Colbourne, The Geometry of Involute Gears, 1987, ch. 12): ≥ 0 is free [rad].
+// Interferences of internal pairs (SDP/SI, Handbook of Metric Gears, section 5.2): ≥ 0 is free [rad].
 double tip_fouling_margin(const GearPair& pair);      // tips outside the path of contact ("trochoid")
 double radial_assembly_margin(const GearPair& pair);  // wheel 1 can be moved in radially ("trimming")
 

@@ -11,7 +11,7 @@ namespace kurbel {
 namespace {
 
 constexpr double mm = 1e3;
-// Least tip thickness of hardened teeth, in modules (DIN 3960); of any teeth 0.2.
+// Customary least tip thickness in modules, of hardened teeth and of any.
 constexpr double hardened_tip = 0.4, least_tip = 0.2;
 
 class Verdicts {
