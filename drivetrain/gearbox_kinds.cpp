@@ -1,8 +1,9 @@
-// gearbox_kinds.cpp — ideal gear stages by tooth numbers.
+// gearbox_kinds.cpp — ideal gear stages by tooth numbers; inertias of the wheels given, or from their teeth.
 #include "drivetrain/kinds.h"
 
 #include <fmt/format.h>
 
+#include "drivetrain/gear_keys.h"
 #include "drivetrain/shared_keys.h"
 #include "engine/network.h"
 
@@ -14,18 +15,33 @@ const std::vector<Kind>& stage_kinds() {
       .name = "stage",
       .doc = "one pair of wheels",
       .placement = Placement::nested,
-      .keys = {{.name = "teeth",
-                .type = KeyType::integers,
-                .domain = {.low = 1, .high = 100000},
-                .doc = "teeth of the driving and of the driven wheel",
-                .required = true},
-               {.name = "inertia",
-                .type = KeyType::quantities,
-                .unit = "kg*m2",
-                .domain = not_negative,
-                .doc = "inertia of the driving and of the driven wheel, each on its own shaft"}},
+      .keys = joined({{.name = "teeth",
+                       .type = KeyType::integers,
+                       .domain = {.low = 1, .high = 100000},
+                       .doc = "teeth of the driving and of the driven wheel",
+                       .required = true},
+                      {.name = "inertia",
+                       .type = KeyType::quantities,
+                       .unit = "kg*m2",
+                       .domain = not_negative,
+                       .doc = "inertia of the driving and of the driven wheel, each on its own shaft; "
+                              "default: from module and width, else 0"}},
+                     gear_geometry_keys()),
   }};
   return kinds;
+}
+
+// Given, or those of the wheels that teeth, module and width describe.
+std::vector<double> inertias_of(const Section& stage, const std::string& what, Messages& messages) {
+  if (stage["teeth"].numbers.size() != 2) return {0, 0};  // said by the caller
+  const std::optional<GearPair> pair = gear_pair_of(stage, what, messages);
+  if (stage.has("inertia")) return stage["inertia"].numbers;
+  if (pair && !stage.has("width"))
+    messages.add(stage.where("module"), fmt::format("{}: module without inertia needs the width of the wheels, e.g. "
+                                                    "width = \"40 mm\"",
+                                                    what));
+  if (!pair) return {0, 0};
+  return {pair->wheel[0].inertia, pair->wheel[1].inertia};
 }
 
 // Ideal stages; i = z₂/z₁. Each shaft counts its angle positive in its own direction of drive.
@@ -39,7 +55,8 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
     const Section& stage = stages[k];
     if (!stage.sound) return;
     const std::vector<double>& teeth = stage["teeth"].numbers;
-    const std::vector<double> inertia = stage.has("inertia") ? stage["inertia"].numbers : std::vector<double>{0, 0};
+    const std::vector<double> inertia =
+        inertias_of(stage, fmt::format("gearbox \"{}\": stages[{}]", s.name, k + 1), messages);
     if (teeth.size() != 2 || inertia.size() != 2) {
       const std::size_t count = teeth.size() != 2 ? teeth.size() : inertia.size();
       messages.add(stage.where(teeth.size() != 2 ? "teeth" : "inertia"),

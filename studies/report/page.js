@@ -478,6 +478,118 @@
     };
   }
 
+  // --- two wheels in mesh ----------------------------------------------------------------------------------------------
+  const svgNumber = value => +value.toPrecision(7);
+
+  // Outline of a whole wheel in mm from its one pitch; y points down on the page.
+  function wheelPath(wheel) {
+    const points = [];
+    for (let k = 0; k < wheel.teeth; ++k) {
+      const c = Math.cos(2 * Math.PI * k / wheel.teeth), s = Math.sin(2 * Math.PI * k / wheel.teeth);
+      wheel.x.forEach((x, i) => points.push(`${svgNumber(1e3 * (c * x - s * wheel.y[i]))},${svgNumber(-1e3 * (s * x + c * wheel.y[i]))}`));
+    }
+    const ring = r => `M${-r},0 A${r},${r} 0 1 0 ${r},0 A${r},${r} 0 1 0 ${-r},0 Z`;
+    return `M${points.join(' L')} Z` + (wheel.edge ? ' ' + ring(1e3 * wheel.edge) : '');
+  }
+
+  function addGears(g, card) {
+    card.classList.add('machine', 'gears');
+    make('h3', '', g.title, make('header', '', null, card));
+    const stage = make('div', 'stage', null, card);
+    const reach = wheel => 1e3 * Math.max(wheel.edge, ...wheel.circles.map(c => c.radius));
+    const left = Math.min(...g.wheels.map(w => 1e3 * w.centre - reach(w))), right = Math.max(...g.wheels.map(w => 1e3 * w.centre + reach(w))), high = Math.max(...g.wheels.map(reach));
+    const margin = 0.03 * (right - left), close = 1e3 * g.closeUp, C = 1e3 * g.pitchPoint;
+    const views = [
+      drawMesh(g, stage, `${left - margin} ${-high - margin} ${right - left + 2 * margin} ${2 * (high + margin)}`, Math.max(right - left, 2 * high) + 2 * margin, false),
+      drawMesh(g, stage, `${C - close} ${-close} ${2 * close} ${2 * close}`, 2 * close, true),
+    ];
+    const controls = make('div', 'controls', null, card), play = make('button', 'play', 'Play', controls);
+    play.type = 'button';
+    const label = make('label', 'slide', null, controls);
+    make('span', '', `angle of ${g.wheels[0].name}`, label);
+    const slider = make('input', '', null, label);
+    slider.type = 'range'; slider.min = 0; slider.max = 360; slider.step = 'any'; slider.value = 0;
+    slider.setAttribute('aria-label', 'angle');
+    const shown = make('output', '', '', label);
+    const legend = make('div', 'legend', null, card);
+    for (const [name, text] of [['elastic', 'line of action, path of contact A … E'], ['vermillion', 'contacts'], ['reference', 'base circles'], ['green', 'working circles']])
+      make('span', `plain-line is-${name}`, text, legend);
+    if (g.note) make('p', 'note', g.note, card);
+    let angle = 0, frame = 0, before = 0;
+    function show(value) {
+      const turn = 2 * Math.PI;
+      angle = (value % turn + turn) % turn;
+      views.forEach(view => view(angle));
+      slider.value = angle * 180 / Math.PI;
+      shown.textContent = (angle * 180 / Math.PI).toFixed(1) + '°';
+      card.dataset.angle = angle;
+    }
+    function stop() {
+      cancelAnimationFrame(frame);
+      frame = 0;
+      play.textContent = 'Play';
+    }
+    // A tooth passes in a second and a half.
+    function step(moment) {
+      show(angle + (moment - before) / 1500 * 2 * Math.PI / g.wheels[0].teeth);
+      before = moment;
+      frame = requestAnimationFrame(step);
+    }
+    play.onclick = () => {
+      if (frame) return stop();
+      play.textContent = 'Pause';
+      before = performance.now();
+      frame = requestAnimationFrame(step);
+    };
+    slider.oninput = () => { stop(); show(slider.value * Math.PI / 180); };
+    show(0);
+  }
+
+  // One view of the mesh; `size` is the greater side of what is seen [mm]. Returns how to turn it.
+  function drawMesh(g, stage, viewBox, size, close) {
+    const svg = draw('svg', {viewBox, role: 'img', class: close ? 'close' : 'whole'}, stage);
+    draw('title', {}, svg, close ? 'Mesh, enlarged' : 'Both wheels');
+    const thin = 'non-scaling-stroke', px = size / 560;  // about one pixel
+    const wheels = g.wheels.map(w => {
+      const group = draw('g', {}, svg);
+      draw('path', {d: wheelPath(w), class: w === g.wheels[0] ? 'body' : 'shaft', 'fill-rule': 'evenodd', 'vector-effect': thin}, group);
+      // A mark that shows the turning.
+      const inner = 1e3 * (w.internal ? Math.max(...w.circles.map(c => c.radius)) : w.edge), outer = 1e3 * (w.internal ? w.edge : Math.min(...w.circles.map(c => c.radius)));
+      if (!close) draw('line', {x1: inner, x2: outer * (w.internal ? 1 : 0.9), y1: 0, y2: 0, stroke: 'var(--metal-edge)', 'stroke-width': 2, 'vector-effect': thin}, group);
+      return {w, group};
+    });
+    for (const w of g.wheels) {
+      const styles = {base: {stroke: 'var(--reference)', 'stroke-dasharray': '2 3'}, working: {stroke: 'var(--green)', 'stroke-dasharray': '9 3 2 3'}};
+      for (const circle of w.circles)
+        if (styles[circle.name]) draw('circle', {cx: 1e3 * w.centre, cy: 0, r: 1e3 * circle.radius, fill: 'none', 'stroke-width': 1, 'vector-effect': thin, ...styles[circle.name]}, svg);
+    }
+    const c = Math.cos(g.direction), s = Math.sin(g.direction);
+    const at = place => [1e3 * (g.pitchPoint + place * c), -1e3 * place * s];
+    const span = (from, to, attributes) => {
+      const [x1, y1] = at(from), [x2, y2] = at(to);
+      draw('line', {x1, y1, x2, y2, stroke: 'var(--elastic)', 'vector-effect': thin, ...attributes}, svg);
+    };
+    const ends = g.points.map(p => p.place), reach = Math.max(...ends.map(Math.abs), g.closeUp * 0.9);
+    span(-reach, reach, {'stroke-width': 1});
+    span(g.start, g.end, {'stroke-width': 3.5});
+    if (close) for (const p of g.points) {
+      const [x, y] = at(p.place);
+      if (Math.abs(p.place) > 1.15 * g.closeUp) continue;
+      draw('circle', {cx: x, cy: y, r: 2.2 * px, fill: 'var(--elastic)'}, svg);
+      draw('text', {x: x + 7 * px, y: y + 4 * px, style: `font-size: ${15 * px}px; font-weight: 600`}, svg, p.name);
+    }
+    const most = Math.ceil((g.end - g.start) / g.basePitch) + 1;
+    const contacts = Array.from({length: most}, () => draw('circle', {r: (close ? 5 : 4) * px, fill: 'var(--vermillion)'}, svg));
+    return angle => {
+      for (const {w, group} of wheels) place(group, {transform: `translate(${1e3 * w.centre} 0) rotate(${-(w.angle + w.speed * angle) * 180 / Math.PI})`});
+      const first = g.firstContact + g.baseRadius * angle, lowest = first + Math.ceil((g.start - first) / g.basePitch) * g.basePitch;
+      contacts.forEach((dot, k) => {
+        const here = lowest + k * g.basePitch, [x, y] = at(here);
+        place(dot, {cx: x, cy: y, visibility: here <= g.end ? 'visible' : 'hidden'});
+      });
+    };
+  }
+
   // --- the page --------------------------------------------------------------------------------------------------------
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
@@ -491,13 +603,13 @@
     if (figure.error) make('div', 'error', `${figure.error} ${figure.unit}`, box);
     if (figure.note) make('div', 'note', figure.note, box);
   }
-  const makers = {plot: addPlot, table: addTable, formula: addFormula, text: addText, machine: addMachine};
+  const makers = {plot: addPlot, table: addTable, formula: addFormula, text: addText, machine: addMachine, gears: addGears};
   const machines = [];
   for (const section of report.sections) {
     if (section.title) make('h2', '', section.title, root);
     const cards = make('div', 'cards', null, root);
     for (const card of section.cards) {
-      const wide = card.kind === 'machine' || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
+      const wide = card.kind === 'machine' || card.kind === 'gears' || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
       const long = card.kind === 'table' && card.rows.length > 25 || card.kind === 'text';
       const element = make('section', 'card is-' + card.kind + (wide ? ' wide' : '') + (long ? ' long' : ''), null, cards);
       makers[card.kind](card, element);

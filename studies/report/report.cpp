@@ -233,6 +233,48 @@ void write(Writer& w, const MachineView& machine) {
   });
 }
 
+void write(Writer& w, const GearView::Wheel& wheel) {
+  w.field("name", wheel.name);
+  w.field("teeth", static_cast<double>(wheel.teeth));
+  w.field("internal", wheel.internal);
+  w.field("x", wheel.x, 7);
+  w.field("y", wheel.y, 6);
+  w.field("centre", wheel.centre, 9);
+  w.field("angle", wheel.angle, 12);
+  w.field("speed", wheel.speed, 12);
+  w.field("edge", wheel.edge);
+  w.key("circles");
+  w.list(wheel.circles, [&](const GearView::Circle& circle) {
+    w.object([&] {
+      w.field("name", circle.name);
+      w.field("radius", circle.radius, 9);
+    });
+  });
+}
+
+void write(Writer& w, const GearView& view) {
+  w.field("kind", "gears");
+  w.field("title", view.title);
+  w.field("note", view.note);
+  w.key("wheels");
+  w.list(view.wheels, [&](const GearView::Wheel& wheel) { w.object([&] { write(w, wheel); }); });
+  w.key("points");
+  w.list(view.points, [&](const GearView::Point& point) {
+    w.object([&] {
+      w.field("name", point.name);
+      w.field("place", point.place, 9);
+    });
+  });
+  w.field("pitchPoint", view.pitch_point, 9);
+  w.field("direction", view.direction, 9);
+  w.field("start", view.start, 9);
+  w.field("end", view.end, 9);
+  w.field("basePitch", view.base_pitch, 9);
+  w.field("firstContact", view.first_contact, 9);
+  w.field("baseRadius", view.base_radius, 9);
+  w.field("closeUp", view.close_up);
+}
+
 std::string json_of(const Report& report) {
   Writer w;
   w.object([&] {

@@ -117,7 +117,36 @@ struct MachineView {
   double cycle = 0;             // [rad]; 0: one turn
 };
 
-using Card = std::variant<Plot, Table, Formula, Text, MachineView>;
+// Two toothed wheels in mesh that turn: wheel 1 in the origin, wheel 2 on the x-axis; lengths in m, angles in rad.
+struct GearView {
+  struct Circle {
+    std::string name;  // "tip", "working", "base", "root"
+    double radius = 0;
+  };
+  struct Wheel {
+    std::string name;
+    int teeth = 0;  // > 0
+    bool internal = false;
+    std::vector<double> x, y;      // one pitch of the outline; `teeth` of them make the wheel
+    double centre = 0, angle = 0;  // on the x-axis; when wheel 1 stands at 0
+    double speed = 1;              // over that of wheel 1, with its sign
+    std::vector<Circle> circles;
+    double edge = 0;  // radius of the bore, or of an internal wheel's rim; 0: none
+  };
+  struct Point {
+    std::string name;  // "A" … "E", "T₁", "T₂"
+    double place = 0;  // along the line of action, from the pitch point
+  };
+  std::string title, note = {};
+  std::vector<Wheel> wheels;
+  double pitch_point = 0, direction = 0;  // on the x-axis; of the line of action, from the x-axis
+  std::vector<Point> points;
+  double start = 0, end = 0, base_pitch = 0;
+  double first_contact = 0, base_radius = 0;  // contacts at first_contact + base_radius · angle + k base_pitch
+  double close_up = 0;                        // half the height of the enlarged view
+};
+
+using Card = std::variant<Plot, Table, Formula, Text, MachineView, GearView>;
 
 struct ReportSection {
   std::string title;
