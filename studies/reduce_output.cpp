@@ -375,7 +375,7 @@ Plot chain_plot(const MachineReduction& r) {
   if (length == 0) length = 1e-6;
   Plot plot{.title = "The elastic chain: discs are inertias, distances are compliances",
             .x = {"compliance from the first inertia", "µrad/(N·m)"},
-            .y = {"", ""},
+            .y = {"∛(J/J_max)", ""},
             .series = {},
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (const ChainSpring& s : chain.springs) {

@@ -277,8 +277,8 @@ TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {
   const Ended press = kurbel({"steady", scenes + "crank_press.toml", "--json"});
   EXPECT_EQ(press.code, 0) << press.err;
   EXPECT_EQ(nlohmann::json::parse(press.out)["cycles"].size(), 2u);
-  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/report.html"));
-  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/operating_points.csv"));
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/steady/report.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/steady/operating_points.csv"));
   const Ended family = kurbel({"steady", scenes + "free_slider_crank.toml"});
   EXPECT_EQ(family.code, 2);
   EXPECT_NE(family.err.find("--mean-speed"), std::string::npos) << family.err;
