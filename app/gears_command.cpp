@@ -95,6 +95,7 @@ int gears(GearsArguments a) {
     return present(output_of(find_gears(scene, {.pair = a.pair, .speed = speed})), a.study);
   }
   a.study.scene = "gear_pair";  // names the folder of the results
+  a.study.study.clear();
   check_folder(a.study);
   return present(alone(a, speed), a.study);
 }
@@ -105,7 +106,7 @@ void add_gears_command(CLI::App& app, int& code) {
   const auto a = std::make_shared<GearsArguments>();
   CLI::App* command =
       app.add_subcommand("gears", "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing");
-  add_study_options(*command, a->study);
+  add_study_options(*command, a->study, "gears");
   command->get_option("scene")->required(false);
   command->add_option("--pair", a->pair, "one stage, e.g. gearbox.stage1 (default: all whose module is given)");
   command->add_option("--speed", a->speed, "of the first wheel, e.g. \"1500 rpm\": sliding speeds, mesh frequency");

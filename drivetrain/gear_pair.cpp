@@ -44,6 +44,8 @@ void check(const GearPairData& d) {
   for (const int i : {0, 1}) {
     if (!(d.width[at(i)] >= 0 && std::isfinite(d.width[at(i)])))
       refuse(fmt::format("width = {:g} mm; must be > 0", 1e3 * d.width[at(i)]));
+    if (d.shift[at(i)] && !(std::abs(*d.shift[at(i)]) <= 3))
+      refuse(fmt::format("shift = {:g}; must be −3 … 3 (in modules)", *d.shift[at(i)]));
     if (d.tip_diameter[at(i)] && !(*d.tip_diameter[at(i)] > 0))
       refuse(fmt::format("tip diameter = {:g} mm; must be > 0", 1e3 * *d.tip_diameter[at(i)]));
   }

@@ -435,6 +435,8 @@ TEST(GearPair, BadInputIsRefusedInWords) {
   d = good;
   d.shift = {-2.0, -2.9};
   EXPECT_NE(refusal(d), "");
+  d.shift = {std::nan(""), 0};
+  EXPECT_NE(refusal(d).find("shift = nan"), std::string::npos);
   d = good;
   d.rack.root_radius = 0.6;
   EXPECT_NE(refusal(d).find("root_radius"), std::string::npos);
