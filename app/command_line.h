@@ -57,6 +57,7 @@ int present(const StudyOutput& output, const StudyOptions& options);
 
 // Each registers its commands; an action leaves its exit code in `code`.
 void add_forces_command(CLI::App& app, int& code);  // forces
+void add_modes_command(CLI::App& app, int& code);   // modes
 void add_run_commands(CLI::App& app, int& code);    // run, compare
 void add_scene_commands(CLI::App& app, int& code);  // check, figures, new, keys, schema
 

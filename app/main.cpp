@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   int code = exit_done;
   add_run_commands(app, code);
   add_forces_command(app, code);
+  add_modes_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();
   try {
