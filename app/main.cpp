@@ -59,8 +59,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "kurbel 0.1.0");
   int code = exit_done;
   add_run_commands(app, code);
+  add_reduce_command(app, code);
+  add_size_command(app, code);
   add_forces_command(app, code);
   add_modes_command(app, code);
+  add_steady_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();
   try {

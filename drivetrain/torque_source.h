@@ -28,6 +28,7 @@ struct HarmonicTorque {
   bool uses_time() const { return amplitude != 0; }
   bool uses_speed() const { return false; }
   Rated rated() const { return {std::abs(mean) + std::abs(amplitude), 0}; }
+  double time_period() const { return amplitude == 0 || frequency == 0 ? 0 : 1 / std::abs(frequency); }
 };
 
 // M = sign · f(t), piecewise: the piece is the mode.
@@ -46,6 +47,8 @@ struct TorqueOverTime {
   bool uses_speed() const { return false; }
   double next_edge(double t) const { return curve.offset(t + slack()) + curve.piece_end(mode_at(t)); }
   Rated rated() const { return {curve.max_abs(), 0}; }
+  double time_period() const { return curve.period(); }
+  double settled_from() const { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
 
  private:
   // A time this close before a knot is on it: k · period rounds to either side.

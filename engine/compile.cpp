@@ -143,6 +143,16 @@ class Compiler {
         model_.merged.push_back(fmt::format(
             "\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
     }
+    bool any = false;
+    for (Network::ShaftElement& e : net().elements)
+      if (auto changed = e.element->with(model_.effects)) {
+        e.element = std::move(changed);
+        any = true;
+      }
+    if (model_.effects.joint_friction && !any)
+      messages_.add({},
+                    "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
+                    "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
   }
 
   void make_shafts() {
@@ -229,7 +239,8 @@ class Compiler {
     messages_.throw_if_any();
   }
 
-  // A slider alone has no inertia to offer its crank at a dead centre, and the crank's acceleration is infinite there.
+  // A mechanism whose crank is massless may have no inertia to offer it at a dead centre, where its acceleration is
+  // infinite.
   void check_dead_centres(const Shaft& shaft) {
     const Network::ShaftElement* mechanism = nullptr;
     double least = shaft.inertia;
@@ -242,7 +253,7 @@ class Compiler {
     }
     if (mechanism && least < 1e-9 * shaft.mean_inertia)
       messages_.add(location_of(mechanism->component),
-                    fmt::format("\"{}\" has no inertia at a dead centre (its slider stands still there), so the "
+                    fmt::format("\"{}\" has no inertia at a dead centre (its output stands still there), so the "
                                 "crank's motion is undefined; give it a crank_inertia",
                                 mechanism->component));
   }

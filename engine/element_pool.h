@@ -65,6 +65,14 @@ struct Channel {
   std::function<double(const Snapshot&)> value;
 };
 
+// Torques that depend on the accelerations: added to what the elements do without them.
+struct Reactions {
+  double* torque;          // per shaft [N·m]
+  double* slope;           // per shaft: −∂torque/∂alpha, counts as inertia [kg·m²]
+  double* element_torque;  // per shaft element
+  double* work_rate;       // per work account, or null
+};
+
 struct GuardLabel {
   std::string component, what;  // what happens when it fires
 };
@@ -76,6 +84,10 @@ class ElementPool {
   virtual void register_jacobian(JacobianPattern& pattern) = 0;
   // Adds ∂(sum of torques − inertia · alpha)/∂(state) to the slots, at the accelerations alpha per shaft.
   virtual void add_jacobian(const Instant& now, const double* alpha, double* slots) const = 0;
+
+  // Joint friction and the like: torques at the accelerations alpha per shaft; the equations find both together.
+  virtual bool reacts() const { return false; }
+  virtual void add_reactions(const Instant&, const double* /*alpha*/, Reactions&) const {}
 
   virtual int guard_count() const { return 0; }
   // Every law of the pool changes at fixed angles of its shaft alone, for either direction: load edges.

@@ -47,6 +47,13 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   connection_torque_.assign(m.elastic.size(), 0);
   spring_torque_.assign(m.elastic.size(), 0);
   element_torque_.assign(elements, 0);
+  for (const auto& pool : model_->pools)
+    if (pool->reacts()) reacting_.push_back(pool.get());
+  if (!reacting_.empty()) {
+    for (auto* per_shaft : {&reaction_alpha_, &reaction_torque_, &reaction_slope_})
+      per_shaft->assign(model_->shafts.size(), 0);
+    reaction_element_.assign(elements, 0);
+  }
   element_inertia_.assign(elements, 0);
   balance_.assign(nodes, 0);
   node_angle_.assign(nodes, 0);
@@ -151,6 +158,39 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
     if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
   for (const int s : directional_)
     if (direction_[at(s)] == 0 && at(s) < m.free_shafts) alpha[s] = 0;
+  if (!reacting_.empty()) settle_reactions(t, alpha, work_rate);
+}
+
+// I α = M + M_r(α) by Newton's method on every shaft: M_r′ counts as inertia.
+void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
+  const Model& m = *model_;
+  std::copy(alpha, alpha + m.free_shafts, reaction_alpha_.begin());
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) reaction_alpha_[s] = prescribed_acceleration(s, t);
+  const auto react = [&](double* work) {
+    std::fill(reaction_torque_.begin(), reaction_torque_.end(), 0.0);
+    std::fill(reaction_slope_.begin(), reaction_slope_.end(), 0.0);
+    std::fill(reaction_element_.begin(), reaction_element_.end(), 0.0);
+    Reactions sums{reaction_torque_.data(), reaction_slope_.data(), reaction_element_.data(), work};
+    for (const ElementPool* pool : reacting_) pool->add_reactions(snapshot_.now, reaction_alpha_.data(), sums);
+  };
+  constexpr int most_steps = 50;
+  for (int i = 0; i < most_steps; ++i) {
+    react(nullptr);
+    double change = 0;
+    for (std::size_t s = 0; s < m.free_shafts; ++s) {
+      if (m.shafts[s].directional && direction_[s] == 0) continue;
+      const double left = torque_[s] + reaction_torque_[s] - inertia_[s] * reaction_alpha_[s];
+      const double step = left / (inertia_[s] + reaction_slope_[s]);
+      reaction_alpha_[s] += step;
+      change = std::max(
+          change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
+    }
+    if (!(change > 1e-14)) break;
+  }
+  react(work_rate);
+  for (std::size_t s = 0; s < m.shafts.size(); ++s) torque_[s] += reaction_torque_[s];
+  for (std::size_t e = 0; e < element_torque_.size(); ++e) element_torque_[e] += reaction_element_[e];
+  std::copy(reaction_alpha_.begin(), reaction_alpha_.begin() + static_cast<std::ptrdiff_t>(m.free_shafts), alpha);
 }
 
 void Equations::flow(double t, std::span<const double> y, std::span<double> ydot) {
@@ -261,7 +301,10 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
     if (layout.slot_position[k] < stored) values[layout.slot_position[k]] += slot_[k];
   for (std::size_t i = 0; i < stored; ++i) {
     const int s = layout.row_shaft[i];
-    if (s >= 0) values[i] *= m.shafts[at(s)].directional && direction_[at(s)] == 0 ? 0.0 : 1 / inertia_[at(s)];
+    if (s >= 0)
+      values[i] *= m.shafts[at(s)].directional && direction_[at(s)] == 0
+                       ? 0.0
+                       : 1 / (inertia_[at(s)] + (reacting_.empty() ? 0.0 : reaction_slope_[at(s)]));
   }
   for (const auto& [position, value] : layout.constant) values[position] += value;
 }

@@ -39,7 +39,15 @@ class Equations final : public OdeSystem {
   std::string state_name(std::size_t state) const;
 
   // State at the start as the scene demands it; sets all modes.
-  std::vector<double> start(double t);
+  std::vector<double> start(double t) { return start(t, model_->scene.run.start); }
+  std::vector<double> start(double t, const StartSettings& settings);
+
+  // The state with the reduction link at an angle, and these twists and speeds of the free shafts; the other angles
+  // follow. Sets all modes anew, turns to none.
+  std::vector<double> state_of(double t, double link_angle, std::span<const double> twists,
+                               std::span<const double> speeds);
+  // ∂φ/∂θ per shaft: how the shafts turn with one elastic joint's twist while the reduction link stands.
+  std::vector<double> shaft_angles_by_twist(std::size_t elastic) const;
 
   // A state of the rigid machine with all modes found anew, for integrators that know no events.
   std::vector<double> modes_from_scratch(double t, double reduction_angle, double reduction_speed);
@@ -99,13 +107,15 @@ class Equations final : public OdeSystem {
   double prescribed_acceleration(std::size_t shaft, double t) const;
   void set_timed_modes(double t);
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate);
+  void settle_reactions(double t, double* alpha, double* work_rate);
   void find_joint_torques(const double* alpha);
   void write_quadratures(double* rate);
   void list_rigid_trees();
   void list_elastic_tree();
   void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts,
                          std::vector<Event>* log);
-  std::vector<double> start_angles(std::vector<double>& twists);
+  std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
+  void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
 
@@ -127,6 +137,9 @@ class Equations final : public OdeSystem {
   std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_;
   std::vector<double> element_torque_, element_inertia_, balance_, joint_torque_, node_angle_, work_rate_, shaft_angle_;
   std::vector<Hold> shaft_hold_, element_hold_;
+  // torques that depend on the accelerations; empty where no element reacts
+  std::vector<const ElementPool*> reacting_;
+  std::vector<double> reaction_alpha_, reaction_torque_, reaction_slope_, reaction_element_;
   Snapshot snapshot_{};
 
   // Jacobian: the model's layout with the quadratures' empty diagonal appended

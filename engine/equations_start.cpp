@@ -23,9 +23,8 @@ void Equations::set_shaft_angles(const double* twists, std::vector<double>& angl
   }
 }
 
-std::vector<double> Equations::start_angles(std::vector<double>& twists) {
+std::vector<double> Equations::start_angles(const StartSettings& start, std::vector<double>& twists) {
   const Model& m = *model_;
-  const StartSettings& start = m.scene.run.start;
   const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
   const double reduction_angle = start.angle / m.node_ratio[at(on)];
   std::vector<double> angles(m.shafts.size());
@@ -51,12 +50,11 @@ std::vector<double> Equations::start_angles(std::vector<double>& twists) {
   return angles;
 }
 
-std::vector<double> Equations::start(double t) {
+std::vector<double> Equations::start(double t, const StartSettings& settings) {
   const Model& m = *model_;
-  const StartSettings& settings = m.scene.run.start;
   std::vector<double> y(size(), 0.0);
   std::vector<double> twists(m.elastic.size(), 0.0);
-  const std::vector<double> angles = start_angles(twists);
+  const std::vector<double> angles = start_angles(settings, twists);
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[at(m.angles[i].shaft)];
   for (std::size_t i = 0; i < twists.size(); ++i) y[twists_begin() + i] = twists[i];
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
@@ -69,6 +67,34 @@ std::vector<double> Equations::start(double t) {
     const int s = m.shaft_of_node[at(node)];
     if (at(s) < m.free_shafts) y[speed_index(s)] = *c.speed / m.gain_of_node[at(node)];
   }
+  settle_modes(t, y, settings.equilibrium);
+  return y;
+}
+
+std::vector<double> Equations::state_of(double t, double link_angle, std::span<const double> twists,
+                                        std::span<const double> speeds) {
+  const Model& m = *model_;
+  std::vector<double> y(size(), 0.0), angles(m.shafts.size(), 0.0);
+  const TrackedAngle& link = m.angles[at(m.reduction_angle)];
+  angles[at(link.shaft)] = link_angle / link.gain;
+  set_shaft_angles(twists.data(), angles);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[at(m.angles[i].shaft)];
+  std::copy(twists.begin(), twists.end(), y.begin() + static_cast<std::ptrdiff_t>(twists_begin()));
+  std::copy(speeds.begin(), speeds.end(), y.begin() + static_cast<std::ptrdiff_t>(speed_index(0)));
+  settle_modes(t, y, false);
+  return y;
+}
+
+std::vector<double> Equations::shaft_angles_by_twist(std::size_t elastic) const {
+  std::vector<double> twists(model_->elastic.size(), 0.0), angles(model_->shafts.size(), 0.0);
+  twists[elastic] = 1;
+  set_shaft_angles(twists.data(), angles);
+  return angles;
+}
+
+// All modes anew for a state; turns are counted from here.
+void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
+  const Model& m = *model_;
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
   set_timed_modes(t);
@@ -77,13 +103,12 @@ std::vector<double> Equations::start(double t) {
     direction_[at(s)] = w > 0 ? 1 : w < 0 ? -1 : 0;
   }
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
-  if (settings.equilibrium) balance_twists(y, t);
+  if (equilibrium) balance_twists(y, t);
   std::vector<std::size_t> still;
   for (const int s : directional_)
     if (direction_[at(s)] == 0) still.push_back(at(s));
   settle_directions(t, y, still, nullptr);
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
-  return y;
 }
 
 std::vector<double> Equations::modes_from_scratch(double t, double reduction_angle, double reduction_speed) {

@@ -1,6 +1,7 @@
 // network.h — the machine before merging: every shaft end a node, every connection a joint, every element on its node.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -75,6 +76,8 @@ class ConnectionMakerOf final : public ConnectionMaker {
   E element_;
 };
 
+struct Effects;
+
 // An element on a shaft, waiting to be placed. Mechanisms have makers of their own.
 class ShaftElementMaker {
  public:
@@ -96,7 +99,13 @@ class ShaftElementMaker {
   // What its torque depends on besides the angle; a maker that does not say counts as depending on everything.
   virtual bool uses_time() const { return true; }
   virtual bool uses_speed() const { return true; }
+  // Time after which its law repeats [s]; 0: none.
+  virtual double time_period() const { return 0; }
+  // A law over time without a period holds still from here on [s].
+  virtual double settled_from() const { return -HUGE_VAL; }
   virtual int mode_count() const { return 1; }
+  // The element with these effects on; null where they change nothing.
+  virtual std::shared_ptr<ShaftElementMaker> with(const Effects&) const { return nullptr; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
   // Work accounts beyond the element's own ("press.load"); the pool uses the indices that follow.
   virtual std::vector<std::pair<std::string, Account>> further_accounts() const { return {}; }
@@ -123,6 +132,14 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
       return element_.work_account;
     else
       return E::account;
+  }
+  double time_period() const override {
+    if constexpr (requires { element_.time_period(); }) return element_.time_period();
+    return 0;
+  }
+  double settled_from() const override {
+    if constexpr (requires { element_.settled_from(); }) return element_.settled_from();
+    return -HUGE_VAL;
   }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
     pools.of<ShaftPool<E>>().place(element_, ports, label);

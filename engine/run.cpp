@@ -69,8 +69,9 @@ class Loop {
       : equations_(equations),
         options_(options),
         observers_(observers),
-        view_(equations),
-        guard_(equations.guard_count()),
+        system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
+        view_(equations, system_.size()),
+        guard_(equations.guard_count() + (options.stop ? 1 : 0)),
         guard_before_(guard_.size()) {}
 
   RunOutcome run() {
@@ -78,7 +79,7 @@ class Loop {
     choose_method();
     try {
       start();
-      while (stepper_->t() < options_.until && advance()) {
+      while (!out_.stopped && stepper_->t() < options_.until && advance()) {
       }
       out_.complete = out_.diagnosis.empty();
     } catch (const StepFailure& failure) {
@@ -114,6 +115,7 @@ class Loop {
   // Where inertia or torques vary with the angle, over more than a few turns.
   bool work_equation_pays() const {
     const Model& m = equations_.model();
+    if (options_.from || options_.stop || options_.extension) return false;
     if (!m.elastic.empty() || m.free_shafts != 1) return false;
     if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
     if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
@@ -121,18 +123,20 @@ class Loop {
   }
 
   void start() {
-    const std::vector<double> y = equations_.start(0);
-    make(method_, 0, y);
-    for (Observer* observer : observers_) observer->begin(0, stepper_->y(), equations_);
+    const double t = options_.from ? options_.from->t : 0;
+    const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
+    make(method_, t, y);
+    for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
   }
 
   void make(Method method, double t, std::span<const double> y) {
     if (stepper_) add_statistics();
-    const ErrorControl control = equations_.error_control(options_.tolerance);
+    const ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
+                                                    : equations_.error_control(options_.tolerance);
     if (method == Method::work_equation) {
       stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
     } else {
-      stepper_ = make_stepper(method, equations_, control);
+      stepper_ = make_stepper(method, system_, control);
     }
     method_ = method;
     view_.watch(*stepper_);
@@ -142,7 +146,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
-    equations_.guards(t, state_, guard_before_);
+    find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
 
@@ -150,10 +154,10 @@ class Loop {
   bool advance() {
     if (out_of_budget()) return false;
     stepper_->step(limit());
-    equations_.guards(stepper_->t(), stepper_->y(), guard_);
+    find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
-    if (stepper_->t() > stepper_->t_previous())
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
@@ -190,11 +194,17 @@ class Loop {
     return t;
   }
 
+  // The equations' guards, and behind them the one that ends the run.
+  void find_guards(double t, std::span<const double> y, std::span<double> g) {
+    equations_.guards(t, y, g);
+    if (options_.stop) g.back() = options_.stop(t, y);
+  }
+
   double guard_at(double t, std::size_t which) {
-    work_.resize(equations_.size());
+    work_.resize(system_.size());
     stepper_->interpolate(t, work_);
     probe_.resize(guard_.size());
-    equations_.guards(t, work_, probe_);
+    find_guards(t, work_, probe_);
     return probe_[which];
   }
 
@@ -234,7 +244,7 @@ class Loop {
       for (std::size_t k = 0; k < below.size(); ++k)
         if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k]);
       land_on(first, fired.front());
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       // What is at its root now counts as fired; another guard may have fired before it.
       for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
     }
@@ -267,7 +277,7 @@ class Loop {
     for (int i = 0; i < 4; ++i) {
       if (!(t > t0)) t = std::nextafter(t0, t1);
       stepper_->retake(t);
-      equations_.guards(stepper_->t(), stepper_->y(), guard_);
+      find_guards(stepper_->t(), stepper_->y(), guard_);
       const double residual = guard_[guard];
       if (std::abs(residual) < 1e-14 || std::abs(residual) > 0.1 * last || slope == 0) return;
       last = std::abs(residual);
@@ -279,6 +289,14 @@ class Loop {
 
   bool pass_event(double t, const std::vector<std::size_t>& fired) {
     const bool at_begin = std::exchange(at_begin_, false);
+    if (options_.stop && fired.back() == equations_.guard_count()) {
+      out_.stopped = true;
+      if (at_begin) {
+        const std::vector<double> before(stepper_->y_previous().begin(), stepper_->y_previous().end());
+        restart(stepper_->t_previous(), before);
+      }
+      return false;
+    }
     const double time = at_begin ? stepper_->t_previous() : t;
     const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
     std::vector<double> y(source.begin(), source.end());
@@ -291,7 +309,9 @@ class Loop {
       return false;
     }
     ++out_.statistics.events;
+    if (options_.extension) options_.extension->before_event(time, y, fired);
     equations_.fire(time, y, fired, out_.events);
+    if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
     return true;
@@ -374,6 +394,7 @@ class Loop {
   Equations& equations_;
   const RunOptions& options_;
   const std::vector<Observer*>& observers_;
+  OdeSystem& system_;
   StepView view_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
@@ -391,7 +412,7 @@ class Loop {
 std::span<const double> StepView::at(double time) {
   if (time >= stepper_->t()) return stepper_->y();
   if (time <= stepper_->t_previous()) return stepper_->y_previous();
-  scratch_.resize(equations_.size());
+  scratch_.resize(size_);
   stepper_->interpolate(time, scratch_);
   return scratch_;
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,21 @@ namespace kurbel {
 
 class WorkTables;
 
+// A state to begin at; the equations' modes must belong to it.
+struct RunStart {
+  double t = 0;
+  std::vector<double> y;
+};
+
+// Integrated along with the equations, whose states come first: sensitivities.
+class RunExtension : public OdeSystem {
+ public:
+  virtual ErrorControl error_control(double tolerance) const = 0;
+  // Just before and just after the modes change at an event.
+  virtual void before_event(double t, std::span<const double> y, const std::vector<std::size_t>& fired) = 0;
+  virtual void after_event(double t, std::span<double> y) = 0;
+};
+
 struct RunOptions {
   double tolerance = 1e-8;      // local, over the scale of each state
   std::string method = "auto";  // auto, work, dopri5, dop853, esdirk, bdf, adams
@@ -22,6 +38,11 @@ struct RunOptions {
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double fraction)> progress;
   std::shared_ptr<WorkTables> work_tables = nullptr;  // of the model, where runs share them; null: made when needed
+  // Begins here rather than where the scene says.
+  std::optional<RunStart> from = {};
+  // Ends where this falls through zero (of order one), located exactly; it must not begin at zero.
+  std::function<double(double t, std::span<const double> y)> stop = {};
+  RunExtension* extension = nullptr;
 };
 
 struct RunStatistics {
@@ -35,7 +56,8 @@ struct RunStatistics {
 // The state of a run just after an accepted step, for observers. Between t_previous and t the solution is smooth.
 class StepView {
  public:
-  explicit StepView(Equations& equations) : equations_(equations) {}
+  explicit StepView(Equations& equations, std::size_t size = 0)
+      : equations_(equations), size_(size > 0 ? size : equations.size()) {}
   void watch(Stepper& stepper) { stepper_ = &stepper; }
   double t_previous() const { return stepper_->t_previous(); }
   double t() const { return stepper_->t(); }
@@ -48,6 +70,7 @@ class StepView {
 
  private:
   Equations& equations_;
+  std::size_t size_;
   Stepper* stepper_ = nullptr;
   std::vector<double> scratch_;
 };
@@ -61,6 +84,7 @@ class Observer {
 
 struct RunOutcome {
   bool complete = false;
+  bool stopped = false;   // at the zero of RunOptions::stop
   std::string diagnosis;  // of an incomplete run: when, where, why, what to try
   double t = 0;
   std::vector<double> state;

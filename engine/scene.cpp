@@ -384,9 +384,17 @@ class SceneReader {
       return refuse(effects->at, fmt::format("effects = {}; must be a table, e.g. effects = {{ elasticity = true }}",
                                              effects->value.describe()));
     for (const DocumentEntry& entry : effects->value.entries) {
+      if (entry.key == "joint_friction") {
+        if (entry.value.type == Type::flag)
+          scene_.effects.joint_friction = entry.value.flag;
+        else
+          refuse(entry.value.at,
+                 fmt::format("[effects]: joint_friction = {}; must be true or false", entry.value.describe()));
+        continue;
+      }
       if (entry.key != "elasticity") {
-        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\"", in_quotes(entry.key),
-                                     suggestion(entry.key, {"elasticity"})));
+        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\" and \"joint_friction\"",
+                                     in_quotes(entry.key), suggestion(entry.key, {"elasticity", "joint_friction"})));
         continue;
       }
       if (entry.value.type == Type::flag) {
@@ -544,11 +552,11 @@ bool Effects::is_elastic(const std::string& component) const {
 }
 
 std::string Effects::describe() const {
-  if (all_elastic) return "elasticity";
-  if (elastic.empty()) return "none";
-  std::string text = "elasticity of ";
-  for (std::size_t i = 0; i < elastic.size(); ++i) text += (i ? ", " : "") + elastic[i];
-  return text;
+  std::string text = all_elastic ? "elasticity" : elastic.empty() ? "" : "elasticity of ";
+  if (!all_elastic)
+    for (std::size_t i = 0; i < elastic.size(); ++i) text += (i ? ", " : "") + elastic[i];
+  if (joint_friction) text += text.empty() ? "joint friction" : " and joint friction";
+  return text.empty() ? "none" : text;
 }
 
 const Section* Scene::find(const std::string& name) const {
@@ -611,17 +619,18 @@ Scene read_scene(const std::string& path, const std::vector<Kind>& kinds) {
   return parse_scene(read_text_file(path, max_scene_bytes), path, kinds);
 }
 
-Effects parse_effects(const std::string& text, const Scene& scene) {
-  Effects effects;
-  if (text == "none") return effects;
+namespace {
+
+void add_elasticity(const std::string& text, const Scene& scene, Effects& effects) {
   if (text == "elasticity") {
     effects.all_elastic = true;
-    return effects;
+    return;
   }
   const std::string prefix = "elasticity:";
   if (!text.starts_with(prefix))
-    throw std::invalid_argument(fmt::format("effects {}{}; allowed: none, elasticity, or elasticity:COUPLING,…",
-                                            in_quotes(text), suggestion(text, {"none", "elasticity"})));
+    throw std::invalid_argument(fmt::format(
+        "effects {}{}; allowed: none, elasticity, elasticity:COUPLING,…, joint_friction, or two joined by +",
+        in_quotes(text), suggestion(text, {"none", "elasticity", "joint_friction"})));
   for (std::size_t begin = prefix.size(); begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
@@ -636,6 +645,22 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
                                               allowed.empty() ? "none in this scene" : shortened_list(allowed)));
     }
     effects.elastic.push_back(name);
+    begin = end + 1;
+  }
+}
+
+}  // namespace
+
+Effects parse_effects(const std::string& text, const Scene& scene) {
+  Effects effects;
+  if (text == "none") return effects;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('+', begin), text.size());
+    const std::string one = text.substr(begin, end - begin);
+    if (one == "joint_friction")
+      effects.joint_friction = true;
+    else
+      add_elasticity(one, scene, effects);
     begin = end + 1;
   }
   return effects;

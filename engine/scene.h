@@ -15,9 +15,10 @@ namespace kurbel {
 struct Effects {
   bool all_elastic = false;
   std::vector<std::string> elastic;
+  bool joint_friction = false;  // in the mechanisms' joints
 
   bool is_elastic(const std::string& component) const;
-  std::string describe() const;  // "elasticity", "elasticity of main_coupling", "none"
+  std::string describe() const;  // "elasticity", "elasticity of main_coupling", "joint friction", "none"
 };
 
 // Start of one component: what is not given follows from the others.
@@ -67,7 +68,8 @@ struct Scene {
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds);
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds);
 
-// "none", "elasticity", or "elasticity:motor_coupling,main_coupling". Throws std::invalid_argument.
+// "none", or joined by "+": "elasticity" or "elasticity:motor_coupling,main_coupling", "joint_friction". Throws
+// std::invalid_argument.
 Effects parse_effects(const std::string& text, const Scene& scene);
 
 // Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.

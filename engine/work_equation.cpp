@@ -422,6 +422,10 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
           "the torque of \"{}\" depends on time, and over the angle nobody knows the time of an edge; choose "
           "another method",
           e.component);
+  for (const auto& pool : model->pools)
+    if (pool->reacts())
+      return "joint friction depends on the acceleration, and its kinks lie at angles that nobody knows beforehand; "
+             "choose another method";
   if (!machine.edges_are_of_angle())
     return "a torque given as a table over speed changes its piece at speeds, not at angles; choose another method";
   if (!machine.periodic())

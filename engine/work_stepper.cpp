@@ -144,7 +144,6 @@ void WorkStepper::start(double t, std::span<const double> y) {
   std::copy(y.begin(), y.end(), y_.begin());
   y_previous_ = y_;
   at_edge_ = begun_ = false;
-  by_angle_ = regular(by_angle_ ? leave_angle : enter_angle);
 }
 
 // T > angle · |M|, and not so slow that 1/ω means nothing.
@@ -152,6 +151,8 @@ bool WorkStepper::regular(double least_angle) {
   const Model& m = equations_.model();
   const double omega = y_[equations_.speed_index(0)];
   if (!(std::abs(omega) > least_speed * m.speed_scale)) return false;
+  if (by_angle_ && begun_ && !tables_->of_angle_alone())  // known from the step's end
+    return over_angle_.y()[0] > least_angle * std::abs(over_angle_.ydot()[0]);
   const auto [torque, inertia] = equations_.shaft_balance(0, t_, y_);
   const double phi = y_[static_cast<std::size_t>(m.reduction_angle)];
   const double slope = m.shafts[0].variable ? tables_->machine().mechanism_inertia(phi).slope : 0;

@@ -74,7 +74,6 @@ class WorkStepper final : public Stepper {
 
  private:
   bool regular(double least_angle);
-  void choose_variable();
   void step_over_angle(double t_limit);
   void step_over_time(double t_limit);
   double next_stop();

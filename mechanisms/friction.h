@@ -48,6 +48,10 @@ struct FrictionCoefficient {
     const double ratio = stribeck_speed > 0 ? v / stribeck_speed : (v > 0 ? 1e9 : 0.0);
     return kinetic + (resting - kinetic) * std::exp(-std::min(ratio * ratio, 700.0)) + viscous * v;
   }
+  // The same without the jump at rest: what holds at v → 0 once it moves.
+  double in_motion(double sliding_speed) const {
+    return sliding_speed == 0 && stribeck_speed == 0 ? kinetic : at(sliding_speed);
+  }
 };
 
 // --- inclined plane, slope λ, 0 ≤ λ < π/2, weight Q ---

@@ -140,13 +140,16 @@ SliderCrankData slider_crank_data(const Section& s) {
   return d;
 }
 
-void check_joints(const Section& s, Messages& messages) {
+bool check_joints(const Section& s, Messages& messages) {
+  const std::size_t before = messages.all().size();
+  bool sound = true;
   for (const char* joint : {"main_bearing", "crank_pin", "slider_pin", "guide"}) {
     if (!s.has(joint)) continue;
     const std::string what = fmt::format("slider-crank \"{}\": {}", s.name, joint);
     const std::vector<Section>& tables = s[joint].sections;
     if (tables.size() != 1)
       messages.add(s.where(joint), fmt::format("{} = a list of {} tables; must be one table", what, tables.size()));
+    sound = sound && tables.size() == 1 && tables.front().sound;
     if (tables.size() != 1 || !tables.front().sound) continue;
     const Section& table = tables.front();
     if (table.has("static_friction") && table.number("static_friction") < table.number("friction"))
@@ -158,6 +161,7 @@ void check_joints(const Section& s, Messages& messages) {
       messages.add(table.where("rolling_arm"),
                    fmt::format("{}: rolling_arm without roller_radius; give the rollers' radius", what));
   }
+  return sound && messages.all().size() == before;
 }
 
 }  // namespace kurbel

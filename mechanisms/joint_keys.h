@@ -15,7 +15,7 @@ std::vector<Key> slider_crank_joint_keys();
 SliderCrankJoints slider_crank_joints(const Section& section);
 SliderCrankData slider_crank_data(const Section& section);
 
-// What is wrong with the joints taken together.
-void check_joints(const Section& section, Messages& messages);
+// What is wrong with the joints taken together goes into the messages; false then.
+bool check_joints(const Section& section, Messages& messages);
 
 }  // namespace kurbel

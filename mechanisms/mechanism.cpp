@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene.h"
+
 namespace kurbel {
 namespace {
 
@@ -80,14 +82,14 @@ bool Mechanism::has_weight() const {
 }
 
 bool MechanismMaker::directional() const {
-  return std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
-                     [](const SliderLoad& l) { return l.depends_on_travel(); });
+  return mechanism_.joint_friction || std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
+                                                  [](const SliderLoad& l) { return l.depends_on_travel(); });
 }
 
 // Weight and forces over travel depend on the angle alone; so does I_r.
 bool MechanismMaker::uses_speed() const {
-  return std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
-                     [](const SliderLoad& l) { return l.uses_speed(); });
+  return mechanism_.joint_friction || std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
+                                                  [](const SliderLoad& l) { return l.uses_speed(); });
 }
 
 // Loads give a scale of torque: greatest force times half the stroke.
@@ -116,7 +118,15 @@ std::string MechanismMaker::describe() const {
 std::vector<std::pair<std::string, Account>> MechanismMaker::further_accounts() const {
   std::vector<std::pair<std::string, Account>> accounts;
   for (const SliderLoad& load : mechanism_.loads) accounts.emplace_back(load.name, load.account);
+  if (mechanism_.joint_friction) accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   return accounts;
+}
+
+std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) const {
+  if (!effects.joint_friction || !mechanism_.joints) return nullptr;
+  Mechanism rough = mechanism_;
+  rough.joint_friction = true;
+  return std::make_shared<MechanismMaker>(std::move(rough));
 }
 
 void MechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
@@ -127,6 +137,8 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   Placed placed{std::move(mechanism), std::move(at)};
   placed.has_weight = placed.mechanism.has_weight();
   placed.output_scale = placed.mechanism.output_scale();
+  placed.watches_travel = placed.mechanism.joint_friction;  // the guide's friction turns round with the slider
+  reacts_ = reacts_ || placed.mechanism.joint_friction;
   for (const SliderLoad& load : placed.mechanism.loads)
     placed.watches_travel = placed.watches_travel || load.depends_on_travel();
   const std::size_t index = placed_.size();
@@ -191,6 +203,67 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
   }
 }
 
+// All loads at another angle and speed, with the modes that hold.
+double MechanismPool::load_force(const Placed& p, const Instant& now, double phi, double omega) const {
+  const auto [x, ratio] = p.mechanism.reduced->at(phi).output_position();
+  double sum = 0;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    SliderState<double> s = slider(p, now, k);
+    s.phi = phi, s.x = x, s.v = ratio * omega;
+    sum += std::visit([&](const auto& law) { return law.value(s); }, p.mechanism.loads[k].law);
+  }
+  return sum;
+}
+
+// --- joint friction: −M_f(φ, ω, ε, F) on the crank, found together with ε (slider_crank_forces.h) ---
+
+CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha) const {
+  const int direction = now.direction[p.at.shaft] * (p.at.gain < 0 ? -1 : 1);
+  return {angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft], p.at.gain * alpha[p.at.shaft], load_force(p, now),
+          direction};
+}
+
+void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums) const {
+  for (const Placed& p : placed_) {
+    if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
+    const CrankState state = crank_state(p, now, alpha);
+    const auto [torque, slope] = p.mechanism.joints->friction_torque(state);
+    sums.torque[p.at.shaft] -= p.at.gain * torque;
+    sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
+    sums.element_torque[p.at.id] -= torque;
+    if (sums.work_rate)
+      sums.work_rate[p.at.account + 1 + static_cast<int>(p.mechanism.loads.size())] -= torque * state.omega;
+  }
+}
+
+// By central differences at the acceleration that was found: the friction laws have kinks, their pieces are smooth.
+void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha,
+                                          double* slots) const {
+  if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) return;
+  const CrankState here = crank_state(p, now, alpha);
+  const auto torque = [&](double phi, double omega) {
+    CrankState s = here;
+    s.phi = phi, s.omega = omega, s.slider_force = load_force(p, now, phi, omega);
+    return p.mechanism.joints->friction_torque(s).torque;
+  };
+  constexpr double step = 1e-6;
+  const double speed_step = step * std::max(1.0, std::abs(here.omega));
+  slots[p.slot_angle] -=
+      p.at.gain * (torque(here.phi + step, here.omega) - torque(here.phi - step, here.omega)) / (2 * step);
+  slots[p.slot_rate] -= p.at.gain * p.at.gain *
+                        (torque(here.phi, here.omega + speed_step) - torque(here.phi, here.omega - speed_step)) /
+                        (2 * speed_step);
+}
+
+// Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction.
+Hold MechanismPool::friction_hold(const Placed& p, const Instant& now) const {
+  const double phi = angle_of(p.at, now), force = load_force(p, now);
+  const auto [low, high] = p.mechanism.joints->resting_torque(phi, force);
+  const double free = p.mechanism.joints->solve_frictionless({.phi = phi, .slider_force = force}).torque;
+  const double most = 1e6 * (1 + std::abs(free) + std::abs(force) * p.output_scale);  // locks itself
+  return {-std::min(high - free, most), std::min(free - low, most)};
+}
+
 void MechanismPool::register_jacobian(JacobianPattern& pattern) {
   for (Placed& p : placed_) {
     const int speed = pattern.speed(p.at.shaft);
@@ -222,6 +295,7 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
     }
     slots[p.slot_angle] += p.at.gain * (torque.d[0] - slope * p.at.gain * alpha[p.at.shaft]);
     slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
+    add_friction_jacobian(p, now, alpha, slots);
   }
 }
 
@@ -312,6 +386,13 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
 
 void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) const {
   for (const Placed& p : placed_) {
+    if (p.mechanism.joint_friction) {
+      const Hold hold = friction_hold(p, now);
+      element[p.at.id].low += hold.low;
+      element[p.at.id].high += hold.high;
+      shaft[p.at.shaft].low += p.at.gain > 0 ? p.at.gain * hold.low : p.at.gain * hold.high;
+      shaft[p.at.shaft].high += p.at.gain > 0 ? p.at.gain * hold.high : p.at.gain * hold.low;
+    }
     const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);

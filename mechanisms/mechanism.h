@@ -10,6 +10,7 @@
 
 #include "engine/network.h"
 #include "mechanisms/reduced_mechanism.h"
+#include "mechanisms/slider_crank_forces.h"
 #include "mechanisms/slider_loads.h"
 
 namespace kurbel {
@@ -32,7 +33,9 @@ struct Mechanism {
   std::shared_ptr<MechanismBodies> bodies;  // for the independent kinetic energy
   TravelOfTurn travel;
   std::vector<SliderLoad> loads;
-  double phase = 0;  // added to the shaft's angle [rad]
+  double phase = 0;                                  // added to the shaft's angle [rad]
+  std::shared_ptr<const SliderCrankStatics> joints;  // of a slider-crank whose joints have friction; else null
+  bool joint_friction = false;                       // is an effect that is on
 
   bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
   bool has_weight() const;
@@ -59,6 +62,7 @@ class MechanismMaker final : public ShaftElementMaker {
   double angle_period() const override { return cycle(); }
   bool uses_time() const override { return false; }
   bool uses_speed() const override;
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const override;
   std::string describe() const override;
   int mode_count() const override { return 1 + static_cast<int>(mechanism_.loads.size()); }
   std::vector<std::pair<std::string, Account>> further_accounts() const override;
@@ -76,6 +80,8 @@ class MechanismPool final : public ElementPool {
   void add(const Instant& now, Sums& sums) const override;
   void register_jacobian(JacobianPattern& pattern) override;
   void add_jacobian(const Instant& now, const double* alpha, double* slots) const override;
+  bool reacts() const override { return reacts_; }
+  void add_reactions(const Instant& now, const double* alpha, Reactions& sums) const override;
   int guard_count() const override { return guards_; }
   bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
   void guards(const Instant& now, double* g) const override;
@@ -102,10 +108,15 @@ class MechanismPool final : public ElementPool {
   };
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   double load_force(const Placed& p, const Instant& now) const;
+  double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
+  CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
+  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
+  Hold friction_hold(const Placed& p, const Instant& now) const;
 
   std::vector<Placed> placed_;
   std::vector<GuardOwner> owners_;
   int guards_ = 0;
+  bool reacts_ = false;
 };
 
 }  // namespace kurbel

@@ -75,7 +75,7 @@ std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts) {
 }
 
 void build_mechanism(const Section& s, const MechanismData& data, const DataFaults& faults, Network& net,
-                     Messages& messages) {
+                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
@@ -91,6 +91,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
     return;
   }
   mechanism->phase = s.number("phase");
+  mechanism->joints = std::move(joints);
   read_loads(s, *mechanism, messages);
   const double phase = mechanism->phase;
   net.put_made(node, s.name, std::make_shared<MechanismMaker>(std::move(*mechanism)), {}, phase);

@@ -235,19 +235,22 @@ struct SliderCrankStatics::Law {
 };
 
 SliderCrankStatics::Law SliderCrankStatics::law_at(const CrankState& state) const {
-  const int direction = state.omega != 0 ? sign(state.omega) : state.direction;
+  const int direction = state.direction != 0 ? state.direction : sign(state.omega);
   const Rates unit = rates(state.phi, direction);  // for the signs, also at standstill
   const double speed = std::abs(state.omega);
+  const auto coefficient = [&](const FrictionCoefficient& f, double sliding_speed) {
+    return state.at_rest ? f.resting : f.in_motion(sliding_speed);
+  };
   const auto revolute = [&](const RevoluteJoint& joint, double rate) {
-    return -sign(rate) * friction_circle_radius(joint.radius, joint.friction.at(rate * speed * joint.radius));
+    return -sign(rate) * friction_circle_radius(joint.radius, coefficient(joint.friction, rate * speed * joint.radius));
   };
   const SliderGuide& g = joints_.guide;
   Law law{};
   law.circle[0] = revolute(joints_.main_bearing, unit.main_bearing);
   law.circle[1] = revolute(joints_.crank_pin, unit.crank_pin);
   law.circle[2] = revolute(joints_.slider_pin, unit.slider_pin);
-  law.guide = -sign(unit.slider) *
-              (g.friction.at(unit.slider * speed) + (g.rolling_arm > 0 ? g.rolling_arm / g.roller_radius : 0.0));
+  law.guide = -sign(unit.slider) * (coefficient(g.friction, unit.slider * speed) +
+                                    (g.rolling_arm > 0 ? g.rolling_arm / g.roller_radius : 0.0));
   law.length = g.length;
   law.middle = g.middle;
   law.half_width = 0.5 * g.width;
@@ -381,6 +384,19 @@ void SliderCrankStatics::add_motion(const CrankState& state, SliderCrankForces& 
 
 // --- second problem ---
 
+// dq/dε = (1 − ∂law/∂q)⁻¹ (∂law/∂R) R_ε.
+SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_of(const Table& unit, const Law& law,
+                                                                   const CrankState& state) const {
+  const Solution solution = solve_friction(unit, load_column(unit, state), law, state.phi);
+  const auto row = unit.rightCols<frictions>().row(torque_m);
+  const Law::Loads dq = solution.jacobian.partialPivLu().solve(solution.law_slope * unit.col(acceleration_case));
+  return {row.dot(solution.q), row.dot(dq)};
+}
+
+SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state) const {
+  return friction_of(unit_cases(state.phi), law_at(state), state);
+}
+
 double SliderCrankStatics::acceleration(CrankState state, double torque, double shaft_inertia) const {
   const Table unit = unit_cases(state.phi);
   const Law law = law_at(state);
@@ -390,16 +406,11 @@ double SliderCrankStatics::acceleration(CrankState state, double torque, double 
         fmt::format("slider-crank: reduced inertia at phi = {:g} rad is {:g} kg m2 with the shaft's {:g}; must be > 0 "
                     "for a torque to accelerate it: give crank or slider a mass",
                     state.phi, inertia, shaft_inertia));
-  // M(ε) + J ε − torque with its exact slope: dq/dε = (1 − ∂law/∂q)⁻¹ (∂law/∂R) R_ε.
-  const auto excess = [&](double alpha, double& slope) {
+  const auto excess = [&](double alpha, double& slope) {  // M(ε) + J ε − torque
     state.alpha = alpha;
-    const Column base = load_column(unit, state);
-    const Solution solution = solve_friction(unit, base, law, state.phi);
-    const auto loads = unit.rightCols<frictions>();
-    const Column by_alpha = unit.col(acceleration_case);
-    const Law::Loads dq = solution.jacobian.partialPivLu().solve(solution.law_slope * by_alpha);
-    slope = by_alpha[torque_m] + loads.row(torque_m).dot(dq) + shaft_inertia;
-    return base[torque_m] + loads.row(torque_m).dot(solution.q) + shaft_inertia * alpha - torque;
+    const FrictionTorque friction = friction_of(unit, law, state);
+    slope = inertia + friction.slope;
+    return load_column(unit, state)[torque_m] + friction.torque + shaft_inertia * alpha - torque;
   };
   state.alpha = 0;
   double alpha = (torque - load_column(unit, state)[torque_m]) / inertia;  // frictionless
@@ -425,7 +436,7 @@ double SliderCrankStatics::acceleration(CrankState state, double torque, double 
 SliderCrankStatics::Range SliderCrankStatics::resting_torque(double phi, double slider_force) const {
   const auto limit = [&](int direction) {
     try {
-      return solve({.phi = phi, .slider_force = slider_force, .direction = direction}).torque;
+      return solve({.phi = phi, .slider_force = slider_force, .direction = direction, .at_rest = true}).torque;
     } catch (const std::runtime_error&) {  // locks itself
       return direction * HUGE_VAL;
     }

@@ -69,7 +69,8 @@ inline Force2 operator*(double s, Force2 a) { return {s * a.x, s * a.y}; }
 struct CrankState {
   double phi = 0, omega = 0, alpha = 0;  // [rad, rad/s, rad/s²]
   double slider_force = 0;               // along +x, without weight [N]
-  int direction = 1;                     // of motion or, at ω = 0, of the motion about to begin
+  int direction = 0;                     // ±1: of the motion, whatever ω; 0: the sign of ω
+  bool at_rest = false;                  // about to move that way: static coefficients
 };
 
 enum class Joint : std::size_t { main_bearing, crank_pin, slider_pin, guide };
@@ -137,6 +138,12 @@ class SliderCrankStatics {
   // std::invalid_argument where nothing has inertia; std::runtime_error where the joints jam.
   double acceleration(CrankState state, double torque, double shaft_inertia = 0) const;
 
+  // What friction adds to the balancing torque, with its derivative by ε; its power is lost. Throws as solve does.
+  struct FrictionTorque {
+    double torque = 0, slope = 0;  // [N·m], [kg·m²]
+  };
+  FrictionTorque friction_torque(const CrankState& state) const;
+
   // Torques within which the mechanism rests under a slider force: low … high; static coefficients. −∞ or +∞ where it
   // locks itself against that direction.
   struct Range {
@@ -154,12 +161,12 @@ class SliderCrankStatics {
  private:
   struct Law;  // coefficients and directions at one state
   struct Solution;
+  FrictionTorque friction_of(const Table& unit, const Law& law, const CrankState& state) const;
   Law law_at(const CrankState& state) const;
   Column load_column(const Table& unit, const CrankState& state) const;
   Solution solve_friction(const Table& unit, const Column& base, const Law& law, double phi) const;
   void add_motion(const CrankState& state, SliderCrankForces& out) const;
   SliderCrankForces assemble(const Column& reaction, const Solution& solution, const CrankState& state) const;
-  bool moves_freely(const CrankState& state) const;
 
   SliderCrankData data_;
   SliderCrankJoints joints_;

@@ -30,8 +30,12 @@ DataFaults faults_of(const SliderCrankData& d) {
 
 void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   const SliderCrankData d = slider_crank_data(s);
-  check_joints(s, messages);
-  build_mechanism(s, d, faults_of(d), net, messages);
+  const DataFaults faults = faults_of(d);
+  std::shared_ptr<const SliderCrankStatics> joints;
+  if (check_joints(s, messages) && faults.empty())
+    if (const SliderCrankJoints given = slider_crank_joints(s); !given.frictionless())
+      joints = std::make_shared<SliderCrankStatics>(d, given);
+  build_mechanism(s, d, faults, net, messages, std::move(joints));
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ class CycleBuilder {
 
   CyclePosition at(double phi, Motion motion) const {
     CyclePosition p;
-    p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega), motion.omega < 0 ? -1 : 1};
+    p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)};
     const auto slider = geometry_.slider(phi);
     p.position = slider.value;
     p.velocity = slider.slope * motion.omega;
@@ -194,12 +194,14 @@ class CycleBuilder {
   }
 
   // The largest magnitude of a function of the position: on the samples, then by the golden section between the
-  // neighbours of the largest one.
+  // neighbours of the largest one. Of equal peaks of either sign (a crank's two strokes) the first one counts, however
+  // rounding decides between them.
   template <class F>
   Peak peak_of(F&& value) const {
+    constexpr double same_peak = 1e-9;
     std::size_t best = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i)
-      if (std::abs(value(samples_[i])) > std::abs(value(samples_[best]))) best = i;
+      if (std::abs(value(samples_[i])) > (1 + same_peak) * std::abs(value(samples_[best]))) best = i;
     Peak peak{value(samples_[best]), samples_[best].state.phi, {}};
     const double sense = peak.value < 0 ? -1 : 1;
     for (const std::size_t i : {best, best + 1}) {  // the pieces before and after it
@@ -376,10 +378,10 @@ double crank_speed(const Model& model, Equations& equations, const Crank& crank,
 
 class SecondProblem {
  public:
-  SecondProblem(const Scene& scene, const std::string& component, const ForcesOptions& options)
+  SecondProblem(const Scene& scene, const Effects& effects, const std::string& component, const ForcesOptions& options)
       : options_(options),
         settings_(scene.run),
-        model_(compile(scene, Effects{})),
+        model_(compile(scene, effects)),
         crank_(crank_in(*model_, component)) {}
 
   double start_speed() const {
@@ -582,9 +584,12 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   out.scene_file = scene.file;
   out.scene_text = scene.text;
   out.mechanism = section.name;
-  SecondProblem machine(scene, section.name, options);  // compiles: all that is wrong with the scene comes first
   out.data = slider_crank_data(section);
   out.joints = slider_crank_joints(section);
+  // Rigid, with the joints' friction where they have any: motion and forces follow the same laws.
+  Effects effects;
+  effects.joint_friction = !out.joints.frictionless();
+  SecondProblem machine(scene, effects, section.name, options);
   const SliderCrankStatics statics(out.data, out.joints);
   SliderLoads loads(scene, section.name);
   const double share = out.data.rod_com / out.data.rod_length;
@@ -602,8 +607,6 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   if (options.simulate) {
     if (options.log) options.log("second problem: running the rigid machine");
     out.simulated = machine.solve(statics, loads, out);
-    if (!out.joints.frictionless() && out.simulated)
-      out.notes.push_back("friction in the joints is counted in the forces; the motion was simulated without it");
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "drivetrain/kinds.h"
@@ -61,13 +62,21 @@ std::vector<const std::vector<Kind>*> nested_in(const Kind& kind) {
   return lists;
 }
 
-std::string chapter(const Kind& kind, const char* level) {
+// Tables that were printed already, and under which kind.
+using Printed = std::map<const std::vector<Kind>*, std::string>;
+
+std::string chapter(const Kind& kind, const char* level, Printed& printed) {
   std::string text = fmt::format("{} `{}`\n\n{}.", level, kind.name, kind.doc);
   if (kind.elastic) text += " Its elasticity is an effect.";
   if (kind.placement == Placement::inline_two) text += " Two shafts: `.in` and `.out`.";
   text += fmt::format("\n\n{}\n", rows(kind.keys));
-  for (const std::vector<Kind>* kinds : nested_in(kind))
-    for (const Kind& nested : *kinds) text += chapter(nested, "####");
+  for (const std::vector<Kind>* kinds : nested_in(kind)) {
+    if (const auto [before, fresh] = printed.try_emplace(kinds, kind.name); !fresh) {
+      text += fmt::format("Its tables are those of `{}` above.\n\n", before->second);
+      continue;
+    }
+    for (const Kind& nested : *kinds) text += chapter(nested, "####", printed);
+  }
   return text;
 }
 
@@ -179,7 +188,7 @@ std::string keys_in_markdown() {
       "| `title`, `description` | texts |\n"
       "| `line` | names of the components in the order of the drive |\n"
       "| `[[branch]]` | `from = \"component\"` (`\"gearbox.out\"`) and `line = [...]` |\n"
-      "| `[effects]` | `elasticity = true`, `false` or a list of components |\n\n"
+      "| `[effects]` | `elasticity = true`, `false` or a list of components; `joint_friction = true` or `false` |\n\n"
       "## `[run]`\n\n";
   text += rows(run_keys());
   text +=
@@ -195,7 +204,8 @@ std::string keys_in_markdown() {
       "rigid "
       "machine would transmit there at that moment.\n\n"
       "## Components\n\n";
-  for (const Kind& kind : all_kinds()) text += chapter(kind, "###");
+  Printed printed;
+  for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);
   return text;
 }
 

@@ -199,7 +199,7 @@ std::string scene_schema() {
                    {"description", text()},
                    {"line", line},
                    {"branch", list_of(branch)},
-                   {"effects", table_of({{"elasticity", elasticity}})},
+                   {"effects", table_of({{"elasticity", elasticity}, {"joint_friction", {{"type", "boolean"}}}})},
                    {"run", run_schema()}}},
                  {"required", {"line"}},
                  {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},

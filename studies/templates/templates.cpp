@@ -23,6 +23,9 @@ KURBEL_SCENE(press, "crank_press.toml")
 KURBEL_SCENE(pump, "piston_pump.toml")
 KURBEL_SCENE(engine, "single_cylinder_engine.toml")
 KURBEL_SCENE(compressor, "compressor.toml")
+KURBEL_SCENE(shaper, "shaper.toml")
+KURBEL_SCENE(knuckle, "knuckle_press.toml")
+KURBEL_SCENE(rocker, "four_bar_rocker.toml")
 KURBEL_SCENE(chain, "six_inertia_chain.toml")
 
 namespace kurbel {
@@ -33,6 +36,9 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"pump", "triplex plunger pump: motor, gearbox, indicator diagrams over travel", pump()},
       {"engine", "single-cylinder four-stroke engine with generator: gas force over 720 deg", engine()},
       {"compressor", "reciprocating compressor: polytropic indicator diagram, flywheel", compressor()},
+      {"shaper", "shaper: crank and slotted lever with quick return, cutting force on the slow stroke", shaper()},
+      {"knuckle", "knuckle-joint press: toggle links fall into line at the lower end", knuckle()},
+      {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
       {"chain", "six inertias on couplings: start of a fan", chain()},
   };
   return templates;

@@ -164,7 +164,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   const struct {
     std::string option, value, said;
   } cases[] = {
-      {"--effects", "elastic", "allowed: none, elasticity, or elasticity:COUPLING"},
+      {"--effects", "elastic", "allowed: none, elasticity, elasticity:COUPLING"},
       {"--effects", "elasticity:copling",
        "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
       {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},
@@ -270,6 +270,30 @@ TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
     EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv" ||
                 entry.path().extension() == ".html")
         << entry.path();
+}
+
+TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {
+  const std::string scenes = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
+  const Ended press = kurbel({"steady", scenes + "crank_press.toml", "--json"});
+  EXPECT_EQ(press.code, 0) << press.err;
+  EXPECT_EQ(nlohmann::json::parse(press.out)["cycles"].size(), 2u);
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/report.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/operating_points.csv"));
+  const Ended family = kurbel({"steady", scenes + "free_slider_crank.toml"});
+  EXPECT_EQ(family.code, 2);
+  EXPECT_NE(family.err.find("--mean-speed"), std::string::npos) << family.err;
+  const Ended member = kurbel({"steady", scenes + "free_slider_crank.toml", "--mean-speed", "100 rpm", "--no-files"});
+  EXPECT_EQ(member.code, 0) << member.err;
+  const Ended mistyped = kurbel({"steady", scenes + "crank_press.toml", "--mean-speed", "3 m"});
+  EXPECT_EQ(mistyped.code, 2);
+  std::ofstream(folder_ / "stall.toml")
+      << "line = [\"motor\", \"load\"]\n"
+         "motor = { kind = \"dc shunt motor\", stall_torque = \"10 N*m\", no_load_speed "
+         "= \"40 rad/s\", inertia = \"0.5 kg*m2\" }\n"
+         "load = { kind = \"load\", torque = \"15 N*m\" }\n";
+  const Ended stall = kurbel({"steady", "stall.toml"});
+  EXPECT_EQ(stall.code, 3);
+  EXPECT_NE(stall.err.find("stall"), std::string::npos) << stall.err;
 }
 
 }  // namespace

@@ -143,7 +143,8 @@ TEST_P(JacobianOf, EqualsDifferences) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, JacobianOf,
                          ::testing::Values("scenes/crank_press.toml", "scenes/driven_slider_crank.toml",
-                                           "scenes/six_inertia_chain.toml", everything));
+                                           "scenes/four_bar_rocker.toml", "scenes/knuckle_press.toml",
+                                           "scenes/shaper.toml", "scenes/six_inertia_chain.toml", everything));
 
 TEST(Compile, RigidMachineHasOneCoordinateWithInertiasBySquareOfRatio) {
   const Scene scene = scene_from(everything);

@@ -132,9 +132,9 @@ TEST(Scene, CommandLineEffectsAreParsed) {
 
 TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   const Scene scene = test::scene_from(base);
-  EXPECT_EQ(
-      message_of([&] { parse_effects("elastisity", scene); }),
-      "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: none, elasticity, or elasticity:COUPLING,…");
+  EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }),
+            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: none, elasticity, elasticity:COUPLING,…, "
+            "joint_friction, or two joined by +");
   EXPECT_EQ(message_of([&] { parse_effects("elasticity:copling", scene); }),
             "effects \"elasticity:copling\": \"copling\" is no component — did you mean \"coupling\"?; allowed: "
             "\"coupling\"");

@@ -277,7 +277,8 @@ TEST(JointFriction, RestingTorquesEncloseTheFrictionlessOneAndTheirWidthIsTheFri
     EXPECT_LT(range.low, free);
     EXPECT_GT(range.high, free);
     // At rest the static coefficients hold; about to move, the upper limit is that of motion forwards.
-    EXPECT_DOUBLE_EQ(range.high, statics.solve({.phi = phi, .slider_force = -2000, .direction = 1}).torque);
+    EXPECT_DOUBLE_EQ(range.high,
+                     statics.solve({.phi = phi, .slider_force = -2000, .direction = 1, .at_rest = true}).torque);
     // 2 ρ |R| of the main bearing alone.
     const double reaction = statics.solve_frictionless({.phi = phi, .slider_force = -2000}).main_bearing.magnitude();
     EXPECT_GT(range.high - range.low, 1.9 * friction_circle_radius(0.03, 0.1) * reaction);

@@ -1,0 +1,39 @@
+// reduce_command.cpp — kurbel reduce: inertia and torques reduced to one link.
+#include <memory>
+
+#include "app/command_line.h"
+#include "studies/reduce.h"
+
+namespace kurbel::app {
+namespace {
+
+struct ReduceArguments {
+  StudyOptions study;
+  ReduceOptions options;
+  std::string speed;
+};
+
+int reduce_scene(ReduceArguments arguments) {
+  const Scene scene = read(arguments.study);
+  check_folder(arguments.study);
+  if (!arguments.speed.empty())
+    arguments.options.speed = quantity_of("--speed", arguments.speed, "a speed > 0", "60 rpm", positive);
+  return present(output_of(reduce(scene, arguments.options)), arguments.study);
+}
+
+}  // namespace
+
+void add_reduce_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<ReduceArguments>();
+  CLI::App* command = app.add_subcommand("reduce", "inertia, torques and drive reduced to one shaft or slider");
+  add_study_options(*command, arguments->study);
+  command->add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");
+  command->add_option("--to", arguments->options.to,
+                      "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)");
+  command->add_option("--speed", arguments->speed,
+                      "of the crank, for torques that depend on it (default: the operating speed)");
+  command->add_option("--orders", arguments->options.orders, "harmonics up to this order (default: 12)");
+  command->callback([&code, arguments] { code = reduce_scene(*arguments); });
+}
+
+}  // namespace kurbel::app

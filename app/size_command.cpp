@@ -1,0 +1,60 @@
+// size_command.cpp — kurbel size: the flywheel for a demanded δ.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command_line.h"
+#include "studies/size.h"
+
+namespace kurbel::app {
+namespace {
+
+struct SizeArguments {
+  StudyOptions study;
+  SizeOptions options;
+  std::string mean_speed, form = "rim", diameter, rim_speed, sheet;
+};
+
+int size_scene(SizeArguments arguments) {
+  SizeOptions& o = arguments.options;
+  if (!arguments.mean_speed.empty())
+    o.mean_speed = quantity_of("--mean-speed", arguments.mean_speed, "a speed > 0", "60 rpm", positive);
+  if (!arguments.diameter.empty())
+    o.diameter = quantity_of("--diameter", arguments.diameter, "a length > 0", "1.2 m", positive);
+  if (!arguments.rim_speed.empty())
+    o.rim_speed = quantity_of("--rim-speed", arguments.rim_speed, "a speed > 0", "30 m/s", positive);
+  if (!arguments.sheet.empty()) o.sheet = quantity_of("--sheet", arguments.sheet, "a length > 0", "240 mm", positive);
+  if (arguments.form != "rim" && arguments.form != "disc")
+    throw std::invalid_argument(fmt::format("--form \"{}\": must be rim or disc", arguments.form));
+  o.form = arguments.form == "disc" ? FlywheelForm::disc : FlywheelForm::rim;
+  const Scene scene = read(arguments.study);
+  check_folder(arguments.study);
+  Progress progress(arguments.study.quiet);
+  o.simulation = simulate_options(arguments.study, progress);
+  return present(output_of(size_flywheel(scene, o)), arguments.study);
+}
+
+}  // namespace
+
+void add_size_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<SizeArguments>();
+  CLI::App* command = app.add_subcommand("size", "the flywheel that keeps the speed's fluctuation δ within bounds");
+  SizeOptions& o = arguments->options;
+  add_study_options(*command, arguments->study);
+  command->add_option("--delta", o.delta, "demanded δ = (ω_max − ω_min)/ω_mean, e.g. 0.05");
+  command->add_option("--machine", o.machine,
+                      "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");
+  command->add_option("--mean-speed", arguments->mean_speed,
+                      "of the crank (default: where drive and mean load balance)");
+  command->add_option("--flywheel", o.flywheel,
+                      "component to size (default: the scene's flywheel, else one on the crank)");
+  command->add_option("--form", arguments->form, "rim (on spokes; default) or disc");
+  command->add_option("--material", o.material, "grey cast iron (default), nodular cast iron, cast steel, steel");
+  command->add_option("--diameter", arguments->diameter, "outer diameter (default: by proportion)");
+  command->add_option("--rim-speed", arguments->rim_speed, "limit, e.g. \"30 m/s\" (default: the material's)");
+  command->add_option("--sheet", arguments->sheet, "length of the diagrams for their scales, e.g. \"240 mm\"");
+  command->add_flag("!--no-simulation", o.simulate, "do not run the sized machine");
+  command->callback([&code, arguments] { code = size_scene(*arguments); });
+}
+
+}  // namespace kurbel::app

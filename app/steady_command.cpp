@@ -1,0 +1,76 @@
+// steady_command.cpp — the steady cycle found directly, rigid and elastic side by side.
+#include <fmt/format.h>
+
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include "app/command_line.h"
+#include "studies/steady_output.h"
+
+namespace kurbel::app {
+namespace {
+
+struct SteadyArguments {
+  StudyOptions study;
+  std::string effects, mean_speed;
+  int periods = 1;
+  bool no_start = false;
+};
+
+SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
+  const SimulateOptions common = simulate_options(arguments.study, progress);
+  SteadyOptions options;
+  options.interrupted = common.interrupted;
+  options.progress = common.progress;
+  options.log = common.log;
+  options.traces = common.traces;
+  options.start_search = !arguments.no_start;
+  if (arguments.periods < 1 || arguments.periods > 64)
+    throw std::invalid_argument(fmt::format("--periods {}: must be 1 … 64", arguments.periods));
+  options.periods = arguments.periods;
+  if (!arguments.mean_speed.empty()) {
+    options.mean_speed =
+        quantity_of("--mean-speed", arguments.mean_speed, "a speed other than 0", "60 rpm", any_number);
+    if (*options.mean_speed == 0)
+      throw std::invalid_argument(
+          fmt::format("--mean-speed \"{}\": must be a speed other than 0, e.g. \"60 rpm\"", arguments.mean_speed));
+  }
+  return options;
+}
+
+// Rigid and the scene's own effects; a scene without any is shown with all of its elasticity, too.
+std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& scene) {
+  if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
+  Effects full = scene.effects;
+  if (full.describe() == "none") full.all_elastic = true;
+  if (compile(scene, full)->elastic.empty()) return {Effects{}};
+  return {Effects{}, full};
+}
+
+int steady(const SteadyArguments& arguments) {
+  const Scene scene = read(arguments.study);
+  check_folder(arguments.study);
+  Progress progress(arguments.study.quiet);
+  const SteadyStudy study = kurbel::steady(scene, effects_of(arguments, scene), options_of(arguments, progress));
+  return present(output_of(study), arguments.study);
+}
+
+}  // namespace
+
+void add_steady_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<SteadyArguments>();
+  CLI::App* command =
+      app.add_subcommand("steady", "the steady cycle directly: its figures, its stability, operating points");
+  add_study_options(*command, arguments->study);
+  command->add_option("--effects", arguments->effects,
+                      "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
+  command->add_option("--mean-speed", arguments->mean_speed,
+                      "mean speed of the crank, e.g. \"60 rpm\": finds the drive torque that it needs");
+  command->add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
+  command->add_flag("--no-start", arguments->no_start,
+                    "skip the start from rest and the gearbox ratio that starts fastest");
+  command->callback([&code, arguments] { code = steady(*arguments); });
+}
+
+}  // namespace kurbel::app

@@ -1,0 +1,84 @@
+// piecewise.h — functions over one cycle as Chebyshev pieces between edges: integrals, roots and extremes to rounding.
+//
+//     const std::vector<double> edges = {0, 2.1, 6.28};
+//     const Piecewise load = Piecewise::of(edges, [](double phi) { return phi < 2.1 ? 100.0 : 40 * phi; });
+//     const Piecewise work = load.integral();          // ∫ from the cycle's begin, with no error of quadrature
+//     work.maximum().x                                 // where, to rounding: a root of the derivative or an edge
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace kurbel {
+
+struct Extreme {
+  double x = 0, value = 0;
+};
+
+class Piecewise {
+ public:
+  Piecewise() = default;
+
+  // Writes the channels at x, strictly within a piece.
+  using Sampler = std::function<void(double x, std::span<double> values)>;
+  // Called before the samples of each piece, with its middle: chooses branches of laws that change at edges.
+  using Enter = std::function<void(double middle)>;
+
+  // Cuts [edges.front(), edges.back()] into pieces, none across an edge, until each channel's polynomials meet it to
+  // `tolerance` of its largest magnitude. All share their breaks. Throws std::invalid_argument where there are fewer
+  // than two edges or they do not ascend; std::runtime_error where a sample is not finite.
+  static std::vector<Piecewise> sample(const std::vector<double>& edges, std::size_t channels, const Sampler& sampler,
+                                       const Enter& enter = {}, double tolerance = 2e-13);
+  static Piecewise of(const std::vector<double>& edges, const std::function<double(double)>& f,
+                      double tolerance = 2e-13);
+  // The polynomials through samples at node(0), node(1), … of each piece, piece after piece.
+  static constexpr std::size_t nodes = 16;
+  static double node(std::size_t k);  // −1 … 1 across a piece, descending
+  static Piecewise through(const std::vector<double>& breaks, const std::vector<double>& samples);
+  // Straight between points; two points with the same x make a jump.
+  static Piecewise linear(const std::vector<double>& x, const std::vector<double>& y);
+
+  double begin() const { return breaks_->front(); }
+  double end() const { return breaks_->back(); }
+  double length() const { return end() - begin(); }
+  std::size_t pieces() const { return breaks_->size() - 1; }
+  const std::vector<double>& breaks() const { return *breaks_; }
+  double value(double x) const;  // at a break: from the right (at the end: from the left)
+  double value_in(std::size_t piece, double x) const;
+  double largest() const;  // bound of |value|
+
+  Piecewise integral() const;  // zero at the begin, continuous
+  Piecewise derivative() const;
+  double total() const;  // integral over everything
+  double mean() const { return total() / length(); }
+
+  // Where the function changes sign, ascending: roots within pieces and jumps through zero.
+  std::vector<double> sign_changes() const;
+  // Global extremes; at a jump the larger (smaller) side counts. With the derivative at hand they are located as its
+  // roots, else the function is differentiated.
+  Extreme maximum() const;
+  Extreme minimum() const;
+  Extreme maximum(const Piecewise& derivative) const;
+  Extreme minimum(const Piecewise& derivative) const;
+
+  // Sums of functions with the same breaks; std::logic_error for others.
+  friend Piecewise operator+(const Piecewise& a, const Piecewise& b);
+  friend Piecewise operator-(const Piecewise& a, const Piecewise& b) { return a + -1.0 * b; }
+  friend Piecewise operator*(double factor, Piecewise f);
+  // The constant c on the breaks of this function.
+  Piecewise constant(double c) const;
+
+ private:
+  friend class PiecewiseBuilder;
+  std::size_t piece_at(double x) const;
+  std::vector<double> roots_in(std::size_t piece, double noise) const;
+
+  std::shared_ptr<const std::vector<double>> breaks_;
+  std::size_t terms_ = 0;            // Chebyshev coefficients per piece
+  std::vector<double> coefficient_;  // piece after piece
+};
+
+}  // namespace kurbel

@@ -1,0 +1,109 @@
+// size_command_test.cpp — kurbel reduce and kurbel size on the command line: exit codes, files, words.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Said {
+  int code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Said kurbel(const std::string& arguments) {
+  const std::string command = std::string(KURBEL_EXECUTABLE) + " " + arguments + " 2>&1";
+  Said said;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> part;
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
+
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / fmt::format("kurbel_size_{}", getpid())) {}
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+  std::string option() const { return " --out '" + path_.string() + "'"; }
+
+ private:
+  fs::path path_;
+};
+
+TEST(SizeCommand, WritesAReportWithEveryFormulaAndEndsWithZero) {
+  const Folder folder;
+  const Said said = kurbel("size " + press + " --delta 0.08 --sheet '240 mm'" + folder.option());
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_NE(said.text.find("μ_φ"), std::string::npos);
+  std::ifstream in(folder / "summary.json");
+  const auto json = nlohmann::json::parse(in);
+  EXPECT_NEAR(json["methods"][0]["delta"].get<double>(), 0.08, 1e-11);
+  EXPECT_EQ(json["reached"].size(), 6u);
+  std::ifstream page(folder / "report.html");
+  const std::string html((std::istreambuf_iterator<char>(page)), {});
+  for (const char* formula : {"Wittenbauer (THEORY 3.2)", "Mertsalov", "Neglecting I_em", "(THEORY 3.1)",
+                              "Punch-press form", "Rim speed", "Energy stored", "Greatest fluctuation of energy"})
+    EXPECT_NE(html.find(formula), std::string::npos) << formula;
+  EXPECT_TRUE(fs::exists(folder / "diagrams.csv"));
+}
+
+TEST(SizeCommand, BadInputEndsWithTwoInWords) {
+  const auto refused = [](const std::string& arguments, const std::string& words) {
+    const Said said = kurbel("size " + press + " --no-files " + arguments);
+    EXPECT_EQ(said.code, 2) << arguments;
+    EXPECT_NE(said.text.find(words), std::string::npos) << said.text;
+  };
+  refused("--delta 0", "must be > 0 and < 2");
+  refused("--delta=-0.1", "must be > 0 and < 2");
+  refused("--delta 2", "must be > 0 and < 2");
+  refused("", "--delta 0.05");
+  refused("--machine pres", "did you mean \"press\"");
+  refused("--delta 0.1 --machine press", "keep one");
+  refused("--delta 0.1 --material wood", "known: \"grey cast iron\"");
+  refused("--delta 0.1 --form ring", "rim or disc");
+  refused("--delta 0.1 --diameter 3", "length");
+  refused("--delta 0.1 --diameter '300 mm'", "larger --diameter");
+  refused("--delta 0.1 --mean-speed '-5 rpm'", "speed > 0");
+}
+
+TEST(SizeCommand, CustomaryDeltaAndDiscWithoutSimulation) {
+  const Said said =
+      kurbel("size " + press + " --machine press --form disc --material steel --no-simulation --no-files");
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_NE(said.text.find("0.1 … 0.15"), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("solid disc"), std::string::npos);
+  EXPECT_EQ(said.text.find("simulated"), std::string::npos);
+}
+
+TEST(ReduceCommand, TablesAtAnyNumberOfPositionsAndRefusals) {
+  const Folder folder;
+  const Said said = kurbel("reduce " + press + " --positions 24 --to press.slider" + folder.option());
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_NE(said.text.find("dead centre"), std::string::npos);
+  std::ifstream in(folder / "positions.csv");
+  std::string line;
+  int lines = 0;
+  while (std::getline(in, line)) ++lines;
+  EXPECT_EQ(lines, 1 + 22);  // both dead centres left out
+  EXPECT_EQ(kurbel("reduce " + press + " --no-files --positions 0").code, 2);
+  const Said unknown = kurbel("reduce " + press + " --no-files --to gearbx.in");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.text.find("did you mean \"gearbox.in\""), std::string::npos) << unknown.text;
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,238 @@
+// size_test.cpp — the flywheel for a demanded δ: what was sized is what runs, rigid and elastic; the motor's slope; bad
+// input.
+#include "studies/size.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "studies/steady_simulation.h"
+#include "tests/published/published.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// A press on a straight motor; the slope of the motor is stall torque over no-load speed.
+std::string press(const std::string& motor, const std::string& flywheel = "60 kg*m2", const std::string& start = "") {
+  return R"(
+title = "press"
+line  = ["motor", "coupling", "wheel", "press"]
+motor    = { )" +
+         motor + R"(, inertia = "2 kg*m2" }
+coupling = { kind = "coupling", stiffness = "90 kN*m/rad", damping_ratio = 0.05, inertia_in = "0.2 kg*m2", inertia_out = "0.3 kg*m2" }
+wheel    = { kind = "flywheel", inertia = ")" +
+         flywheel + R"(" }
+press    = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", rod_mass = "8 kg", rod_com = "70 mm", rod_inertia = "0.05 kg*m2", slider_mass = "80 kg", load = { kind = "press", nominal_force = "60 kN", nominal_travel = "10 mm", rise = "2 mm" } }
+effects  = { elasticity = ["coupling"] }
+)" + start;
+}
+std::string straight(double stall, double no_load) {
+  return fmt::format("kind = \"dc shunt motor\", stall_torque = \"{} N*m\", no_load_speed = \"{} rad/s\"", stall,
+                     no_load);
+}
+
+SizeOptions demand(double delta, bool simulate = false) {
+  SizeOptions options;
+  options.delta = delta;
+  options.simulate = simulate;
+  return options;
+}
+
+const DeltaReached& reached(const Sizing& s, const std::string& model, const std::string& by) {
+  for (const DeltaReached& r : s.reached)
+    if (r.model == model && r.sized_by == by) return r;
+  throw std::runtime_error("not simulated: " + model + ", " + by);
+}
+
+std::string refusal(const std::string& scene, const SizeOptions& options) {
+  try {
+    size_flywheel(test::scene_from(scene), options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Size, ConstantDriveTorqueGivesTheDemandedDeltaInSimulation) {
+  SizeOptions options = demand(0.06, true);
+  options.mean_speed = 8.0;
+  // The torque that balances the load, from a first sizing; then the same scene with it.
+  const std::string source = "kind = \"torque source\", torque = \"{} N*m\"";
+  options.simulate = false;
+  const Sizing first = size_flywheel(test::scene_from(press(fmt::format(fmt::runtime(source), 1e4))), options);
+  options.simulate = true;
+  const std::string torque = test::digits(first.diagram.mean_torque());
+  const Sizing s = size_flywheel(test::scene_from(press(fmt::format(fmt::runtime(source), torque))), options);
+  EXPECT_NEAR(*s.methods[0].delta, 0.06, 1e-12);
+  const DeltaReached& rigid = reached(s, "rigid, simulated", "Wittenbauer");
+  EXPECT_NEAR(rigid.crank, 0.06, 1e-7);
+  EXPECT_NEAR(rigid.crank, 0.06, 3 * *rigid.crank_error + 1e-9);
+  EXPECT_NEAR(rigid.mean_speed, 8.0, 1e-6);
+  // The inertia by hand: work of the blow from the constant torque, neglecting I_em, is near.
+  EXPECT_NEAR(s.methods[2].drive_inertia * 64 * 0.06, s.diagram.fluctuation(), 1e-9);
+  EXPECT_NEAR(s.diagram.work, 60e3 * (0.010 - 0.001), 1e-6);  // the force rises over 2 mm: half of them count
+}
+
+TEST(Size, SimulatedPressReachesWhatTheSlopeOfItsMotorLeavesOfDelta) {
+  const Sizing s = size_flywheel(test::scene_from(press(straight(1200, 9))), demand(0.1, true));
+  ASSERT_TRUE(s.soft && s.with_motor);
+  const DeltaReached& exact = reached(s, "rigid, simulated", "Wittenbauer");
+  EXPECT_LT(exact.crank, 0.1);  // a motor that gives way helps
+  EXPECT_NEAR(exact.crank, s.with_motor->delta(), 1e-6);
+  EXPECT_NEAR(exact.mean_speed, s.with_motor->mean_speed(), 1e-5);
+  const DeltaReached& soft = reached(s, "rigid, simulated", "motor's slope counted");
+  EXPECT_NEAR(soft.crank, 0.1, 1e-6);
+  EXPECT_LT(soft.flywheel, exact.flywheel);
+  const DeltaReached& elastic = reached(s, "elastic, simulated", "Wittenbauer");
+  EXPECT_TRUE(elastic.settled);
+  EXPECT_NE(elastic.crank, elastic.motor);
+}
+
+TEST(Size, SteadyCycleAgreesWithALongSimulation) {
+  const Scene scene = test::scene_from(press(straight(900, 9)));
+  RigidMachine machine(scene);
+  const double near = operating_speed(machine).speed;
+  const SteadyRigidCycle cycle = steady_rigid_cycle(machine, machine_cycle(machine, near), 0, near);
+  ASSERT_TRUE(cycle.found) << cycle.why;
+  EXPECT_GT(cycle.multiplier, 0);
+  EXPECT_LT(cycle.multiplier, 1);
+  const SteadySimulation run = simulate_steady(scene, Effects{}, 0.8 * near, 2 * pi, 0, {});
+  ASSERT_TRUE(run.complete && run.settled);
+  EXPECT_NEAR(run.link_delta, cycle.delta(), 1e-5 * cycle.delta());
+  EXPECT_NEAR(run.mean_speed, cycle.mean_speed(), 1e-5 * near);
+  // Energy of the cycle: the motor's work is the blow's.
+  EXPECT_NEAR(cycle.drive.total(), 540, 1e-7);
+}
+
+// The same operating speed, ever steeper characteristics: the motor does more of the blow's work itself.
+TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
+  const double mean = 540 / (2 * pi);
+  double last = HUGE_VAL;
+  for (const double slope : {3.0, 10.0, 30.0, 100.0}) {  // N·m·s/rad
+    const Sizing s = size_flywheel(test::scene_from(press(straight(slope * 8 + mean, 8 + mean / slope))), demand(0.1));
+    ASSERT_TRUE(s.operating);
+    EXPECT_NEAR(s.mean_speed, 8, 1e-9);
+    EXPECT_NEAR(s.operating->slope, -slope, 1e-4 * slope);
+    ASSERT_TRUE(s.soft) << s.soft_why;
+    EXPECT_LT(s.soft->drive_inertia, std::min(last, s.exact.inertia));
+    EXPECT_NEAR(s.soft_cycle->delta(), 0.1, 1e-10);
+    last = s.soft->drive_inertia;
+  }
+}
+
+TEST(Size, FlywheelOnAFasterShaftIsSmallerByTheSquareOfTheRatio) {
+  const auto scene = [](const std::string& line) {
+    return test::scene_from(R"(
+line = )" + line + R"(
+motor = { kind = "dc shunt motor", stall_torque = "300 N*m", no_load_speed = "36 rad/s", inertia = "0.1 kg*m2" }
+gear  = { kind = "gearbox", stages = [{ teeth = [20, 80], inertia = ["0.02 kg*m2", "0.5 kg*m2"] }] }
+wheel = { kind = "flywheel", inertia = "1 kg*m2" }
+press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", slider_mass = "80 kg", load = { kind = "press", nominal_force = "60 kN", nominal_travel = "10 mm" } }
+)");
+  };
+  const Sizing slow = size_flywheel(scene(R"(["motor", "gear", "wheel", "press"])"), demand(0.1));
+  const Sizing fast = size_flywheel(scene(R"(["motor", "wheel", "gear", "press"])"), demand(0.1));
+  EXPECT_NEAR(fast.flywheel_ratio, 4, 1e-14);
+  EXPECT_NEAR(fast.exact.inertia, slow.exact.inertia, 1e-9 * slow.exact.inertia);
+  EXPECT_NEAR(16 * fast.methods[0].flywheel, slow.methods[0].flywheel, 1e-9 * slow.exact.inertia);
+  // (3.1) on the flywheel's shaft: the motor by 1.1, the gearbox with both wheels.
+  EXPECT_NEAR(slow.methods[0].flywheel_by_parts, slow.exact.inertia - 1.1 * 16 * 0.1 - (0.5 + 16 * 0.02), 1e-10);
+  EXPECT_NEAR(fast.methods[0].flywheel_by_parts, slow.exact.inertia / 16 - 1.1 * 0.1 - (0.5 / 16 + 0.02), 1e-11);
+  EXPECT_NEAR(slow.methods[0].flywheel, slow.exact.inertia - 16 * 0.12 - 0.5, 1e-10);
+}
+
+TEST(Size, SceneWithoutAFlywheelGetsOneOnItsCrank) {
+  std::string text = press(straight(1200, 9));
+  const Sizing with = size_flywheel(test::scene_from(text), demand(0.1, true));
+  text =
+      test::with(test::with(text, "\"wheel\", ", ""), "wheel    = { kind = \"flywheel\", inertia = \"60 kg*m2\" }", "");
+  const Sizing without = size_flywheel(test::scene_from(text), demand(0.1, true));
+  EXPECT_TRUE(without.flywheel_added);
+  EXPECT_NEAR(without.methods[0].flywheel, with.methods[0].flywheel, 1e-9 * with.methods[0].flywheel);
+  EXPECT_NEAR(reached(without, "elastic, simulated", "Wittenbauer").crank,
+              reached(with, "elastic, simulated", "Wittenbauer").crank, 1e-7);
+}
+
+TEST(Size, StartAtADeadCentreUnderLoadDoesNotMatterToSteadyMotion) {
+  const Sizing at_rest =
+      size_flywheel(test::scene_from(press(straight(1200, 9), "60 kg*m2",
+                                           "run = { start = { speed = \"0 rpm\", angle = \"0 deg\" } }")),
+                    demand(0.1, true));
+  const Sizing running = size_flywheel(test::scene_from(press(straight(1200, 9))), demand(0.1, true));
+  EXPECT_NEAR(at_rest.methods[0].flywheel, running.methods[0].flywheel, 1e-9);
+  EXPECT_NEAR(reached(at_rest, "elastic, simulated", "Wittenbauer").crank,
+              reached(running, "elastic, simulated", "Wittenbauer").crank, 1e-8);
+  ASSERT_FALSE(at_rest.notes.empty());
+  EXPECT_NE(at_rest.notes.front().find("steady motion"), std::string::npos);
+}
+
+TEST(Size, EngineIsSizedByItsTurningMoment) {
+  const Sizing s = size_flywheel(test::scene_file("scenes/single_cylinder_engine.toml"), demand(0.02));
+  EXPECT_TRUE(s.engine);
+  EXPECT_NEAR(s.cycle.drive.length(), 4 * pi, 1e-12);  // four strokes
+  EXPECT_NEAR(*s.methods[0].delta, 0.02, 1e-11);
+  EXPECT_GT(s.methods[0].drive_inertia, 0);
+}
+
+TEST(Size, EverySceneThatDrivesACycleCanBeSized) {
+  for (const char* scene :
+       {"crank_press", "piston_pump", "compressor", "knuckle_press", "shaper", "driven_slider_crank"}) {
+    const Sizing s = size_flywheel(test::scene_file(fmt::format("scenes/{}.toml", scene)), demand(0.03));
+    if (s.methods[0].drive_inertia <= 0) continue;
+    ASSERT_TRUE(s.methods[0].delta) << scene;
+    EXPECT_NEAR(*s.methods[0].delta, 0.03, 1e-10) << scene;
+    const StudyOutput output = output_of(s);
+    EXPECT_TRUE(nlohmann::json::accept(output.json)) << scene;
+    EXPECT_NE(html_of(output.report()).find("Wittenbauer"), std::string::npos) << scene;
+  }
+}
+
+TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
+  const std::string heavy =
+      test::with(press(straight(1200, 9)), "crank_inertia = \"1 kg*m2\"", "crank_inertia = \"9 kg*m2\"");
+  const Sizing s = size_flywheel(test::scene_from(heavy), demand(1.5));
+  EXPECT_FALSE(s.needed);
+  EXPECT_LE(s.methods[0].flywheel, 0);
+  EXPECT_NE(output_of(s).conclusion.find("no flywheel is needed"), std::string::npos);
+  const Sizing large = size_flywheel(test::scene_from(press(straight(1200, 9), "5000 kg*m2")), demand(0.1));
+  EXPECT_NE(output_of(large).table.find("already larger than needed"), std::string::npos);
+}
+
+TEST(Size, RefusesInWords) {
+  const std::string sound = press(straight(1200, 9));
+  for (const double delta : {0.0, -0.05, 2.0, 3.0})
+    EXPECT_NE(refusal(sound, demand(delta)).find("must be > 0 and < 2"), std::string::npos) << delta;
+  EXPECT_NE(refusal(sound, SizeOptions{}).find("--delta 0.05"), std::string::npos);
+  // Too weak: 540 J a turn are 85.94 N·m; this motor's best mean torque is its stall torque of 20.
+  const std::string weak = refusal(press(straight(20, 9)), demand(0.1));
+  EXPECT_NE(weak.find("too weak"), std::string::npos) << weak;
+  EXPECT_NE(weak.find("85.94"), std::string::npos) << weak;
+  const std::string constant = refusal(press("kind = \"torque source\", torque = \"80 N*m\""), [] {
+    SizeOptions o = demand(0.1);
+    o.mean_speed = 5.0;
+    return o;
+  }());
+  EXPECT_NE(constant.find("5.94"), std::string::npos) << constant;  // N·m missing
+  EXPECT_NE(refusal(press("kind = \"torque source\", torque = \"100 N*m\""), demand(0.1)).find("--mean-speed"),
+            std::string::npos);
+  // No net resistance: a spring-like force along the stroke gives back what it takes.
+  SizeOptions at_speed = demand(0.1);
+  at_speed.mean_speed = 5.0;
+  const std::string idle = test::with(
+      sound, "load = { kind = \"press\", nominal_force = \"60 kN\", nominal_travel = \"10 mm\", rise = \"2 mm\" }",
+      "load = { kind = \"constant\", force = \"100 N\" }");
+  const std::string none =
+      refusal(test::with(idle, straight(1200, 9), "kind = \"torque source\", torque = \"0 N*m\""), at_speed);
+  EXPECT_NE(none.find("no net resistance"), std::string::npos) << none;
+  SizeOptions named = demand(0.1);
+  named.flywheel = "motor";
+  EXPECT_NE(refusal(sound, named).find("allowed: \"wheel\""), std::string::npos) << refusal(sound, named);
+}
+
+}  // namespace
+}  // namespace kurbel

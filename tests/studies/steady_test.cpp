@@ -1,0 +1,341 @@
+// Steady cycles and operating points as a user asks for them: closed forms, families, stalls, runaways.
+#include "studies/steady.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+
+#include "studies/steady_output.h"
+#include "tests/published/published.h"
+
+namespace kurbel::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::string thrown_by(const Scene& scene, const SteadyOptions& options = {}) {
+  try {
+    steady(scene, {Effects{}}, options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+double value_of(const SteadyCycle& cycle, const std::string& name) {
+  const Figure* f = cycle.find(name);
+  EXPECT_NE(f, nullptr) << name;
+  return f ? f->value : std::nan("");
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const std::string crank =
+    "crank = { kind = \"slider-crank\", radius = \"100 mm\", rod = \"350 mm\", crank_inertia = \"0.55 kg*m2\", "
+    "rod_mass = "
+    "\"2 kg\", rod_com = \"122.5 mm\", rod_inertia = \"0.020 kg*m2\", slider_mass = \"3 kg\"";
+const std::string press_load =
+    ", load = { kind = \"press\", nominal_force = \"2 kN\", nominal_travel = \"100 mm\", working_end = \"folded\" } "
+    "}\n";
+
+std::string dc_against(const std::string& load) {
+  return "line = [\"motor\", \"load\"]\n"
+         "motor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", rated_torque = "
+         "\"20 N*m\", inertia = \"0.5 kg*m2\" }\n" +
+         load;
+}
+std::string induction_against(double load) {  // breakdown torque 3 · 4000/95 = 126.316 N·m
+  return "line = [\"motor\", \"load\"]\n"
+         "motor = { kind = \"induction motor\", rated_power = \"4 kW\", rated_speed = \"95 rad/s\", synchronous_speed "
+         "= "
+         "\"100 rad/s\", breakdown_ratio = 3, inertia = \"2 kg*m2\" }\n"
+         "load = { kind = \"load\", torque = \"" +
+         digits(load) + " N*m\" }\n";
+}
+
+// --- the steady cycle's figures ---
+
+TEST(Steady, PressTurnsAsTheLastCycleOfALongRun) {
+  const Scene scene = scene_file("scenes/crank_press.toml");
+  const SteadyStudy study = steady(scene, {Effects{}, scene.effects}, {.start_search = false});
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  for (const SteadyCycle& c : study.cycles) {
+    SimulateOptions options;
+    options.measure_error = false;
+    options.accuracy = 1e-10;
+    const Result long_run = simulate(compile(scene, c.model->effects), "long", options);
+    for (const char* name : {"delta.press", "mean_speed.press", "cycle_time.press"}) {
+      const double found = value_of(c, std::string(name) == "cycle_time.press" ? "cycle_time" : name);
+      EXPECT_NEAR(found, figure(long_run, name), 1e-8 * std::abs(found)) << c.label << " " << name;
+    }
+    EXPECT_NEAR(value_of(c, "driving_work_per_cycle"), figure(long_run, "driving_work_per_cycle"), 1e-5);
+    EXPECT_LT(c.work_residual, 1e-9);
+  }
+}
+
+// The steady press turns its load's work per stroke, whatever its speed.
+TEST(Steady, WorkOfALoadEdgeIsForceTimesTravel) {
+  const Scene scene = scene_file("scenes/driven_slider_crank.toml");
+  const SteadyStudy study = steady(scene, {Effects{}}, {.start_search = false});
+  EXPECT_NEAR(value_of(study.cycles[0], "useful_work_per_cycle"), -200, 1e-7);
+  EXPECT_NEAR(value_of(study.cycles[0], "driving_work_per_cycle"), 200, 1e-7);
+}
+
+// The mean of M = M_s (1 − ω/ω₀) over time is that of ω: 2π/T.
+TEST(Steady, MeanTorqueOfAShuntMotorFollowsFromTheMeanSpeed) {
+  const SteadyStudy study = steady(scene_file("scenes/driven_slider_crank.toml"), {Effects{}}, {.start_search = false});
+  const SteadyCycle& c = study.cycles[0];
+  ASSERT_EQ(c.motors.size(), 1u);
+  EXPECT_NEAR(c.motors[0].mean, 60 * (1 - 2 * pi / c.cycle_time / 40), 1e-9);
+  EXPECT_GT(c.motors[0].rms, c.motors[0].mean);
+}
+
+TEST(Steady, RmsOfAMotorUnderConstantLoadIsTheLoadAndItsThermalUseTheRatio) {
+  const SteadyStudy study =
+      steady(scene_from(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n")), {Effects{}}, {});
+  const MotorUse& motor = study.cycles[0].motors[0];
+  EXPECT_NEAR(motor.rms, 15, 1e-10);
+  ASSERT_TRUE(motor.thermal());
+  EXPECT_NEAR(*motor.thermal(), 0.75, 1e-11);
+}
+
+TEST(Steady, StabilityIsToldInCyclesOfHalving) {
+  std::optional<double> halving;
+  EXPECT_TRUE(has(stability_text({{0.5, 0}}, &halving), "stable: the slowest deviation halves in 1 cycles"));
+  EXPECT_NEAR(*halving, 1, 1e-12);
+  EXPECT_TRUE(has(stability_text({{2, 0}}, nullptr), "unstable: a deviation doubles in 1 cycles"));
+  EXPECT_TRUE(has(stability_text({{1, 0}, {0.2, 0}}, nullptr), "neutral"));
+  EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr), "swinging"));
+}
+
+// --- families ---
+
+TEST(Steady, FamilyAsksForTheMeanSpeedAndSaysWhy) {
+  const std::string why = thrown_by(scene_file("scenes/free_slider_crank.toml"));
+  EXPECT_TRUE(has(why, "--mean-speed")) << why;
+  EXPECT_TRUE(has(why, "depends on the speed")) << why;
+  EXPECT_TRUE(has(why, "multiplier exactly 1")) << why;
+}
+
+// T = ½ I ω² stays: ω_max/ω_min = √(I_max/I_min) = √(0.6028418696/0.5600826531), and the mean is the one demanded.
+TEST(Steady, MemberOfTheFreeCranksFamilyKeepsItsEnergy) {
+  const SteadyStudy study =
+      steady(scene_file("scenes/free_slider_crank.toml"), {Effects{}}, {.mean_speed = 25, .start_search = false});
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  const SteadyCycle& c = study.cycles[0];
+  const double max = value_of(c, "max_speed.crank"), min = value_of(c, "min_speed.crank");
+  EXPECT_NEAR(max / min, std::sqrt(0.6028418696 / 0.5600826531), 1e-9);
+  EXPECT_NEAR(0.5 * (max + min), 25, 1e-9);
+  EXPECT_NEAR(c.added_torque, 0, 1e-9);
+  EXPECT_TRUE(c.neutral);
+  EXPECT_NEAR(c.point.largest(), 1, 1e-8);
+}
+
+// 2 kN over 100 mm a turn take 200 J/2π = 31.831 N·m in the mean; the source gives 20.
+TEST(Steady, DemandedSpeedOfAFamilyNeedsTheMeanLoadTorque) {
+  const Scene scene =
+      scene_from("line = [\"source\", \"crank\"]\nsource = { kind = \"torque source\", torque = \"20 N*m\" }\n" +
+                 crank + press_load);
+  const std::string why = thrown_by(scene);
+  EXPECT_TRUE(has(why, "slows down")) << why;
+  for (const double speed : {18.0, 30.0}) {
+    const SteadyStudy study = steady(scene, {Effects{}}, {.mean_speed = speed, .start_search = false});
+    ASSERT_TRUE(study.complete) << study.diagnosis;
+    EXPECT_NEAR(study.cycles[0].added_torque, 200 / (2 * pi) - 20, 1e-8);
+    EXPECT_TRUE(study.cycles[0].neutral);
+    EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.crank"), speed, 1e-8);
+  }
+}
+
+TEST(Steady, DemandedSpeedOfAnElasticMachineIsReached) {
+  const Scene scene = scene_file("scenes/compressor.toml");
+  const SteadyStudy study = steady(scene, {scene.effects}, {.mean_speed = 70, .start_search = false});
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.compressor"), 70, 1e-8);
+  EXPECT_LE(study.cycles[0].cost, study.cycles[0].cost_limit);
+}
+
+TEST(Steady, MeanSpeedOfAMachineThatTimeDrivesIsRefused) {
+  const Scene scene = scene_from(
+      "line = [\"drive\", \"crank\"]\ndrive = { kind = \"prescribed speed\", speed = \"20 "
+      "rad/s\" }\n" +
+      crank + " }\n");
+  EXPECT_TRUE(has(thrown_by(scene, {.mean_speed = 10}), "time drives"));
+}
+
+// --- no steady cycle ---
+
+TEST(Steady, LoadBeyondBreakdownIsAStallByTheDifference) {
+  const SteadyStudy study = steady(scene_from(induction_against(150)), {Effects{}}, {});
+  EXPECT_FALSE(study.complete);
+  EXPECT_TRUE(has(study.diagnosis, "stall")) << study.diagnosis;
+  EXPECT_TRUE(has(study.diagnosis, "at most 126.32 N·m")) << study.diagnosis;
+}
+
+TEST(Steady, DriveThatAlwaysWinsIsARunaway) {
+  const SteadyStudy study = steady(
+      scene_from("line = [\"turbine\", \"load\"]\n"
+                 "turbine = { kind = \"torque source\", inertia = \"1 kg*m2\", table = { over = \"speed\", unit = "
+                 "[\"rad/s\", \"N*m\"], points = [[0, 50], [100, 20]] } }\n"
+                 "load = { kind = \"load\", torque = \"5 N*m\" }\n"),
+      {Effects{}}, {});
+  EXPECT_FALSE(study.complete);
+  EXPECT_TRUE(has(study.diagnosis, "runaway")) << study.diagnosis;
+  EXPECT_TRUE(has(study.diagnosis, "15 N·m")) << study.diagnosis;
+}
+
+TEST(Steady, PeakLoadThatStopsALightMachineIsAStallWithinTheCycle) {
+  const Scene scene = scene_from(
+      "line = [\"motor\", \"crank\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
+      "\"10 rad/s\", inertia = \"0 kg*m2\" }\n" +
+      crank + press_load);
+  const SteadyStudy study = steady(scene, {Effects{}}, {});
+  EXPECT_FALSE(study.complete);
+  EXPECT_TRUE(has(study.diagnosis, "stall within the cycle")) << study.diagnosis;
+  EXPECT_TRUE(has(study.diagnosis, "comes to rest at")) << study.diagnosis;
+}
+
+TEST(Steady, InterruptedStudyIsMarked) {
+  const std::atomic<bool> interrupted = true;
+  const SteadyStudy study = steady(scene_file("scenes/crank_press.toml"), {Effects{}}, {.interrupted = &interrupted});
+  EXPECT_FALSE(study.complete);
+  EXPECT_EQ(study.diagnosis, "interrupted");
+}
+
+TEST(Steady, SwitchingIsToldNotFollowed) {
+  const Scene scene = scene_from(with(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n"),
+                                      "inertia = \"0.5", "stop = \"2 s\", inertia = \"0.5"));
+  const SteadyStudy study = steady(scene, {Effects{}}, {});
+  EXPECT_TRUE(study.complete);
+  ASSERT_EQ(study.notes.size(), 1u);
+  EXPECT_TRUE(has(study.notes[0], "\"motor\" is taken as always on"));
+}
+
+// --- operating points ---
+
+OperatingDiagram diagram_of(const std::string& text, int direction = 1) {
+  RigidMachine machine(scene_from(text));
+  return operating_diagram(machine, direction);
+}
+
+// 60 (1 − ω/40) = b ω
+TEST(OperatingPoints, ShuntMotorMeetsAViscousLoadWhereTheLinesCross) {
+  const OperatingDiagram d = diagram_of(dc_against("load = { kind = \"load\", damping = \"0.5 N*m*s/rad\" }\n"));
+  ASSERT_EQ(d.points.size(), 1u);
+  EXPECT_NEAR(d.points[0].mean.omega, 30, 1e-10);
+  EXPECT_NEAR(d.points[0].mean.load, 15, 1e-10);
+  EXPECT_NEAR(d.points[0].drive_slope, -1.5, 1e-7);
+  EXPECT_NEAR(d.points[0].load_slope, 0.5, 1e-7);
+  EXPECT_TRUE(d.points[0].stable());
+  EXPECT_NEAR(d.margin(d.points[0]), 4, 1e-5);
+}
+
+// Kloss: M_c/M_b = 2/(s/s_b + s_b/s) at s/s_b = q ± √(q² − 1), q = M_b/M_c: the higher speed is stable.
+TEST(OperatingPoints, InductionMotorUnderConstantLoadHasAStableAndAnUnstablePoint) {
+  const double rated = 4000 / 95.0, breakdown = 3 * rated, load = 80, sb = 0.05 * (3 + std::sqrt(8.0));
+  const OperatingDiagram d = diagram_of(induction_against(load));
+  ASSERT_EQ(d.points.size(), 2u);
+  const double q = breakdown / load, root = std::sqrt(q * q - 1);
+  EXPECT_NEAR(d.points[0].mean.omega, 100 * (1 - sb * (q + root)), 1e-9);
+  EXPECT_FALSE(d.points[0].stable());
+  EXPECT_NEAR(d.points[1].mean.omega, 100 * (1 - sb * (q - root)), 1e-9);
+  EXPECT_TRUE(d.points[1].stable());
+  EXPECT_EQ(d.working_point(), &d.points[1]);
+  EXPECT_NEAR(d.strongest.drive, breakdown, 1e-9);
+  EXPECT_NEAR(d.strongest.omega, 100 * (1 - sb), 1e-4);
+}
+
+// The press force does 200 J a turn: mean torque 200/2π at any speed.
+TEST(OperatingPoints, MeanLoadTorqueIsWorkPerTurnOverTheTurn) {
+  RigidMachine machine(scene_file("scenes/driven_slider_crank.toml"));
+  MeanCharacteristic mean(machine, 1);
+  for (const double omega : {1.0, 17.0, 39.0}) {
+    EXPECT_NEAR(mean.at(omega).load, 200 / (2 * pi), 1e-10);
+    EXPECT_NEAR(mean.at(omega).drive, 60 * (1 - omega / 40), 1e-10);
+  }
+}
+
+// --- starts ---
+
+// τ = J ω₀/M_s, ω = ω_∞ (1 − e^{−t/τ}): 95 % after τ ln 20.
+TEST(Starts, ShuntMotorReaches95PercentAfterItsTimeConstantTimesLn20) {
+  const SteadyStudy study =
+      steady(scene_from(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n")), {Effects{}}, {});
+  ASSERT_TRUE(study.start && study.start->reached);
+  EXPECT_NEAR(study.start->time, 0.5 * 40 / 60 * std::log(20.0), 1e-7);
+}
+
+// mo02 fan_start: M = 50 N·m, k = 0.04, J = 2: ω = ω_∞ tanh(t √(M k)/J), t_95 = 2.5905292832732227 s
+TEST(Starts, FanReaches95PercentAsPublished) {
+  const SteadyStudy study = steady(
+      scene_from(
+          "line = [\"source\", \"fan\"]\nsource = { kind = \"torque source\", torque = \"50 N*m\", inertia = \"2 "
+          "kg*m2\" }\nfan = { kind = \"load\", quadratic = \"0.04 N*m*s2/rad2\" }\n"),
+      {Effects{}}, {});
+  ASSERT_TRUE(study.start && study.start->reached) << study.diagnosis;
+  EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.source"), 35.35533905932738, 1e-9);
+  EXPECT_NEAR(study.start->time, 2.5905292832732227, 1e-7);
+}
+
+TEST(Starts, RatioThatStartsFastestIsThatOfKhurmisExamples) {
+  EXPECT_NEAR(fastest_start_ratio(100, 2, 0, 32), 4.0, 1e-12);                  // khurmi_3_14
+  EXPECT_NEAR(fastest_start_ratio(30, 0.6, 100, 45, 0.95), 13.06172168, 1e-8);  // khurmi_3_17: G_optimal
+  EXPECT_THROW(fastest_start_ratio(30, 0.6, 100, 45, 1.5), std::invalid_argument);
+}
+
+// Whatever the torques, no ratio accelerates the load faster than the closed form's.
+TEST(Starts, ClosedFormRatioIsTheGreatestAcceleration) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.05, 1);
+  for (int i = 0; i < 200; ++i) {
+    const double tm = 50 * uniform(random), jm = uniform(random), tc = 100 * uniform(random), j = 50 * uniform(random);
+    const double eta = uniform(random), best = fastest_start_ratio(tm, jm, tc, j, eta);
+    const auto acceleration = [&](double r) { return (eta * r * tm - tc) / (j + eta * r * r * jm); };
+    for (const double other : {0.99, 1.01}) EXPECT_LT(acceleration(other * best), acceleration(best));
+  }
+}
+
+// khurmi_3_14 simulated: 100 N·m on 2 kg·m², 32 kg·m² behind the gear; the load hardly brakes.
+TEST(Starts, SimulatedSearchFindsTheClosedFormsRatio) {
+  const Scene scene = scene_from(
+      "line = [\"motor\", \"gear\", \"load\"]\n"
+      "motor = { kind = \"torque source\", torque = \"100 N*m\", inertia = \"2 kg*m2\" }\n"
+      "gear = { kind = \"gearbox\", stages = [{ teeth = [20, 60] }] }\n"
+      "load = { kind = \"load\", torque = \"1e-6 N*m\", inertia = \"32 kg*m2\" }\n");
+  const std::vector<RatioSearch> found = fastest_ratios(scene, 10, 1000);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].present, 3, 1e-12);
+  EXPECT_NEAR(found[0].best, 4, 1e-3);
+  EXPECT_FALSE(found[0].at_bound);
+}
+
+// --- output ---
+
+TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
+  const Scene scene = scene_file("scenes/compressor.toml");
+  const SteadyStudy study = steady(scene, {Effects{}, scene.effects}, {.traces = true, .start_search = false});
+  const StudyOutput output = output_of(study);
+  const auto json = nlohmann::json::parse(output.json);
+  ASSERT_EQ(json["cycles"].size(), 2u);
+  EXPECT_EQ(json["cycles"][1]["multipliers"].size(), 3u);
+  EXPECT_EQ(json["operating_points"].size(), study.diagram->points.size());
+  for (const auto& f : json["cycles"][1]["figures"]) EXPECT_TRUE(f["error"].is_number()) << f["name"];
+  const Report report = output.report();
+  int equal_axes = 0, over_angle = 0;
+  for (const ReportSection& section : report.sections)
+    for (const Card& card : section.cards)
+      if (const Plot* plot = std::get_if<Plot>(&card)) {
+        EXPECT_FALSE(plot->title.empty());
+        EXPECT_FALSE(plot->x.label.empty());
+        equal_axes += plot->equal_axes;
+        over_angle += plot->x.unit == "°";
+      }
+  EXPECT_EQ(equal_axes, 1);
+  EXPECT_GE(over_angle, 3);
+  ASSERT_EQ(output.csv.size(), 3u);
+  EXPECT_TRUE(output.csv[0].text().starts_with("speed [rad/s],drive_torque"));
+}
+
+}  // namespace
+}  // namespace kurbel::test
