@@ -24,7 +24,10 @@ std::vector<Key> coupling_limit_keys() {
           {.name = "dissipated_power", .unit = "W", .domain = positive, .doc = "P_KW, limit for kurbel modes"}};
 }
 Key application_factor_key() {
-  return {.name = "application_factor", .fallback = "1", .domain = {.low = 1}, .doc = "K_A on the mean torque, in kurbel modes"};
+  return {.name = "application_factor",
+          .fallback = "1",
+          .domain = {.low = 1},
+          .doc = "K_A on the mean torque, in kurbel modes"};
 }
 
 void build_coupling(const Section& s, Network& net, Messages& messages) {

@@ -219,11 +219,12 @@ class KrylovSearch {
     // The slowest one first: most checks end there.
     const auto residual = [&](Index first, Index columns) {
       const MatrixXd w = weights_.middleCols(first, columns);
-      const MatrixXd r = image_.leftCols(basis_) * w -
-                         (v_.leftCols(basis_) * w) * theta_.segment(first, columns).asDiagonal();
+      const MatrixXd r =
+          image_.leftCols(basis_) * w - (v_.leftCols(basis_) * w) * theta_.segment(first, columns).asDiagonal();
       return (r.colwise().norm().transpose().array() / theta_.segment(first, columns).array()).maxCoeff();
     };
-    return residual(count - 1, 1) < converged && residual(0, count) < converged && (m == count || residual(count, 1) < 1e-2);
+    return residual(count - 1, 1) < converged && residual(0, count) < converged &&
+           (m == count || residual(count, 1) < 1e-2);
   }
 
   // Modes that the count finds up to the last wanted one and the search did not.
@@ -296,7 +297,8 @@ std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
   const bool by_angle = drive.angle_stiffness.nonZeros() > 0;
   const MatrixXd a = by_angle ? second_order_matrix(drive) : first_order_matrix(drive);
   const Eigen::EigenSolver<MatrixXd> solver(a);
-  if (solver.info() != Eigen::Success) throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
+  if (solver.info() != Eigen::Success)
+    throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
   const double noise = 1e-12 * a.norm();
   std::vector<DampedMode> modes;
   for (Index i = 0; i < a.rows(); ++i) {
@@ -304,8 +306,9 @@ std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
     if (lambda.imag() < 0) continue;
     if (std::abs(lambda.imag()) <= noise) lambda = lambda.real();
     if (std::abs(lambda) <= noise) lambda = 0;
-    modes.push_back(normalised(lambda, drive.inertia.cwiseSqrt().cwiseInverse().cast<std::complex<double>>().cwiseProduct(
-                                           solver.eigenvectors().col(i).tail(drive.size()))));
+    modes.push_back(
+        normalised(lambda, drive.inertia.cwiseSqrt().cwiseInverse().cast<std::complex<double>>().cwiseProduct(
+                               solver.eigenvectors().col(i).tail(drive.size()))));
   }
   sort_modes(modes);
   return modes;
@@ -394,9 +397,11 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
   }
   const Index found = modes.omega.size();
   const double last = modes.omega[found - 1];
-  modes.counted_below = modes.complete || last == 0 ? static_cast<int>(found) : count_below(a, std::pow(last * (1 + 1e-9), 2));
+  modes.counted_below =
+      modes.complete || last == 0 ? static_cast<int>(found) : count_below(a, std::pow(last * (1 + 1e-9), 2));
   if (!(modes.residual < good_enough))
-    throw std::runtime_error("the modes were not found to a residual of 1e-6: the springs' stiffnesses lie too far apart");
+    throw std::runtime_error(
+        "the modes were not found to a residual of 1e-6: the springs' stiffnesses lie too far apart");
   return modes;
 }
 
@@ -418,7 +423,8 @@ EnergyShares energy_shares(const LinearDrive& drive, const VectorXd& shape) {
   }
   for (double& share : shares.joint) share = potential > 0 ? share / potential : 0;
   const double kinetic = drive.inertia.dot(shape.cwiseAbs2());
-  for (Index i = 0; i < drive.size(); ++i) shares.coordinate.push_back(drive.inertia[i] * shape[i] * shape[i] / kinetic);
+  for (Index i = 0; i < drive.size(); ++i)
+    shares.coordinate.push_back(drive.inertia[i] * shape[i] * shape[i] / kinetic);
   return shares;
 }
 

@@ -19,13 +19,13 @@ struct ModesWanted {
 };
 
 struct UndampedModes {
-  int rigid = 0;            // motions without twist: ω = 0 exactly; they come first
-  Eigen::VectorXd omega;    // ascending [rad/s]
-  Eigen::MatrixXd shapes;   // columns; M-orthonormal
-  double residual = 0;      // largest ‖K v − ω² M v‖ over ‖ω² M v‖ in the norm of M⁻¹, rigid ones left out
-  bool complete = false;    // all modes of the drive
-  int counted_below = 0;    // by Sturm, up to just above the last one: equals what was found
-  int basis = 0;            // vectors that the search needed; 0: dense
+  int rigid = 0;           // motions without twist: ω = 0 exactly; they come first
+  Eigen::VectorXd omega;   // ascending [rad/s]
+  Eigen::MatrixXd shapes;  // columns; M-orthonormal
+  double residual = 0;  // largest ‖K v − ω² M v‖ over ‖ω² M v‖ in the norm of M⁻¹, rigid ones left out
+  bool complete = false;  // all modes of the drive
+  int counted_below = 0;  // by Sturm, up to just above the last one: equals what was found
+  int basis = 0;          // vectors that the search needed; 0: dense
 };
 
 // The lowest modes. Throws std::runtime_error where they cannot be found to a residual of 1e-6.
@@ -35,10 +35,10 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
 int modes_below(const LinearDrive& drive, double omega);
 
 struct DampedMode {
-  std::complex<double> lambda;  // [1/s], Im ≥ 0; Im = 0: does not swing
-  Eigen::VectorXcd shape;       // per coordinate; largest entry 1
-  double natural() const { return std::abs(lambda); }                       // [rad/s]
-  double ratio() const { return -lambda.real() / std::abs(lambda); }        // ζ; < 0: grows by itself
+  std::complex<double> lambda;                                        // [1/s], Im ≥ 0; Im = 0: does not swing
+  Eigen::VectorXcd shape;                                             // per coordinate; largest entry 1
+  double natural() const { return std::abs(lambda); }                 // [rad/s]
+  double ratio() const { return -lambda.real() / std::abs(lambda); }  // ζ; < 0: grows by itself
 };
 
 // Swinging modes by ascending |λ|, then those that do not swing. Small drives: all. Large ones: those that grow out of

@@ -18,8 +18,7 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 class Lineariser {
  public:
-  Lineariser(std::shared_ptr<const Model> model, const OperatingPoint& point)
-      : equations_(model, false), m_(*model) {
+  Lineariser(std::shared_ptr<const Model> model, const OperatingPoint& point) : equations_(model, false), m_(*model) {
     drive_.model = std::move(model);
     drive_.at = point;
   }
@@ -86,8 +85,8 @@ class Lineariser {
     }
   }
 
-  // Torques that the joints must carry, from the leaves to a root that can take the rest: a held shaft, if there is one.
-  // A machine out of balance accelerates as one.
+  // Torques that the joints must carry, from the leaves to a root that can take the rest: a held shaft, if there is
+  // one. A machine out of balance accelerates as one.
   void set_mean_twists() {
     const std::size_t shafts = m_.shafts.size();
     std::vector<double> ratio(shafts), need(shafts, 0.0);
@@ -232,9 +231,9 @@ class Lineariser {
       held += fmt::format("; {} held ({})", m_.node_label(m_.shafts[s].reference),
                           s < m_.free_shafts ? "friction at rest" : "its speed is prescribed");
     }
-    drive_.mode_set = text + held +
-                      (drive_.at.speed == 0 ? "" : fmt::format("; all turn {}", drive_.at.speed > 0 ? "forwards"
-                                                                                                   : "backwards"));
+    drive_.mode_set =
+        text + held +
+        (drive_.at.speed == 0 ? "" : fmt::format("; all turn {}", drive_.at.speed > 0 ? "forwards" : "backwards"));
   }
 
   Equations equations_;

@@ -1,4 +1,5 @@
-// linearise.h — the drive as a linear system about an operating point: inertias, springs and dampers of a compiled model.
+// linearise.h — the drive as a linear system about an operating point: inertias, springs and dampers of a compiled
+// model.
 //
 //     M q̈ + C q̇ + K q = f,   K = Σ k_j g_j g_jᵀ with θ_j = g_jᵀ q = gain_a q_a − gain_b q_b        (THEORY 5)
 // q are the small departures of the shafts' angles from uniform motion (or rest). Everything comes from the exact
@@ -20,9 +21,9 @@ namespace kurbel {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 struct OperatingPoint {
-  double speed = 0;                   // of the reduction link [rad/s]; 0: at rest
-  std::optional<double> angle = {};   // of the reduction link [rad]; empty: averaged over the cycle
-  int positions = 64;                 // of the average, a turn: spectrally exact for smooth dependence
+  double speed = 0;                  // of the reduction link [rad/s]; 0: at rest
+  std::optional<double> angle = {};  // of the reduction link [rad]; empty: averaged over the cycle
+  int positions = 64;                // of the average, a turn: spectrally exact for smooth dependence
 };
 
 struct LinearDrive {
@@ -36,16 +37,16 @@ struct LinearDrive {
 
   std::shared_ptr<const Model> model;
   OperatingPoint at;
-  std::vector<int> coordinate;  // per shaft of the model; −1: its speed is prescribed, or it sticks
-  std::vector<int> shaft;       // per coordinate
-  std::vector<double> ratio;    // per coordinate: speed over the reduction link's when all turns rigidly
-  std::vector<Joint> joints;    // per elastic joint of the model
-  Eigen::VectorXd inertia;      // M, diagonal [kg·m²]
-  SparseMatrix stiffness;       // K of the elastic joints, symmetric
-  SparseMatrix angle_stiffness; // of what depends on the angle; only with the crank held at one
-  SparseMatrix damping;         // C of joints, motors, loads
-  double mean_torque = 0;       // Σ of all shares on the reduction link: 0 where the point is one of steady motion [N·m]
-  std::string mode_set;         // for people: what was assumed of pieces, directions, stuck shafts
+  std::vector<int> coordinate;   // per shaft of the model; −1: its speed is prescribed, or it sticks
+  std::vector<int> shaft;        // per coordinate
+  std::vector<double> ratio;     // per coordinate: speed over the reduction link's when all turns rigidly
+  std::vector<Joint> joints;     // per elastic joint of the model
+  Eigen::VectorXd inertia;       // M, diagonal [kg·m²]
+  SparseMatrix stiffness;        // K of the elastic joints, symmetric
+  SparseMatrix angle_stiffness;  // of what depends on the angle; only with the crank held at one
+  SparseMatrix damping;          // C of joints, motors, loads
+  double mean_torque = 0;  // Σ of all shares on the reduction link: 0 where the point is one of steady motion [N·m]
+  std::string mode_set;    // for people: what was assumed of pieces, directions, stuck shafts
 
   Eigen::Index size() const { return inertia.size(); }
   double twist(std::size_t joint, const Eigen::VectorXd& q) const;

@@ -76,8 +76,9 @@ void find_orders(const LinearDrive& drive, double fastest, double highest_order,
     if (m.network.elements[e].element->uses_angle()) elements.push_back(e);
   if (elements.empty()) return;
   if (!cycle.periodic)
-    found.notes.push_back("no multiple of a turn is a period of all that depends on an angle: orders are those of the "
-                          "reduction link's own cycle, and what does not fit it is smeared over them");
+    found.notes.push_back(
+        "no multiple of a turn is a period of all that depends on an angle: orders are those of the "
+        "reduction link's own cycle, and what does not fit it is smeared over them");
   std::size_t samples = m.shafts.size() > many_shafts ? 1024 : 4096;
   while (samples < 8 * found.harmonics) samples *= 2;
   const double w[3] = {fastest / 3, fastest * 2 / 3, fastest};
@@ -102,9 +103,10 @@ void find_orders(const LinearDrive& drive, double fastest, double highest_order,
   }
   found.misfit = largest > 0 ? misfit / largest : 0;
   if (found.misfit > 1e-3)
-    found.notes.push_back(fmt::format("torques over the cycle are no quadratic function of the speed: at half of the "
-                                      "fastest speed the orders are off by up to {:.1g} of the largest",
-                                      found.misfit));
+    found.notes.push_back(
+        fmt::format("torques over the cycle are no quadratic function of the speed: at half of the "
+                    "fastest speed the orders are off by up to {:.1g} of the largest",
+                    found.misfit));
 }
 
 void find_frequencies(const LinearDrive& drive, Excitations& found) {
@@ -132,9 +134,10 @@ void find_frequencies(const LinearDrive& drive, Excitations& found) {
   }
   for (const Network::Node& node : m.network.nodes)
     if (node.prescribed >= 0 && m.network.prescribed[at(node.prescribed)].amplitude != 0)
-      found.notes.push_back(fmt::format("the ripple of the prescribed speed \"{}\" is no torque and is not counted "
-                                        "among the excitations",
-                                        node.component));
+      found.notes.push_back(
+          fmt::format("the ripple of the prescribed speed \"{}\" is no torque and is not counted "
+                      "among the excitations",
+                      node.component));
 }
 
 // Teeth of the driving wheel times the speed of its shaft, stage by stage.
@@ -147,8 +150,8 @@ void find_meshes(const LinearDrive& drive, Excitations& found) {
     for (const Section& stage : section["stages"].sections) {
       if (!stage.has("teeth") || stage["teeth"].numbers.size() != 2) continue;
       const std::vector<double>& teeth = stage["teeth"].numbers;
-      found.meshes.push_back({fmt::format("{}, stage {}: {:g}/{:g} teeth", section.name, ++k, teeth[0], teeth[1]),
-                              teeth[0] * ratio});
+      found.meshes.push_back(
+          {fmt::format("{}, stage {}: {:g}/{:g} teeth", section.name, ++k, teeth[0], teeth[1]), teeth[0] * ratio});
       ratio *= teeth[0] / teeth[1];
     }
   }

@@ -20,8 +20,8 @@ std::vector<Complex> harmonics_of(const std::vector<double>& samples);
 
 struct OrderSource {
   std::string component;
-  int coordinate = -1;              // it acts on
-  std::vector<Complex> a, b, c;     // per harmonic of the cycle, on the coordinate [N·m], [N·m·s], [N·m·s²]
+  int coordinate = -1;           // it acts on
+  std::vector<Complex> a, b, c;  // per harmonic of the cycle, on the coordinate [N·m], [N·m·s], [N·m·s²]
   Complex at(std::size_t harmonic, double speed) const {
     return a[harmonic] + speed * (b[harmonic] + speed * c[harmonic]);
   }

@@ -144,8 +144,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   };
   for (std::size_t r = 1; r <= excitations.harmonics && !excitations.by_order.empty(); ++r) {
     Eigen::VectorXcd force = Eigen::VectorXcd::Zero(drive.size());
-    for (const OrderSource& source : excitations.by_order)
-      force[source.coordinate] += source.at(r, drive.at.speed);
+    for (const OrderSource& source : excitations.by_order) force[source.coordinate] += source.at(r, drive.at.speed);
     const double omega = excitations.order(r) * speed;
     const std::vector<Complex> tau = response.torques(omega, force);
     for (std::size_t j = 0; j < tau.size(); ++j) count(j, result.orders[j][r] = tau[j], omega, r);

@@ -24,11 +24,20 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
-      : options_(options), model_(compile(scene, effects)) {
+      : options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
+    if (effects.joint_friction)
+      found_.notes.push_back(
+          "friction in the mechanisms' joints is no linear effect: left out of modes and forced "
+          "response, counted in the simulated torque");
     found_.title = scene.title;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
     found_.link = model_->node_label(model_->reduction_node);
+  }
+
+  static Effects linear(Effects effects) {
+    effects.joint_friction = false;
+    return effects;
   }
 
   Modes result() {
@@ -59,8 +68,7 @@ class Study {
   bool stopped() const { return options_.interrupted && *options_.interrupted; }
 
   void check_options() const {
-    if (options_.count < 1)
-      throw std::invalid_argument(fmt::format("--count {}: must be ≥ 1", options_.count));
+    if (options_.count < 1) throw std::invalid_argument(fmt::format("--count {}: must be ≥ 1", options_.count));
     if (options_.orders < 0 || options_.orders > 1000)
       throw std::invalid_argument(fmt::format("--orders {:g}: must be > 0 and ≤ 1000", options_.orders));
     if (options_.slowest < 0 || (options_.fastest != 0 && options_.fastest <= options_.slowest))
@@ -97,12 +105,14 @@ class Study {
     pair_damped();
     for (const DampedMode& d : found_.damped)
       if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
-        found_.notes.push_back(fmt::format(
-            "{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable, e.g. a motor below its "
-            "breakdown speed",
-            d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi)) : "the motion as a "
-                                                                                                      "whole",
-            d.lambda.real()));
+        found_.notes.push_back(
+            fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable, e.g. a "
+                        "motor below its "
+                        "breakdown speed",
+                        d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
+                                            : "the motion as a "
+                                              "whole",
+                        d.lambda.real()));
         break;
       }
   }
@@ -117,8 +127,7 @@ class Study {
         const DampedMode& d = found_.damped[i];
         if (used[i] || d.lambda.imag() <= 0) continue;
         const Eigen::VectorXcd moved = found_.drive.inertia.cwiseProduct(mode.shape).cast<Complex>();
-        const double norm = std::sqrt(
-            (found_.drive.inertia.array() * d.shape.array().abs2()).sum());
+        const double norm = std::sqrt((found_.drive.inertia.array() * d.shape.array().abs2()).sum());
         const double near = 1 - std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
         const double like = std::abs(moved.dot(d.shape)) / norm * near;
         if (like > best) best = like, which = i;
@@ -167,15 +176,16 @@ class Study {
     found_.excitations = find_excitations(found_.drive, found_.fastest, found_.highest_order);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
-      found_.notes.push_back("nothing in the scene excites the drive by order or frequency: no torque depends on an "
-                             "angle, and no torque source swings");
+      found_.notes.push_back(
+          "nothing in the scene excites the drive by order or frequency: no torque depends on an "
+          "angle, and no torque source swings");
     found_.here = respond(found_.drive, found_.excitations);
   }
 
   LinearDrive drive_at(double speed) const {
-    return linearise(model_, {.speed = std::copysign(speed, found_.drive.at.speed),
-                              .angle = options_.angle,
-                              .positions = coarse_positions});
+    return linearise(
+        model_,
+        {.speed = std::copysign(speed, found_.drive.at.speed), .angle = options_.angle, .positions = coarse_positions});
   }
 
   // Where an order that has any strength meets a mode.
@@ -232,7 +242,8 @@ class Study {
       const std::size_t keep = std::max<std::size_t>(20, speeds.size() * 20 * most_solves / solves);
       std::vector<double> fewer;
       for (std::size_t i = 0; i < keep; ++i) fewer.push_back(speeds[i * (speeds.size() - 1) / (keep - 1)]);
-      found_.notes.push_back(fmt::format("the drive is large: the sweep has {} speeds instead of {}", keep, speeds.size()));
+      found_.notes.push_back(
+          fmt::format("the drive is large: the sweep has {} speeds instead of {}", keep, speeds.size()));
       fewer.erase(std::unique(fewer.begin(), fewer.end()), fewer.end());
       return fewer;
     }
@@ -345,6 +356,7 @@ class Study {
   void add_verdicts(std::size_t j);
 
   const ModesOptions& options_;
+  Effects effects_;
   std::shared_ptr<const Model> model_;
   Modes found_;
 };
@@ -368,7 +380,7 @@ void Study::simulate_torque() {
   options.log = options_.log;
   if (options_.progress)
     options.progress = [this](const std::string& what, double f) { options_.progress(what, 0.8 + 0.2 * f); };
-  const Result result = simulate(scene, model_->effects, "elastic", options);
+  const Result result = simulate(scene, effects_, "elastic", options);
   const TrajectoryRecorder& t = *result.trajectory;
   const auto column = [&](const std::vector<std::string>& names) {
     for (const std::string& name : names)
@@ -431,8 +443,9 @@ void Study::add_verdicts(std::size_t j) {
   }
   double largest = std::max(std::abs(here.upper), std::abs(here.lower));
   if (limits.nominal > 0)
-    found_.verdicts.push_back({name, "nominal torque: K_A |T_mean| ≤ T_KN", limits.application_factor * std::abs(here.mean),
-                               limits.nominal, "N*m", fmt::format("K_A = {:g}", limits.application_factor)});
+    found_.verdicts.push_back({name, "nominal torque: K_A |T_mean| ≤ T_KN",
+                               limits.application_factor * std::abs(here.mean), limits.nominal, "N*m",
+                               fmt::format("K_A = {:g}", limits.application_factor)});
   if (limits.maximum > 0) {
     found_.verdicts.push_back({name, "maximum torque while passing resonances: |T| ≤ T_Kmax",
                                std::max(passing, largest), limits.maximum, "N*m",
@@ -447,8 +460,8 @@ void Study::add_verdicts(std::size_t j) {
   }
   if (limits.vibratory > 0) {
     // Continuous swing: S_f = √(f/10 Hz) above 10 Hz.
-    const double f = here.dominant > 0 ? found_.excitations.order(here.dominant) * std::abs(found_.drive.at.speed) / (2 * pi)
-                                       : 10.0;
+    const double f =
+        here.dominant > 0 ? found_.excitations.order(here.dominant) * std::abs(found_.drive.at.speed) / (2 * pi) : 10.0;
     const double factor = f > 10 ? std::sqrt(f / 10) : 1;
     found_.verdicts.push_back({name, "vibratory torque: S_f T_W ≤ T_KW", factor * here.peak, limits.vibratory, "N*m",
                                fmt::format("S_f = √(f/10 Hz) = {:.3g} at {:.4g} Hz", factor, f)});
@@ -456,10 +469,10 @@ void Study::add_verdicts(std::size_t j) {
   if (limits.power > 0)
     found_.verdicts.push_back({name, "dissipated power: P_W ≤ P_KW", here.power, limits.power, "W", ""});
   if (limits.shear_stress > 0)
-    found_.verdicts.push_back({name, "shear stress: K_A |T|/W_p ≤ τ_allowable",
-                               limits.application_factor * largest / limits.polar_modulus, limits.shear_stress, "Pa",
-                               fmt::format("W_p = {:.5g} cm³, K_A = {:g}", 1e6 * limits.polar_modulus,
-                                           limits.application_factor)});
+    found_.verdicts.push_back(
+        {name, "shear stress: K_A |T|/W_p ≤ τ_allowable", limits.application_factor * largest / limits.polar_modulus,
+         limits.shear_stress, "Pa",
+         fmt::format("W_p = {:.5g} cm³, K_A = {:g}", 1e6 * limits.polar_modulus, limits.application_factor)});
 }
 
 }  // namespace

@@ -20,25 +20,25 @@
 namespace kurbel {
 
 struct ModesOptions {
-  int count = 20;                      // of modes, rigid motion not counted
-  std::optional<double> speed;         // of the reduction link [rad/s]; default: start speed, else rated
-  std::optional<double> angle;         // holds the link there instead of averaging over the cycle [rad]
-  double slowest = 0, fastest = 0;     // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
-  double orders = 0;                   // highest order; 0: 12, or what reaches the second mode, up to 24
-  double barred_factor = 1;            // a joint without limits: barred where its swing exceeds this times its mean
-  std::string torque;                  // channel to simulate: "main_coupling"; empty: none
+  int count = 20;                   // of modes, rigid motion not counted
+  std::optional<double> speed;      // of the reduction link [rad/s]; default: start speed, else rated
+  std::optional<double> angle;      // holds the link there instead of averaging over the cycle [rad]
+  double slowest = 0, fastest = 0;  // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
+  double orders = 0;                // highest order; 0: 12, or what reaches the second mode, up to 24
+  double barred_factor = 1;         // a joint without limits: barred where its swing exceeds this times its mean
+  std::string torque;               // channel to simulate: "main_coupling"; empty: none
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress = {};
   std::function<void(const std::string&)> log = {};
 };
 
 struct Mode {
-  int number = 0;       // 0: rigid motion
-  double omega = 0;     // undamped [rad/s]
+  int number = 0;         // 0: rigid motion
+  double omega = 0;       // undamped [rad/s]
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
-  std::complex<double> lambda;   // of the damped mode that grows out of it; 0 where none was found
-  double ratio = 0;              // ζ
+  std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
+  double ratio = 0;             // ζ
 };
 
 struct CriticalSpeed {
@@ -53,8 +53,8 @@ struct CriticalSpeed {
 struct ParametricZone {
   int mode = 0;
   std::size_t harmonic = 0;
-  double centre = 0;     // 2 ω/r [rad/s]
-  double variation = 0;  // ε
+  double centre = 0;      // 2 ω/r [rad/s]
+  double variation = 0;   // ε
   double half_width = 0;  // relative; 0: damping keeps it closed
 };
 
@@ -97,17 +97,17 @@ struct Modes {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
   UndampedModes undamped;
-  std::vector<Mode> modes;            // without the rigid ones
-  std::vector<DampedMode> damped;     // all that were found
+  std::vector<Mode> modes;         // without the rigid ones
+  std::vector<DampedMode> damped;  // all that were found
   std::vector<std::string> shaft_names, joint_names;
-  std::string link;                   // reduction link
+  std::string link;  // reduction link
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed
   std::vector<ParametricZone> zones;
-  SpeedResponse here;                  // at the operating point
-  std::vector<SpeedResponse> sweep;    // over the range
-  std::vector<DriveLimits> limits;     // per joint
+  SpeedResponse here;                // at the operating point
+  std::vector<SpeedResponse> sweep;  // over the range
+  std::vector<DriveLimits> limits;   // per joint
   std::vector<BarredRange> barred;
   std::vector<Verdict> verdicts;
   std::optional<TorqueHistory> history;

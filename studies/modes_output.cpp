@@ -60,8 +60,8 @@ std::string conclusion_of(const Modes& m) {
   }
   if (is_forced(m)) {
     const std::size_t j = joint_with_largest_swing(m.here);
-    text += fmt::format("; at {:.5g} 1/min {} swings by {} about {}", rpm(std::abs(m.drive.at.speed)),
-                        m.joint_names[j], torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
+    text += fmt::format("; at {:.5g} 1/min {} swings by {} about {}", rpm(std::abs(m.drive.at.speed)), m.joint_names[j],
+                        torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
   }
   if (const BarredRange* b = worst_of(m))
     text += fmt::format("; {} barred range{}, worst {:.5g} … {:.5g} 1/min ({})", m.barred.size(),
@@ -102,8 +102,8 @@ Rows mode_rows(const Modes& m) {
 }
 
 Rows response_rows(const Modes& m) {
-  Rows rows = {{"joint", "mean [N·m]", "peak of swing [N·m]", "Σ of amplitudes", "RMS", "strongest order", "its amplitude",
-                "dissipated [W]"}};
+  Rows rows = {{"joint", "mean [N·m]", "peak of swing [N·m]", "Σ of amplitudes", "RMS", "strongest order",
+                "its amplitude", "dissipated [W]"}};
   for (std::size_t j = 0; j < m.here.joints.size() && j < 40; ++j) {
     const JointResponse& r = m.here.joints[j];
     rows.push_back({m.joint_names[j], number(r.mean, 5), number(r.peak, 6), number(r.amplitude_sum, 5),
@@ -151,7 +151,8 @@ Rows verdict_rows(const Modes& m) {
   Rows rows = {{"component", "requirement", "note", "value", "limit", "use"}};
   for (const Verdict& v : m.verdicts) {
     const ReadableUnit unit = readable_unit(v.limit, v.unit);
-    rows.push_back({v.component, v.requirement, v.note, fmt::format("{} {}", number(unit.factor * v.value, 5), unit.unit),
+    rows.push_back({v.component, v.requirement, v.note,
+                    fmt::format("{} {}", number(unit.factor * v.value, 5), unit.unit),
                     fmt::format("{} {}", number(unit.factor * v.limit, 5), unit.unit),
                     fmt::format("{:.0f} % {}", 100 * v.value / v.limit, v.holds() ? "holds" : "EXCEEDED")});
   }
@@ -188,14 +189,16 @@ std::string method_text(const Modes& m) {
 }
 
 std::string table_of(const Modes& m, const std::string& conclusion) {
-  std::string text = conclusion + "\n\n  " + point_text(m) + "\n\n" + aligned(mode_rows(m), 0) + "  " + method_text(m) + "\n";
+  std::string text =
+      conclusion + "\n\n  " + point_text(m) + "\n\n" + aligned(mode_rows(m), 0) + "  " + method_text(m) + "\n";
   if (is_forced(m)) text += "\nforced response at that speed\n" + aligned(response_rows(m), 1);
   if (!m.critical.empty())
-    text += fmt::format("\ncritical speeds ({} of {}, by amplitude)\n",
-                        std::min(critical_shown, m.critical.size()), m.critical.size()) +
+    text += fmt::format("\ncritical speeds ({} of {}, by amplitude)\n", std::min(critical_shown, m.critical.size()),
+                        m.critical.size()) +
             aligned(critical_rows(m, critical_shown), 0);
   if (!m.barred.empty()) text += "\nbarred speed ranges\n" + aligned(barred_rows(m), 2);
-  if (!m.zones.empty()) text += "\nparametric instability by the varying inertia, first order\n" + aligned(zone_rows(m), 0);
+  if (!m.zones.empty())
+    text += "\nparametric instability by the varying inertia, first order\n" + aligned(zone_rows(m), 0);
   if (!m.verdicts.empty()) text += "\nlimits\n" + aligned(verdict_rows(m), 3);
   if (m.history)
     text += fmt::format("\nrainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = 5: {}\n",
@@ -214,7 +217,9 @@ std::string json_of(const Modes& m, const std::string& conclusion) {
   Json j = {{"title", m.title}, {"scene", m.scene_file}, {"complete", m.complete}};
   if (!m.complete) j["diagnosis"] = m.diagnosis;
   j["conclusion"] = conclusion;
-  j["operating_point"] = {{"speed", m.drive.at.speed}, {"link", m.link}, {"mode_set", m.drive.mode_set},
+  j["operating_point"] = {{"speed", m.drive.at.speed},
+                          {"link", m.link},
+                          {"mode_set", m.drive.mode_set},
                           {"torque_left_over", m.drive.mean_torque}};
   j["shafts"] = m.shaft_names;
   j["joints"] = Json::array();
@@ -241,28 +246,49 @@ std::string json_of(const Modes& m, const std::string& conclusion) {
   j["response"] = Json::array();
   for (std::size_t i = 0; i < m.here.joints.size() && i < 1000; ++i) {
     const JointResponse& r = m.here.joints[i];
-    j["response"].push_back({{"joint", m.joint_names[i]}, {"mean", r.mean}, {"peak", finite(r.peak)},
-                             {"amplitude_sum", finite(r.amplitude_sum)}, {"rms", finite(r.rms)},
-                             {"power", finite(r.power)}, {"order", m.excitations.order(r.dominant)}});
+    j["response"].push_back({{"joint", m.joint_names[i]},
+                             {"mean", r.mean},
+                             {"peak", finite(r.peak)},
+                             {"amplitude_sum", finite(r.amplitude_sum)},
+                             {"rms", finite(r.rms)},
+                             {"power", finite(r.power)},
+                             {"order", m.excitations.order(r.dominant)}});
   }
   j["critical_speeds"] = Json::array();
   for (const CriticalSpeed& c : m.critical)
-    j["critical_speeds"].push_back({{"speed", c.speed}, {"mode", c.mode}, {"order", c.order},
-                                    {"amplitude", finite(c.amplitude)}, {"joint", m.joint_names[c.joint]}});
+    j["critical_speeds"].push_back({{"speed", c.speed},
+                                    {"mode", c.mode},
+                                    {"order", c.order},
+                                    {"amplitude", finite(c.amplitude)},
+                                    {"joint", m.joint_names[c.joint]}});
   j["barred"] = Json::array();
   for (const BarredRange& b : m.barred)
-    j["barred"].push_back({{"joint", m.joint_names[b.joint]}, {"from", b.from}, {"to", b.to}, {"limit", b.limit},
-                           {"peak", finite(b.peak)}, {"reason", b.reason}});
+    j["barred"].push_back({{"joint", m.joint_names[b.joint]},
+                           {"from", b.from},
+                           {"to", b.to},
+                           {"limit", b.limit},
+                           {"peak", finite(b.peak)},
+                           {"reason", b.reason}});
   j["parametric_zones"] = Json::array();
   for (const ParametricZone& z : m.zones)
-    j["parametric_zones"].push_back({{"mode", z.mode}, {"order", m.excitations.order(z.harmonic)}, {"speed", z.centre},
-                                     {"variation", z.variation}, {"relative_half_width", z.half_width}});
+    j["parametric_zones"].push_back({{"mode", z.mode},
+                                     {"order", m.excitations.order(z.harmonic)},
+                                     {"speed", z.centre},
+                                     {"variation", z.variation},
+                                     {"relative_half_width", z.half_width}});
   j["verdicts"] = Json::array();
   for (const Verdict& v : m.verdicts)
-    j["verdicts"].push_back({{"component", v.component}, {"requirement", v.requirement}, {"value", finite(v.value)},
-                             {"limit", v.limit}, {"unit", v.unit}, {"holds", v.holds()}, {"note", v.note}});
+    j["verdicts"].push_back({{"component", v.component},
+                             {"requirement", v.requirement},
+                             {"value", finite(v.value)},
+                             {"limit", v.limit},
+                             {"unit", v.unit},
+                             {"holds", v.holds()},
+                             {"note", v.note}});
   if (m.history)
-    j["history"] = {{"channel", m.history->channel}, {"greatest", m.history->greatest}, {"least", m.history->least},
+    j["history"] = {{"channel", m.history->channel},
+                    {"greatest", m.history->greatest},
+                    {"least", m.history->least},
                     {"equivalent_amplitude", equivalent_amplitude(m.history->cycles, 5)}};
   j["notes"] = m.notes;
   return j.dump(2);
@@ -310,7 +336,9 @@ Plot shape_plot(const Modes& m) {
             .series = {}};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}, {:.4g} Hz", m.modes[k].number, hertz(m.modes[k].omega)),
-             .role = further_role(k), .x = {}, .y = {}};
+             .role = further_role(k),
+             .x = {},
+             .y = {}};
     s.points = m.drive.size() <= 60;
     double largest = 0;
     for (Eigen::Index i = 0; i < m.drive.size(); ++i) {
@@ -370,8 +398,9 @@ Plot campbell_plot(const Modes& m) {
             .x = {"speed of " + m.link, "1/min"},
             .y = {"frequency", "Hz"},
             .series = {},
-            .note = "Level lines are modes, rays are orders of the reduction link's turn; circles mark critical speeds, "
-                    "dashed rays tooth meshes."};
+            .note =
+                "Level lines are modes, rays are orders of the reduction link's turn; circles mark critical speeds, "
+                "dashed rays tooth meshes."};
   const double from = rpm(m.slowest), to = rpm(m.fastest);
   double top = 0;
   const std::vector<std::size_t> orders = orders_shown(m);
@@ -379,20 +408,30 @@ Plot campbell_plot(const Modes& m) {
   if (!m.modes.empty()) top = std::max(top, 1.2 * hertz(m.modes.front().omega));
   for (const Mode& mode : m.modes)
     if (hertz(mode.omega) <= top)
-      plot.series.push_back({.name = fmt::format("mode {}", mode.number), .role = Role::elastic, .x = {from, to},
+      plot.series.push_back({.name = fmt::format("mode {}", mode.number),
+                             .role = Role::elastic,
+                             .x = {from, to},
                              .y = {hertz(mode.omega), hertz(mode.omega)}});
   for (const std::size_t r : orders)
-    plot.series.push_back({.name = fmt::format("order {:g}", m.excitations.order(r)), .role = Role::rigid, .x = {0, to},
+    plot.series.push_back({.name = fmt::format("order {:g}", m.excitations.order(r)),
+                           .role = Role::rigid,
+                           .x = {0, to},
                            .y = {0, m.excitations.order(r) * to / 60}});
   for (const GearMesh& mesh : m.excitations.meshes) {
     const double end = std::min(to, 60 * top / mesh.order);
-    plot.series.push_back({.name = "mesh of " + mesh.name, .role = Role::reference, .x = {0, end},
-                           .y = {0, mesh.order * end / 60}, .dashed = true});
+    plot.series.push_back({.name = "mesh of " + mesh.name,
+                           .role = Role::reference,
+                           .x = {0, end},
+                           .y = {0, mesh.order * end / 60},
+                           .dashed = true});
   }
   for (const FrequencySource& f : m.excitations.by_frequency)
     if (hertz(f.omega) <= top)
-      plot.series.push_back({.name = "frequency of " + f.component, .role = Role::vermillion, .x = {from, to},
-                             .y = {hertz(f.omega), hertz(f.omega)}, .dashed = true});
+      plot.series.push_back({.name = "frequency of " + f.component,
+                             .role = Role::vermillion,
+                             .x = {from, to},
+                             .y = {hertz(f.omega), hertz(f.omega)},
+                             .dashed = true});
   Series crossings{.name = "critical speeds", .role = Role::orange, .x = {}, .y = {}};
   crossings.points = true;
   crossings.line = false;
@@ -432,7 +471,9 @@ Plot sweep_plot(const Modes& m, std::size_t j) {
     plot.series.push_back(*series);
   }
   if (m.limits[j].vibratory > 0)
-    plot.series.push_back({.name = "allowed", .role = Role::vermillion, .x = {rpm(m.slowest), rpm(m.fastest)},
+    plot.series.push_back({.name = "allowed",
+                           .role = Role::vermillion,
+                           .x = {rpm(m.slowest), rpm(m.fastest)},
                            .y = {unit.factor * m.limits[j].vibratory, unit.factor * m.limits[j].vibratory},
                            .dashed = true});
   for (const BarredRange& b : m.barred) {
@@ -525,7 +566,9 @@ Plot waterfall_plot(const Modes& m, const TorqueHistory& h) {
   }
   const double height = 0.25 * std::max(high - low, 0.05 * std::abs(high)) / std::max(largest, 1e-300);
   for (const WaterfallLine& line : h.lines) {
-    Series s{.name = fmt::format("{:.3g} s, {:.4g} 1/min", line.time, rpm(line.speed)), .role = Role::elastic, .x = {},
+    Series s{.name = fmt::format("{:.3g} s, {:.4g} 1/min", line.time, rpm(line.speed)),
+             .role = Role::elastic,
+             .x = {},
              .y = {}};
     for (std::size_t i = 0; i < line.spectrum.frequency.size() && line.spectrum.frequency[i] <= end; ++i) {
       s.x.push_back(line.spectrum.frequency[i]);
@@ -552,8 +595,8 @@ void add_modes(Report& report, const Modes& m) {
   const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
   section.cards.push_back(Formula{.title = "First mode by its energies (Rayleigh)",
                                   .symbols = "ω² = Σ k θ² / Σ J φ²",
-                                  .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz", potential,
-                                                         kinetic, first.omega, hertz(first.omega)),
+                                  .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz",
+                                                         potential, kinetic, first.omega, hertz(first.omega)),
                                   .note = point_text(m) + "."});
   section.cards.push_back(Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }
@@ -576,8 +619,8 @@ void add_response(Report& report, const Modes& m) {
                 .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."});
   }
   ReportSection& forced = report.add("Forced response");
-  forced.cards.push_back(table_card(
-      fmt::format("At {:.5g} 1/min of {}", rpm(std::abs(m.drive.at.speed)), m.link), response_rows(m), 1));
+  forced.cards.push_back(
+      table_card(fmt::format("At {:.5g} 1/min of {}", rpm(std::abs(m.drive.at.speed)), m.link), response_rows(m), 1));
   if (!m.here.joints.empty() && m.excitations.harmonics > 0 && !m.excitations.by_order.empty())
     forced.cards.push_back(order_plot(m));
   for (std::size_t j = 0; j < m.joint_names.size() && j < 12 && !m.sweep.empty(); ++j)
@@ -600,8 +643,12 @@ Report report_of(const Modes& m, const std::string& conclusion) {
                 .conclusion = conclusion};
   report.complete = m.complete;
   for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k)
-    report.figures.push_back({fmt::format("mode {}", m.modes[k].number), hertz(m.modes[k].omega), "Hz", {},
-                              m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "", 6});
+    report.figures.push_back({fmt::format("mode {}", m.modes[k].number),
+                              hertz(m.modes[k].omega),
+                              "Hz",
+                              {},
+                              m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "",
+                              6});
   if (is_forced(m)) {
     const std::size_t j = joint_with_largest_swing(m.here);
     if (std::isfinite(m.here.joints[j].peak))

@@ -15,8 +15,8 @@ namespace kurbel {
 
 Spectrum spectrum_of(const std::vector<double>& values, double step) {
   if (values.size() < 16 || !(step > 0))
-    throw std::invalid_argument(fmt::format(
-        "a spectrum needs 16 values or more at a step > 0; got {} at {:g}", values.size(), step));
+    throw std::invalid_argument(
+        fmt::format("a spectrum needs 16 values or more at a step > 0; got {} at {:g}", values.size(), step));
   std::size_t n = 16;
   while (2 * n <= values.size()) n *= 2;
   const std::vector<double> tail(values.end() - static_cast<std::ptrdiff_t>(n), values.end());
