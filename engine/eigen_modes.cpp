@@ -136,7 +136,7 @@ UndampedModes dense_modes(const LinearDrive& drive, const SparseMatrix& a, const
 class KrylovSearch {
  public:
   KrylovSearch(const LinearDrive& drive, const SparseMatrix& a, MatrixXd rigid)
-      : drive_(drive), a_(a), rigid_(std::move(rigid)), n_(a.rows()) {
+      : drive_(drive), a_(a), rigid_(std::move(rigid)), n_(a.rows()), v_(n_, 0), image_(n_, 0) {
     const double shift = rigid_.cols() > 0 ? shift_of_free * largest_row_sum(a) : 0;
     solver_.compute(shifted(a, shift));
     if (solver_.info() != Eigen::Success)
@@ -227,14 +227,15 @@ class KrylovSearch {
            (m == count || residual(count, 1) < 1e-2);
   }
 
-  // Modes that the count finds up to the last wanted one and the search did not.
+  // Modes that the count finds up to the last wanted one and the search did not; where more of the last frequency may
+  // follow, up to just below it.
   int miss(Index count) {
     vectors_ = v_.leftCols(basis_) * weights_.leftCols(std::min(count + 1, basis_));
     const auto lambda = [&](Index i) {
       return vectors_.col(i).dot(a_ * vectors_.col(i)) / vectors_.col(i).squaredNorm();
     };
     const double last = lambda(count - 1), next = vectors_.cols() > count ? lambda(count) : 2 * last;
-    const double above = next > last * (1 + 1e-6) ? 0.5 * (last + next) : last * (1 + 1e-6);
+    const double above = next > last * (1 + 1e-6) ? 0.5 * (last + next) : last * (1 - 1e-6);
     Index found = rigid_.cols();
     for (Index i = 0; i < vectors_.cols(); ++i) found += lambda(i) < above;
     return static_cast<int>(std::max<Index>(0, count_below(a_, above) - found));

@@ -301,6 +301,12 @@ class Study {
           limits.polar_modulus = pi / 16 * (std::pow(outer, 4) - std::pow(bore, 4)) / outer;
         }
       }
+      // A coupling hammers where its torque changes sign; crankshafts do so by nature, idle ends carry no mean torque.
+      const std::size_t j = found_.limits.size();
+      const double rated =
+          model_->torque_scale / std::abs(model_->node_ratio[at(model_->network.joints[at(e.joint)].a)]);
+      means_judge_.push_back((!s || !s->kind || s->kind->name == "coupling") &&
+                             std::abs(found_.here.joints[j].mean) > 0.02 * rated);
       found_.limits.push_back(limits);
     }
   }
@@ -310,14 +316,15 @@ class Study {
     double limit = 0, value = 0;
     std::string reason;
   };
-  Bar bar(const JointResponse& joint, const DriveLimits& limits) const {
+  Bar bar(std::size_t j, const JointResponse& joint) const {
+    const DriveLimits& limits = found_.limits[j];
     if (limits.vibratory > 0) return {limits.vibratory, joint.peak, "vibratory_torque"};
     if (limits.maximum > 0)
       return {limits.maximum, std::max(std::abs(joint.upper), std::abs(joint.lower)), "maximum_torque"};
     if (limits.shear_stress > 0)
       return {limits.shear_stress * limits.polar_modulus, std::max(std::abs(joint.upper), std::abs(joint.lower)),
               "allowable_shear_stress"};
-    return {options_.barred_factor * std::abs(joint.mean), joint.peak,
+    return {means_judge_[j] ? options_.barred_factor * std::abs(joint.mean) : HUGE_VAL, joint.peak,
             fmt::format("{:g} × mean torque", options_.barred_factor)};
   }
 
@@ -327,9 +334,9 @@ class Study {
       double speed_before = 0, excess_before = 0;
       for (std::size_t i = 0; i < found_.sweep.size(); ++i) {
         const SpeedResponse& s = found_.sweep[i];
-        const Bar b = bar(s.joints[j], found_.limits[j]);
+        const Bar b = bar(j, s.joints[j]);
         const double excess = b.value - b.limit;
-        const bool barred = excess > 0 && b.limit > 0;
+        const bool barred = excess > 0;
         // Ends between two points of the sweep: straight between them.
         const double share = i > 0 && excess != excess_before && std::isfinite(excess) && std::isfinite(excess_before)
                                  ? std::clamp(-excess_before / (excess - excess_before), 0.0, 1.0)
@@ -357,6 +364,7 @@ class Study {
 
   const ModesOptions& options_;
   Effects effects_;
+  std::vector<char> means_judge_;  // per joint without limits: its mean torque bounds its swing
   std::shared_ptr<const Model> model_;
   Modes found_;
 };
