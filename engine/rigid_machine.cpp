@@ -74,7 +74,7 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
 }
 
 // The shortest multiple of a turn after which every element that depends on an angle is back.
-MachineCycle cycle_of(const Model& m) {
+CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->uses_angle()) period.push_back(e.element->angle_period() / std::abs(m.node_ratio[at_index(e.node)]));

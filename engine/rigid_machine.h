@@ -14,11 +14,11 @@
 namespace kurbel {
 
 // Angle of one cycle of the reduction link, see RigidMachine::cycle().
-struct MachineCycle {
+struct CyclePeriod {
   double angle = 0;  // [rad]
   bool periodic = true;
 };
-MachineCycle cycle_of(const Model& model);
+CyclePeriod cycle_of(const Model& model);
 
 class RigidMachine {
  public:

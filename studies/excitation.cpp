@@ -68,7 +68,7 @@ OrderSource through(const std::vector<Complex>& t1, const std::vector<Complex>& 
 
 void find_orders(const LinearDrive& drive, double fastest, double highest_order, Excitations& found) {
   const Model& m = *drive.model;
-  const MachineCycle cycle = cycle_of(m);
+  const CyclePeriod cycle = cycle_of(m);
   found.fundamental = 2 * pi / cycle.angle;
   found.harmonics = static_cast<std::size_t>(std::max(1.0, std::floor(highest_order / found.fundamental + 1e-9)));
   std::vector<std::size_t> elements;
@@ -186,7 +186,7 @@ Excitations find_excitations(const LinearDrive& drive, double fastest, double hi
 
 std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::VectorXd& shape, std::size_t harmonics) {
   const Model& m = *drive.model;
-  const MachineCycle cycle = cycle_of(m);
+  const CyclePeriod cycle = cycle_of(m);
   std::size_t samples = 1024;
   while (samples < 8 * harmonics) samples *= 2;
   std::vector<double> modal(samples, 0.0);
