@@ -58,9 +58,8 @@ void add_modes_command(CLI::App& app, int& code) {
   command->add_option("--effects", arguments->effects,
                       "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
   command->add_option("--count", arguments->count, "number of modes (default: 20)");
-  command->add_option(
-      "--speed", arguments->speed,
-      "operating point, e.g. \"300 rpm\" of the reduction link (default: the scene's start, else rated)");
+  command->add_option("--speed", arguments->speed,
+                      "operating point, e.g. \"300 rpm\" of the reduction link (default: its start, else steady)");
   command->add_option("--angle", arguments->angle,
                       "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
   command

@@ -21,7 +21,7 @@ using Eigen::VectorXi;
 
 constexpr int block = 4;                 // vectors a step of the Krylov space
 constexpr double converged = 1e-10;      // residual of (A + s)⁻¹ x = θ x over θ
-constexpr double good_enough = 1e-6;     // residual that is handed out at all
+constexpr double good_enough = 1e-10;    // backward error that is handed out at all
 constexpr double shift_of_free = 1e-12;  // s over the largest eigenvalue, where rigid motions make K singular
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -104,6 +104,7 @@ UndampedModes collect(const LinearDrive& drive, const SparseMatrix& a, const Mat
   std::vector<Index> order(at(m));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(), [&](Index x, Index y) { return omega[x] < omega[y]; });
+  const double norm = largest_row_sum(a);
   UndampedModes modes;
   modes.rigid = static_cast<int>(r);
   modes.omega = VectorXd::Zero(r + m);
@@ -114,7 +115,7 @@ UndampedModes collect(const LinearDrive& drive, const SparseMatrix& a, const Mat
     const double w = omega[order[at(i)]];
     modes.omega[r + i] = w;
     modes.shapes.col(r + i) = scale.cwiseProduct(x);
-    modes.residual = std::max(modes.residual, (a * x - w * w * x).norm() / (w * w * x.norm()));
+    modes.residual = std::max(modes.residual, (a * x - w * w * x).norm() / (norm * x.norm()));
   }
   modes.complete = r + m == drive.size();
   return modes;
@@ -402,7 +403,7 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
       modes.complete || last == 0 ? static_cast<int>(found) : count_below(a, std::pow(last * (1 + 1e-9), 2));
   if (!(modes.residual < good_enough))
     throw std::runtime_error(
-        "the modes were not found to a residual of 1e-6: the springs' stiffnesses lie too far apart");
+        "the modes were not found to a backward error of 1e-10: the springs' stiffnesses lie too far apart");
   return modes;
 }
 

@@ -22,13 +22,13 @@ struct UndampedModes {
   int rigid = 0;           // motions without twist: ω = 0 exactly; they come first
   Eigen::VectorXd omega;   // ascending [rad/s]
   Eigen::MatrixXd shapes;  // columns; M-orthonormal
-  double residual = 0;  // largest ‖K v − ω² M v‖ over ‖ω² M v‖ in the norm of M⁻¹, rigid ones left out
+  double residual = 0;  // backward error: largest ‖A x − ω² x‖/‖A‖, A = M^(−½) K M^(−½), ‖x‖ = 1
   bool complete = false;  // all modes of the drive
   int counted_below = 0;  // by Sturm, up to just above the last one: equals what was found
   int basis = 0;          // vectors that the search needed; 0: dense
 };
 
-// The lowest modes. Throws std::runtime_error where they cannot be found to a residual of 1e-6.
+// The lowest modes. Throws std::runtime_error where they cannot be found to a backward error of 1e-10.
 UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted = {});
 
 // Number of modes with ω < omega, rigid ones included.

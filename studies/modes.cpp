@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/run.h"
 #include "studies/simulate.h"
 
 namespace kurbel {
@@ -77,7 +78,7 @@ class Study {
   }
 
   void find_operating_point() {
-    const double speed = options_.speed.value_or(usual_speed(*model_));
+    const double speed = options_.speed.value_or(steady_or_usual_speed());
     found_.drive = linearise(model_, {.speed = speed, .angle = options_.angle});
     const double torque = found_.drive.mean_torque;
     if (speed != 0 && std::abs(torque) > 0.01 * model_->torque_scale)
@@ -85,6 +86,22 @@ class Study {
           "at {:.5g} 1/min the machine is not in steady motion: {:.4g} N·m on {} are left over; mean torques are those "
           "of the machine that accelerates as a whole",
           rpm(speed), torque, found_.link));
+  }
+
+  // A machine that starts from rest is looked at where it runs steadily near its rated speed, if it does: mean torques
+  // balance, and a faster motion is braked.
+  double steady_or_usual_speed() const {
+    const double rated = usual_speed(*model_);
+    if (model_->scene.run.start.speed != 0 || model_->free_shafts < model_->shafts.size()) return rated;
+    const auto left = [&](double speed) { return linearise(model_, {.speed = speed, .positions = 16}).mean_torque; };
+    double high = 1.05 * rated, above = left(high);
+    for (int i = 1; i <= 60 && above <= 0; ++i) {
+      const double low = rated * (1.05 - 0.01 * i), below = left(low);
+      if (below > 0) return find_root(left, low, below, high, above);
+      high = low;
+      above = below;
+    }
+    return rated;
   }
 
   static double rpm(double speed) { return speed * 30 / pi; }
@@ -132,6 +149,7 @@ class Study {
         const double like = std::abs(moved.dot(d.shape)) / norm * near;
         if (like > best) best = like, which = i;
       }
+      mode.ratio = 1;  // until a swing is found that grows out of it
       if (best < 0.3) continue;
       used[which] = 1;
       mode.lambda = found_.damped[which].lambda;

@@ -20,13 +20,13 @@
 namespace kurbel {
 
 struct ModesOptions {
-  int count = 20;                   // of modes, rigid motion not counted
-  std::optional<double> speed;      // of the reduction link [rad/s]; default: start speed, else rated
-  std::optional<double> angle;      // holds the link there instead of averaging over the cycle [rad]
-  double slowest = 0, fastest = 0;  // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
-  double orders = 0;                // highest order; 0: 12, or what reaches the second mode, up to 24
-  double barred_factor = 1;         // a joint without limits: barred where its swing exceeds this times its mean
-  std::string torque;               // channel to simulate: "main_coupling"; empty: none
+  int count = 20;                    // of modes, rigid motion not counted
+  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: start speed, else steady near the rated
+  std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
+  double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
+  double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
+  double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its mean
+  std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress = {};
   std::function<void(const std::string&)> log = {};

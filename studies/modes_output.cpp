@@ -55,7 +55,8 @@ std::string conclusion_of(const Modes& m) {
     text = "The drive has no mode with twist.";
   } else {
     text = fmt::format("First mode at {:.6g} Hz{}", hertz(m.modes.front().omega),
-                       m.modes.front().ratio > 0 ? fmt::format(" (ζ = {:.3g})", m.modes.front().ratio) : "");
+                       m.modes.front().lambda.imag() > 0 ? fmt::format(" (ζ = {:.3g})", m.modes.front().ratio)
+                                                         : " undamped (it does not swing: ζ ≥ 1)");
     if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
   }
   if (is_forced(m)) {

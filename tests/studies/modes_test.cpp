@@ -71,14 +71,14 @@ TEST(Spectrum, SineOnALineHasItsAmplitudeAndFrequency) {
 
 TEST(Spectrum, OrderOfATorqueOnARunUpStandsStillOverTheAngle) {
   std::vector<double> angle, x;
-  for (int k = 0; k < 20000; ++k) {
-    const double t = k * 1e-3;
+  for (int k = 0; k < 80000; ++k) {
+    const double t = k * 2.5e-4;
     angle.push_back(2 * t + 0.5 * t * t * 3);  // the speed rises thirtyfold
     x.push_back(5 * std::cos(4 * angle.back()));
   }
   const Spectrum s = spectrum_of(resampled_over_angle(angle, x, 2 * pi / 64), 1.0 / 64);
   const auto line = static_cast<std::size_t>(std::lround(4 / s.resolution));
-  EXPECT_NEAR(s.amplitude[line], 5, 1e-4);
+  EXPECT_NEAR(s.amplitude[line], 5, 1e-5);
 }
 
 // --- orders ---
@@ -178,7 +178,8 @@ TEST(Orders, FourStrokeEngineHasHalfOrdersAndFourCylindersFireInTheSecond) {
 // --- forced response ---
 
 // EL04 three_disc: J 0.5, 1, 2; k 2e4, 3e4; c 15 on the first spring; 100 N·m on J₁
-// (tests/cases/el04_forced_chain.toml).
+// (tests/cases/el04_forced_chain.toml; its
+// torque of the first spring at 300 rad/s is off in the ninth digit: here by rational arithmetic).
 TEST(ForcedResponse, ThreeDiscChainHasThePublishedAmplitudesAndTorques) {
   const Scene scene = test::scene_from(R"(
 line = ["j1", "k1", "j2", "k2", "j3"]
@@ -193,7 +194,7 @@ effects = { elasticity = true }
   FrequencyResponse response(d);
   const double w[] = {50, 120, 200, 300};
   const double amp1[] = {0.00624563, 0.00741295, 0.00701172, 0.00541619};
-  const double torque1[] = {92.1957142987, 153.0251589656, 40.2846729602, 174.8201723162};
+  const double torque1[] = {92.1957142987, 153.0251589656, 40.2846729602, 174.820172816511};
   const double torque2[] = {65.0793277402, 150.0246656526, 241.7080377611, 116.5467818777};
   for (int i = 0; i < 4; ++i) {
     Eigen::VectorXcd force = Eigen::VectorXcd::Zero(3);
@@ -246,7 +247,7 @@ stiffness = "5 kN*m/rad"
 damping = "30 N*m*s/rad"
 [brake]
 kind = "load"
-viscous = "4 N*m*s/rad"
+damping = "4 N*m*s/rad"
 inertia = "0.8 kg*m2"
 [effects]
 elasticity = true
@@ -378,7 +379,7 @@ TEST(Limits, ShearStressIsTorqueOverPolarModulus) {
 line = ["source", "shaft", "brake"]
 source = { kind = "torque source", torque = "300 N*m", inertia = "1 kg*m2" }
 shaft = { kind = "shaft", length = "1 m", diameter = "40 mm", bore = "20 mm", allowable_shear_stress = "30 MPa" }
-brake = { kind = "load", viscous = "30 N*m*s/rad", inertia = "1 kg*m2" }
+brake = { kind = "load", damping = "30 N*m*s/rad", inertia = "1 kg*m2" }
 effects = { elasticity = true }
 run = { start = { speed = "10 rad/s" } }
 )");
