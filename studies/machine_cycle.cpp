@@ -184,16 +184,16 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
         "no torque of the machine depends on its speed: every speed is as steady as any other, and the mean speed must "
         "be given; write e.g. --mean-speed \"60 rpm\"");
   const double top = 2 * machine.model().speed_scale;
-  constexpr int steps = 80;
   struct At {
     double speed;
     MeanTorque mean;
   };
   std::vector<At> scan;
-  for (int i = 1; i <= steps; ++i) {
-    const double speed = top * i / steps;
-    scan.push_back({speed, mean_torque(machine, speed)});
-  }
+  const auto look = [&](double speed) { scan.push_back({speed, mean_torque(machine, speed)}); };
+  // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
+  constexpr int steps = 80;
+  for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
+  for (int i = 1; i <= steps; ++i) look(top * i / steps);
   OperatingSpeed found;
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     if (!(scan[i].mean.net() > 0 && scan[i + 1].mean.net() <= 0)) continue;

@@ -13,6 +13,9 @@
 namespace kurbel {
 namespace {
 
+// Rounding of the sums, not a harmonic.
+bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude < 1e-10 * std::sqrt(s.mean_square); }
+
 using Json = nlohmann::ordered_json;
 constexpr double degrees = 180 / std::numbers::pi;
 // No minus before a zero.
@@ -135,7 +138,7 @@ Table harmonics_table(const MachineReduction& r) {
     std::vector<std::string> cells = {number(r.spectra.front().harmonics[n].order, 4)};
     for (const Spectrum& s : r.spectra) {
       const Harmonic& h = s.harmonics[n];
-      const bool dust = h.amplitude < 1e-10 * std::sqrt(s.mean_square);
+      const bool dust = is_dust(h, s);
       cells.push_back(number(dust ? 0.0 : h.amplitude, 6));
       cells.push_back(n == 0 || dust || h.amplitude == 0 ? "—" : phase_text(h.phase));
     }
@@ -331,7 +334,7 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
             .bars = true};
   for (std::size_t n = 1; n < s.harmonics.size(); ++n) {
     plot.series[0].x.push_back(s.harmonics[n].order);
-    plot.series[0].y.push_back(s.harmonics[n].amplitude);
+    plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude);
   }
   return plot;
 }
@@ -374,7 +377,7 @@ Plot chain_plot(const MachineReduction& r) {
             .x = {"compliance from the first inertia", "µrad/(N·m)"},
             .y = {"", ""},
             .series = {},
-            .note = "Height of a disc: cube root of its reduced inertia."};
+            .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (const ChainSpring& s : chain.springs) {
     const Place a = places[s.a], b = places[s.b];
     plot.series.push_back({.name = fmt::format("{}: k = {:.4g} N·m/rad", s.name, s.reduced_stiffness),
@@ -386,7 +389,7 @@ Plot chain_plot(const MachineReduction& r) {
     const ChainInertia& i = chain.inertias[k];
     const double height = largest > 0 ? std::max(0.05, std::cbrt(i.reduced / largest)) : 1, width = 4e3 * length,
                  x = 1e6 * places[k].x, y = -2.5 * places[k].row;
-    plot.series.push_back({.name = fmt::format("J{} = {:.4g} kg·m² ({})", k + 1, i.reduced, i.name),
+    plot.series.push_back({.name = fmt::format("J{} = {:.4g} kg·m²", k + 1, i.reduced),
                            .role = further_role(k),
                            .x = {x - width, x + width, x + width, x - width, x - width},
                            .y = {y - height, y - height, y + height, y + height, y - height}});
@@ -446,7 +449,9 @@ Report report_of(const MachineReduction& r) {
   drive.cards.push_back(chain_table(r));
   if (!r.spectra.empty()) {
     ReportSection& spectra = report.add("Harmonics");
-    for (const Spectrum& s : r.spectra) spectra.cards.push_back(harmonics_plot(s, r.link));
+    for (const Spectrum& s : r.spectra)
+      if (std::any_of(s.harmonics.begin() + 1, s.harmonics.end(), [&](const Harmonic& h) { return !is_dust(h, s); }))
+        spectra.cards.push_back(harmonics_plot(s, r.link));
     spectra.cards.push_back(harmonics_table(r));
   }
   std::string notes;

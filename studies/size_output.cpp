@@ -588,7 +588,11 @@ void add_motor_section(Report& report, const Sizing& s) {
         .symbols = "δ(I₀) = δ",
         .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % less than at constant torque",
                                s.soft->drive_inertia, s.soft->flywheel,
-                               100 * (1 - s.soft->flywheel / exact_method(s).flywheel))});
+                               100 * (1 - s.soft->flywheel / exact_method(s).flywheel)),
+        .note =
+            s.soft_cycle && s.soft_cycle->found
+                ? fmt::format("Its mean speed (ω_max + ω_min)/2 is then {:.6g} rpm.", rpm(s.soft_cycle->mean_speed()))
+                : ""});
   if (auto plot = speed_plot(s)) section.cards.push_back(std::move(*plot));
   if (!s.reached.empty()) section.cards.push_back(reached_table(s));
 }

@@ -263,7 +263,8 @@ TEST(ReturnMap, PrescribedSpeedGivesThePeriodAndItsCrankFollows) {
 TEST(ReturnMap, DerivativeHoldsThroughStandstill) {
   const auto model = model_of(
       "line = [\"source\", \"c\", \"load\"]\n"
-      "source = { kind = \"torque source\", torque = \"6 N*m\", amplitude = \"9 N*m\", frequency = \"2 Hz\", inertia = "
+      "source = { kind = \"torque source\", torque = \"5 N*m\", amplitude = \"9 N*m\", frequency = \"0.7 Hz\", inertia "
+      "= "
       "\"0.2 kg*m2\" }\n"
       "c = { kind = \"coupling\", stiffness = \"60 N*m/rad\", damping = \"0.8 N*m*s/rad\" }\n"
       "load = { kind = \"load\", torque = \"5 N*m\", damping = \"0.2 N*m*s/rad\", inertia = \"0.1 kg*m2\" }\n"
@@ -273,18 +274,18 @@ TEST(ReturnMap, DerivativeHoldsThroughStandstill) {
   ASSERT_TRUE(p.found);
   Equations equations(model, false);
   RunOptions run{
-      .tolerance = 1e-10, .method = "auto", .until = 0.5, .budget = 10, .interrupted = nullptr, .progress = {}};
+      .tolerance = 1e-10, .method = "auto", .until = 1 / 0.7, .budget = 10, .interrupted = nullptr, .progress = {}};
   run.from = {0, map.place(equations, p.z)};
   int rests = 0;
   for (const Event& e : integrate(equations, run, {}).events) rests += e.what == "comes to rest and is held";
   EXPECT_EQ(rests, 1);
-  const double h = 1e-6;
+  const double h = 1e-5;
   for (Eigen::Index j = 0; j < p.z.size(); ++j) {
     Eigen::VectorXd above = p.z, below = p.z;
     above[j] += h;
     below[j] -= h;
     const Eigen::VectorXd difference = (map.image(above, false).z - map.image(below, false).z) / (2 * h);
-    EXPECT_LT((difference - p.derivative.col(j)).cwiseAbs().maxCoeff(), 2e-6);
+    EXPECT_LT((difference - p.derivative.col(j)).cwiseAbs().maxCoeff(), 1e-8);
   }
 }
 

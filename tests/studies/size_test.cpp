@@ -109,12 +109,17 @@ TEST(Size, SteadyCycleAgreesWithALongSimulation) {
   EXPECT_NEAR(cycle.drive.total(), 540, 1e-7);
 }
 
-// The same operating speed, ever steeper characteristics: the motor does more of the blow's work itself.
-TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
+// A press on a motor of this slope whose operating speed is 8 rad/s.
+Sizing sized_with_slope(double slope) {
   const double mean = 540 / (2 * pi);
+  return size_flywheel(test::scene_from(press(straight(slope * 8 + mean, 8 + mean / slope))), demand(0.1));
+}
+
+// Ever steeper characteristics: the motor does more of the blow's work itself.
+TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
   double last = HUGE_VAL;
-  for (const double slope : {3.0, 10.0, 30.0, 100.0}) {  // N·m·s/rad
-    const Sizing s = size_flywheel(test::scene_from(press(straight(slope * 8 + mean, 8 + mean / slope))), demand(0.1));
+  for (const double slope : {100.0, 200.0, 400.0}) {  // N·m·s/rad
+    const Sizing s = sized_with_slope(slope);
     ASSERT_TRUE(s.operating);
     EXPECT_NEAR(s.mean_speed, 8, 1e-9);
     EXPECT_NEAR(s.operating->slope, -slope, 1e-4 * slope);
@@ -123,6 +128,20 @@ TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
     EXPECT_NEAR(s.soft_cycle->delta(), 0.1, 1e-10);
     last = s.soft->drive_inertia;
   }
+}
+
+// The limit of a characteristic without slope is the classical case at the mean speed that the machine then has.
+TEST(Size, MotorWithoutSlopeNeedsTheFlywheelOfWittenbauer) {
+  const auto difference = [](double slope) {
+    const Sizing s = sized_with_slope(slope);
+    EXPECT_TRUE(s.soft && s.soft_cycle->found) << s.soft_why;
+    const double classical = wittenbauer(s.diagram, s.cycle.mechanism, s.soft_cycle->mean_speed(), 0.1).inertia;
+    return std::abs(s.soft->drive_inertia / classical - 1);
+  };
+  const double steep = difference(1), half = difference(0.5), soft = difference(0.1);
+  EXPECT_LT(steep, 1e-3);
+  EXPECT_LT(half, 0.6 * steep + 1e-9);
+  EXPECT_LT(soft, 0.3 * half + 1e-9);
 }
 
 TEST(Size, FlywheelOnAFasterShaftIsSmallerByTheSquareOfTheRatio) {
