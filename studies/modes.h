@@ -38,7 +38,7 @@ struct Mode {
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
   std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
-  double ratio = 0;             // ζ
+  double ratio = 1;             // ζ; 1: does not swing
 };
 
 struct CriticalSpeed {
