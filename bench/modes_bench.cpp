@@ -8,26 +8,26 @@ namespace {
 // A trunk with a geared branch of four inertias at every fifth of its own.
 std::shared_ptr<const Model> branched_and_geared(int n) {
   Network net;
-  const auto inertia = [&](int i, double j) {
-    const std::string name = "j" + std::to_string(i);
+  int i = 0, trunk = -1, springs = 0;
+  const auto inertia = [&](double j) {
+    const std::string name = "j" + std::to_string(i++);
     const int node = net.add_node(name, "", j);
     net.ports[name] = {node, node};
     net.components.push_back(name);
     return node;
   };
-  int i = 0, trunk = -1, springs = 0;
   const auto spring = [&](int a, int b, double k) {
     net.connect(a, b, 1, "k" + std::to_string(springs++), Coupling{k, 1e-5 * k});
   };
   while (i < n) {
-    const int here = inertia(i++, 0.01 + 0.001 * (i % 7));
+    const int here = inertia(0.01 + 0.001 * (i % 7));
     if (trunk >= 0) spring(trunk, here, 1e5);
     trunk = here;
     if (i % 9 != 5) continue;
-    const int wheel = inertia(i++, 0.002);
+    const int wheel = inertia(0.002);
     net.join(here, wheel, 2.5, "gear" + std::to_string(i));
     for (int k = 0, before = wheel; k < 4 && i < n; ++k) {
-      const int next = inertia(i++, 0.004);
+      const int next = inertia(0.004);
       spring(before, next, 3e4 + 10 * i);
       before = next;
     }

@@ -74,7 +74,8 @@ class Lineariser {
 
   // Mean torque of the elements on every shaft at uniform speed.
   void average_torques() {
-    torque_.assign(m_.shafts.size(), 0.0);
+    torque_ = drive_.at.added;
+    torque_.resize(m_.shafts.size(), 0.0);
     for (const double angle : angles_) {
       const Snapshot& s = equations_.snapshot(0, state(angle));
       for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {

@@ -24,6 +24,7 @@ struct OperatingPoint {
   double speed = 0;                  // of the reduction link [rad/s]; 0: at rest
   std::optional<double> angle = {};  // of the reduction link [rad]; empty: averaged over the cycle
   int positions = 64;                // of the average, a turn: spectrally exact for smooth dependence
+  std::vector<double> added = {};    // per shaft: mean torque beyond what acts at t = 0 [N·m]; empty: none
 };
 
 struct LinearDrive {

@@ -184,6 +184,13 @@ Excitations find_excitations(const LinearDrive& drive, double fastest, double hi
   return found;
 }
 
+std::vector<double> mean_beyond_start(const LinearDrive& drive, const Excitations& excitations) {
+  std::vector<double> added(drive.model->shafts.size(), 0.0);
+  for (const FrequencySource& source : excitations.by_frequency)
+    added[at(drive.shaft[at(source.coordinate)])] -= source.amplitude.real();
+  return added;
+}
+
 std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::VectorXd& shape, std::size_t harmonics) {
   const Model& m = *drive.model;
   const CyclePeriod cycle = cycle_of(m);

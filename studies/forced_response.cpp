@@ -16,8 +16,6 @@ using ComplexSparse = Eigen::SparseMatrix<Complex>;
 
 constexpr Index small_drive = 24;  // coordinates: dense
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Value, slope and curvature of Re Σ x_r e^{irs}.
 struct Local {
   double value = 0, slope = 0, curvature = 0;

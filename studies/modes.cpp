@@ -80,6 +80,10 @@ class Study {
   void find_operating_point() {
     const double speed = options_.speed.value_or(steady_or_usual_speed());
     found_.drive = linearise(model_, {.speed = speed, .angle = options_.angle});
+  }
+
+  void note_unsteady_motion() {
+    const double speed = found_.drive.at.speed;
     const double torque = found_.drive.mean_torque;
     if (speed != 0 && std::abs(torque) > 0.01 * model_->torque_scale)
       found_.notes.push_back(fmt::format(
@@ -193,6 +197,12 @@ class Study {
   void find_forcing() {
     found_.excitations = find_excitations(found_.drive, found_.fastest, found_.highest_order);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
+    if (!found_.excitations.by_frequency.empty()) {
+      OperatingPoint point = found_.drive.at;
+      point.added = mean_beyond_start(found_.drive, found_.excitations);
+      found_.drive = linearise(model_, point);
+    }
+    note_unsteady_motion();
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
       found_.notes.push_back(
           "nothing in the scene excites the drive by order or frequency: no torque depends on an "

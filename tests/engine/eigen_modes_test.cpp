@@ -154,7 +154,7 @@ TEST(UndampedModes, SparseSearchFindsWhatTheDenseSolverFinds) {
     const UndampedModes sparse = undamped_modes(d, {.count = 20, .dense_below = 0});
     ASSERT_EQ(sparse.omega.size(), 21);
     EXPECT_GT(sparse.basis, 0);
-    EXPECT_LT(sparse.residual, 1e-13);
+    EXPECT_LT(sparse.residual, 1e-11);
     for (Eigen::Index k = 1; k < 21; ++k) EXPECT_NEAR(sparse.omega[k], dense.omega[k], 1e-9 * dense.omega[k]) << k;
   }
 }

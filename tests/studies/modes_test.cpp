@@ -260,7 +260,7 @@ accuracy = 1e-9
 // Steady for the last periods of a long run: mean ± amplitude of the torques equal the forced response.
 TEST(ForcedResponse, LongSimulationSettlesToIt) {
   Scene scene = test::scene_from(shaken);
-  const SpeedResponse response = respond(drive_of(scene, 10), find_excitations(drive_of(scene, 10), 20, 4));
+  const SpeedResponse response = find_modes(scene, scene.effects, {}).here;
   scene.run.samples = 28001;
   const Result run = test::run(scene, false);
   for (std::size_t j = 0; j < 2; ++j) {
