@@ -23,10 +23,11 @@ extern "C" void on_interrupt(int) {
   if (interrupt_seen.exchange(true)) _exit(exit_interrupted);
 }
 
-// results/<scene's name> unless asked otherwise.
+// results/SCENE, or results/SCENE/STUDY, unless asked otherwise: no study writes over another's report.
 std::filesystem::path folder_of(const StudyOptions& options) {
   if (!options.out.empty()) return options.out;
-  return std::filesystem::path("results") / std::filesystem::path(options.scene).stem();
+  const auto folder = std::filesystem::path("results") / std::filesystem::path(options.scene).stem();
+  return options.study.empty() ? folder : folder / options.study;
 }
 
 // A browser, where the desktop has one.
@@ -50,10 +51,12 @@ void add_scene(CLI::App& command, std::string& scene) {
   command.add_option("scene", scene, "scene file (TOML)")->required();
 }
 
-void add_study_options(CLI::App& command, StudyOptions& options) {
+void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study) {
+  options.study = study;
   add_scene(command, options.scene);
   command.add_option("--out", options.out,
-                     "folder for report.html, summary.json and tables as CSV (default: results/SCENE)");
+                     "folder for report.html, summary.json and tables as CSV (default: results/SCENE" +
+                         (study.empty() ? ")" : "/" + study + ")"));
   command.add_flag("--no-files", options.no_files, "print only");
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,

@@ -20,11 +20,12 @@ void catch_interrupts();
 
 // Options that every study on a scene has.
 struct StudyOptions {
+  std::string study;  // its results go into a folder of this name within the scene's; empty: the scene's own
   std::string scene, out;
   bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
 };
 void add_scene(CLI::App& command, std::string& scene);
-void add_study_options(CLI::App& command, StudyOptions& options);
+void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study = "");
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {

@@ -43,7 +43,7 @@ void add_forces_command(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "forces",
       "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank");
-  add_study_options(*command, arguments->study);
+  add_study_options(*command, arguments->study, "forces");
   command->add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
   command->add_option("--speed", arguments->speed,
                       "speed of the crank in the first problem, e.g. \"300 rpm\" (default: the scene's start speed)");

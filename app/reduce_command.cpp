@@ -26,7 +26,7 @@ int reduce_scene(ReduceArguments arguments) {
 void add_reduce_command(CLI::App& app, int& code) {
   const auto arguments = std::make_shared<ReduceArguments>();
   CLI::App* command = app.add_subcommand("reduce", "inertia, torques and drive reduced to one shaft or slider");
-  add_study_options(*command, arguments->study);
+  add_study_options(*command, arguments->study, "reduce");
   command->add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");
   command->add_option("--to", arguments->options.to,
                       "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)");

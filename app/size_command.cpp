@@ -40,7 +40,7 @@ void add_size_command(CLI::App& app, int& code) {
   const auto arguments = std::make_shared<SizeArguments>();
   CLI::App* command = app.add_subcommand("size", "the flywheel that keeps the speed's fluctuation δ within bounds");
   SizeOptions& o = arguments->options;
-  add_study_options(*command, arguments->study);
+  add_study_options(*command, arguments->study, "size");
   command->add_option("--delta", o.delta, "demanded δ = (ω_max − ω_min)/ω_mean, e.g. 0.05");
   command->add_option("--machine", o.machine,
                       "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");

@@ -62,7 +62,7 @@ void add_steady_command(CLI::App& app, int& code) {
   const auto arguments = std::make_shared<SteadyArguments>();
   CLI::App* command =
       app.add_subcommand("steady", "the steady cycle directly: its figures, its stability, operating points");
-  add_study_options(*command, arguments->study);
+  add_study_options(*command, arguments->study, "steady");
   command->add_option("--effects", arguments->effects,
                       "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
   command->add_option("--mean-speed", arguments->mean_speed,

@@ -79,6 +79,7 @@ void Equations::settle_directions(double t, std::span<double> y, const std::vect
   for (const std::size_t s : shafts) {
     if (s >= m.free_shafts) continue;
     direction_[s] = 0;
+    for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
     for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());

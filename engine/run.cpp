@@ -49,8 +49,8 @@ class FlushDenormals {
 #endif
 };
 
-// A guard that is this far below zero (of a scale of one) has fired.
-constexpr double fired_below = -1e-11;
+// A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
+constexpr double fired_below = -1e-11, at_root = 1e-13;
 constexpr int most_events_at_once = 100;
 
 // Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
@@ -224,7 +224,7 @@ class Loop {
       for (std::size_t k = 0; k < below.size(); ++k) {
         value[k] = guard_before_[below[k]];
         for (const double part : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6}) {
-          if (value[k] > 0) break;
+          if (value[k] > at_root) break;
           from[k] = t0 + part * (t1 - t0);
           value[k] = guard_at(from[k], below[k]);
         }

@@ -398,7 +398,7 @@ void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) co
       const SliderState<double> s = slider(p, now, k);
       std::visit(
           [&](const auto& law) {
-            if constexpr (Directional<std::decay_t<decltype(law)>>) {
+            if constexpr (requires { law.hold(s); }) {
               const Hold force = law.hold(s);
               const Hold torque = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio}
                                              : Hold{force.high * ratio, force.low * ratio};

@@ -153,7 +153,9 @@ struct PressForce {
   }
 };
 
-// Force over travel by table, with a branch of its own for the return stroke where one is given.
+// Force over travel by table, with a branch of its own for the return stroke where one is given. At standstill it has
+// the value of that branch, and holds what the approaching one resists more, as gas between its valves does: the true
+// force then lies anywhere between the branches.
 struct TravelForce {
   WorkingEnd end;
   Curve approach, retreat;  // over the distance to the working end; retreat may be empty
@@ -165,6 +167,13 @@ struct TravelForce {
     return -static_cast<double>(end.side) * branch(s.travel).value_in(s.mode, end.distance(s.x));
   }
   bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    if (retreat.empty()) return {};
+    const double d = end.distance(s.x);
+    const double more = approach.value(d) - retreat.value(d);
+    if (more <= 0) return {};
+    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+  }
   void guard(const SliderState<double>& s, double* g) const {
     PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
   }

@@ -61,8 +61,16 @@ class Figures {
       const ExtremeOf& wanted = run_.extremes->wanted()[i];
       const ExtremeRecorder::Found& found = run_.extremes->found()[i];
       if (found.any)
-        add(wanted.name, found.value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(found.value), found.time);
+        add(wanted.name, found.value, wanted.unit,
+            wanted.scale > 0 ? wanted.scale : std::max(std::abs(found.value), least_scale(wanted.unit)), found.time);
     }
+  }
+  // What is this small is rounding, and is not judged by its own size: a slider that should stand still.
+  double least_scale(const std::string& unit) const {
+    constexpr double nothing = 1e-9;
+    if (unit == "N*m" || unit == "N") return nothing * model_.torque_scale;
+    const double speed = nothing * model_.speed_scale;
+    return unit == "m/s2" || unit == "rad/s2" ? speed * model_.speed_scale : speed;
   }
   void collect_rms() {
     if (run_.outcome.t <= 0) return;
@@ -140,6 +148,7 @@ class Simulation {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(),
                     settings_.until));
+    note_balanced_start();
     double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
     result_.runs = 1;
@@ -228,6 +237,25 @@ class Simulation {
                     run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
     if (result_.runs == 0) log(fmt::format("  chosen because: {}", s.reason));
     return run;
+  }
+
+  // At rest with no torque on any shaft, and nothing to come at a later time: a dead centre under load, or balance.
+  void note_balanced_start() {
+    const Model& m = *model_;
+    const std::vector<double> y = equations_.start(0);
+    const Snapshot& s = equations_.snapshot(0, y);
+    bool any_mechanism = false;
+    for (std::size_t k = 0; k < m.free_shafts; ++k) {
+      const Shaft& shaft = m.shafts[k];
+      if (s.now.speed[k] != 0 || std::abs(s.sums.torque[k]) > 1e-9 * shaft.torque_scale || equations_.at_standstill(k))
+        return;
+      any_mechanism = any_mechanism || shaft.variable;
+    }
+    if (!any_mechanism || m.free_shafts < m.shafts.size() || equations_.next_edge(0) < settings_.until) return;
+    result_.notes.push_back(fmt::format(
+        "the machine starts at rest where no torque moves it ({:.4g}° of \"{}\"): a dead centre or a balance. Rounding "
+        "decides when and which way it leaves, if ever; start it a little off, or with a speed",
+        s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
   }
 
   static bool took_the_same_steps(const OneRun& a, const OneRun& b) {
