@@ -79,6 +79,7 @@ class Lineariser {
     for (const double angle : angles_) {
       const Snapshot& s = equations_.snapshot(0, state(angle));
       for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
+        if (!drive_.at.angle_torques && m_.network.elements[e].element->uses_angle()) continue;
         const std::size_t n = at(m_.network.elements[e].node);
         torque_[at(m_.shaft_of_node[n])] +=
             m_.gain_of_node[n] * s.sums.element_torque[e] / static_cast<double>(angles_.size());

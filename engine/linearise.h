@@ -23,8 +23,9 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 struct OperatingPoint {
   double speed = 0;                  // of the reduction link [rad/s]; 0: at rest
   std::optional<double> angle = {};  // of the reduction link [rad]; empty: averaged over the cycle
-  int positions = 64;                // of the average, a turn: spectrally exact for smooth dependence
+  int positions = 512;               // of the average, a turn: piecewise loads have edges anywhere
   std::vector<double> added = {};    // per shaft: mean torque beyond what acts at t = 0 [N·m]; empty: none
+  bool angle_torques = true;         // false: `added` holds the mean of what depends on the angle
 };
 
 struct LinearDrive {

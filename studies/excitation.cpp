@@ -191,6 +191,13 @@ std::vector<double> mean_beyond_start(const LinearDrive& drive, const Excitation
   return added;
 }
 
+std::vector<double> mean_of_angle(const LinearDrive& drive, const Excitations& excitations, double speed) {
+  std::vector<double> mean(drive.model->shafts.size(), 0.0);
+  for (const OrderSource& source : excitations.by_order)
+    mean[at(drive.shaft[at(source.coordinate)])] += source.at(0, speed).real();
+  return mean;
+}
+
 std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::VectorXd& shape, std::size_t harmonics) {
   const Model& m = *drive.model;
   const CyclePeriod cycle = cycle_of(m);

@@ -60,6 +60,9 @@ Excitations find_excitations(const LinearDrive& drive, double fastest, double hi
 // What swings over time counts with its mean: what to add per shaft to its torque at t = 0.
 std::vector<double> mean_beyond_start(const LinearDrive& drive, const Excitations& excitations);
 
+// Mean torques per shaft, at a speed, of all that depends on the angle.
+std::vector<double> mean_of_angle(const LinearDrive& drive, const Excitations& excitations, double speed);
+
 // Variation of the mechanisms' inertia in a mode, relative to its modal inertia: ε_r of vᵀ(M(φ) − M̄)v, vᵀM̄v = 1.
 std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::VectorXd& shape, std::size_t harmonics);
 

@@ -97,7 +97,15 @@ class Study {
   double steady_or_usual_speed() const {
     const double rated = usual_speed(*model_);
     if (model_->scene.run.start.speed != 0 || model_->free_shafts < model_->shafts.size()) return rated;
-    const auto left = [&](double speed) { return linearise(model_, {.speed = speed, .positions = 16}).mean_torque; };
+    const LinearDrive coarse = linearise(model_, {.speed = rated, .positions = coarse_positions});
+    const Excitations loads = find_excitations(coarse, 1.25 * rated, 1);
+    const auto left = [&](double speed) {
+      return linearise(model_, {.speed = speed,
+                                .positions = coarse_positions,
+                                .added = mean_of_angle(coarse, loads, speed),
+                                .angle_torques = false})
+          .mean_torque;
+    };
     double high = 1.05 * rated, above = left(high);
     for (int i = 1; i <= 60 && above <= 0; ++i) {
       const double low = rated * (1.05 - 0.01 * i), below = left(low);
@@ -211,9 +219,16 @@ class Study {
   }
 
   LinearDrive drive_at(double speed) const {
-    return linearise(
-        model_,
-        {.speed = std::copysign(speed, found_.drive.at.speed), .angle = options_.angle, .positions = coarse_positions});
+    const double signed_speed = std::copysign(speed, found_.drive.at.speed);
+    OperatingPoint point{.speed = signed_speed, .angle = options_.angle, .positions = coarse_positions};
+    point.added = found_.drive.at.added;
+    if (!options_.angle) {
+      point.angle_torques = false;
+      point.added.resize(model_->shafts.size(), 0.0);
+      const std::vector<double> mean = mean_of_angle(found_.drive, found_.excitations, signed_speed);
+      for (std::size_t s = 0; s < mean.size(); ++s) point.added[s] += mean[s];
+    }
+    return linearise(model_, point);
   }
 
   // Where an order that has any strength meets a mode.
