@@ -54,7 +54,7 @@ struct Excitations {
   double strength(std::size_t harmonic, double speed) const;
 };
 
-// Harmonics up to highest_order, of those speeds up to fastest [rad/s].
+// Harmonics up to highest_order, for speeds from 0 to fastest [rad/s]; fastest < 0: the machine turns backwards.
 Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order);
 
 // What swings over time counts with its mean: what to add per shaft to its torque at t = 0.

@@ -116,6 +116,7 @@ class Study {
     return rated;
   }
 
+  double signed_speed(double speed) const { return std::copysign(speed, found_.drive.at.speed); }
   static double rpm(double speed) { return speed * 30 / pi; }
 
   void find_all_modes() {
@@ -203,7 +204,7 @@ class Study {
   }
 
   void find_forcing() {
-    found_.excitations = find_excitations(found_.drive, found_.fastest, found_.highest_order);
+    found_.excitations = find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (!found_.excitations.by_frequency.empty()) {
       OperatingPoint point = found_.drive.at;
@@ -219,13 +220,12 @@ class Study {
   }
 
   LinearDrive drive_at(double speed) const {
-    const double signed_speed = std::copysign(speed, found_.drive.at.speed);
-    OperatingPoint point{.speed = signed_speed, .angle = options_.angle, .positions = coarse_positions};
+    OperatingPoint point{.speed = signed_speed(speed), .angle = options_.angle, .positions = coarse_positions};
     point.added = found_.drive.at.added;
     if (!options_.angle) {
       point.angle_torques = false;
       point.added.resize(model_->shafts.size(), 0.0);
-      const std::vector<double> mean = mean_of_angle(found_.drive, found_.excitations, signed_speed);
+      const std::vector<double> mean = mean_of_angle(found_.drive, found_.excitations, point.speed);
       for (std::size_t s = 0; s < mean.size(); ++s) point.added[s] += mean[s];
     }
     return linearise(model_, point);
@@ -236,11 +236,13 @@ class Study {
     const Excitations& x = found_.excitations;
     if (x.by_order.empty()) return;
     double strongest = 0;
-    for (std::size_t r = 1; r <= x.harmonics; ++r) strongest = std::max(strongest, x.strength(r, found_.fastest));
+    for (std::size_t r = 1; r <= x.harmonics; ++r)
+      strongest = std::max(strongest, x.strength(r, signed_speed(found_.fastest)));
     for (const Mode& mode : found_.modes)
       for (std::size_t r = 1; r <= x.harmonics; ++r) {
         const double speed = mode.omega / x.order(r);
-        if (speed < found_.slowest || speed > found_.fastest || x.strength(r, speed) < 1e-6 * strongest) continue;
+        if (speed < found_.slowest || speed > found_.fastest || x.strength(r, signed_speed(speed)) < 1e-6 * strongest)
+          continue;
         found_.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
       }
     std::sort(found_.critical.begin(), found_.critical.end(),

@@ -386,7 +386,7 @@ std::vector<std::size_t> orders_shown(const Modes& m) {
   for (const CriticalSpeed& c : strongest_critical(m, 8)) show(c.harmonic);
   std::vector<std::pair<double, std::size_t>> strength;
   for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
-    strength.emplace_back(-m.excitations.strength(r, std::abs(m.drive.at.speed)), r);
+    strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
   std::sort(strength.begin(), strength.end());
   for (const auto& [negative, r] : strength)
     if (negative < 0) show(r);
