@@ -413,19 +413,22 @@ Plot campbell_plot(const Modes& m) {
                              .role = Role::elastic,
                              .x = {from, to},
                              .y = {hertz(mode.omega), hertz(mode.omega)}});
-  for (const std::size_t r : orders)
-    plot.series.push_back({.name = fmt::format("order {:g}", m.excitations.order(r)),
-                           .role = Role::rigid,
-                           .x = {0, to},
-                           .y = {0, m.excitations.order(r) * to / 60}});
+  // All rays in one series: each comes back to the origin.
+  Series rays{.name = "orders", .role = Role::rigid, .x = {}, .y = {}};
+  for (const std::size_t r : orders) {
+    rays.name += fmt::format("{} {:g}", rays.x.empty() ? "" : ",", m.excitations.order(r));
+    rays.x.insert(rays.x.end(), {0, to, 0});
+    rays.y.insert(rays.y.end(), {0, m.excitations.order(r) * to / 60, 0});
+  }
+  if (!rays.x.empty()) plot.series.push_back(std::move(rays));
+  Series meshes{.name = "tooth meshes", .role = Role::reference, .x = {}, .y = {}, .dashed = true};
   for (const GearMesh& mesh : m.excitations.meshes) {
     const double end = std::min(to, 60 * top / mesh.order);
-    plot.series.push_back({.name = "mesh of " + mesh.name,
-                           .role = Role::reference,
-                           .x = {0, end},
-                           .y = {0, mesh.order * end / 60},
-                           .dashed = true});
+    meshes.x.insert(meshes.x.end(), {0, end, 0});
+    meshes.y.insert(meshes.y.end(), {0, mesh.order * end / 60, 0});
+    plot.note += fmt::format(" Mesh of {}: order {:.5g}.", mesh.name, mesh.order);
   }
+  if (!meshes.x.empty()) plot.series.push_back(std::move(meshes));
   for (const FrequencySource& f : m.excitations.by_frequency)
     if (hertz(f.omega) <= top)
       plot.series.push_back({.name = "frequency of " + f.component,
