@@ -59,6 +59,7 @@ int present(const StudyOutput& output, const StudyOptions& options);
 // Each registers its commands; an action leaves its exit code in `code`.
 void add_forces_command(CLI::App& app, int& code);  // forces
 void add_gears_command(CLI::App& app, int& code);   // gears
+void add_modes_command(CLI::App& app, int& code);   // modes
 void add_run_commands(CLI::App& app, int& code);    // run, compare
 void add_reduce_command(CLI::App& app, int& code);  // reduce
 void add_size_command(CLI::App& app, int& code);    // size

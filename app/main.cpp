@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   add_size_command(app, code);
   add_forces_command(app, code);
   add_gears_command(app, code);
+  add_modes_command(app, code);
   add_steady_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();

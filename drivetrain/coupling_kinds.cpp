@@ -13,6 +13,23 @@
 namespace kurbel {
 namespace {
 
+// What kurbel modes judges by. Limits of couplings after DIN 740-2.
+std::vector<Key> coupling_limit_keys() {
+  return {{.name = "nominal_torque", .unit = "N*m", .domain = positive, .doc = "T_KN, limit for kurbel modes"},
+          {.name = "maximum_torque", .unit = "N*m", .domain = positive, .doc = "T_Kmax, limit for kurbel modes"},
+          {.name = "vibratory_torque",
+           .unit = "N*m",
+           .domain = positive,
+           .doc = "T_KW, lasting amplitude at 10 Hz, limit for kurbel modes"},
+          {.name = "dissipated_power", .unit = "W", .domain = positive, .doc = "P_KW, limit for kurbel modes"}};
+}
+Key application_factor_key() {
+  return {.name = "application_factor",
+          .fallback = "1",
+          .domain = {.low = 1},
+          .doc = "K_A on the mean torque, in kurbel modes"};
+}
+
 void build_coupling(const Section& s, Network& net, Messages& messages) {
   const int in = net.add_node(s.name, "in", s.number("inertia_in"));
   const int out = net.add_node(s.name, "out", s.number("inertia_out"));
@@ -33,6 +50,9 @@ void build_shaft(const Section& s, Network& net, Messages& messages) {
     for (const char* key : {"diameter", "bore"})
       if (s.given(key))
         return refuse(key, fmt::format("\"{}\" belongs to \"length\", which is not given; drop it", key));
+  if (s.given("allowable_shear_stress") && !s.given("diameter"))
+    return refuse("allowable_shear_stress",
+                  "\"allowable_shear_stress\" needs \"diameter\"; give the shaft by \"length\" and \"diameter\"");
   if (s.given("length")) {
     if (!s.given("diameter")) return refuse("length", "\"diameter\" is missing beside \"length\"");
     const double length = s.number("length"), outer = s.number("diameter"), bore = s.number("bore");
@@ -80,7 +100,7 @@ std::vector<Kind> coupling_kinds() {
                         .fallback = "\"0 kg*m2\"",
                         .domain = not_negative,
                         .doc = "half on the driven side"}},
-                      damping_keys()),
+                      joined(damping_keys(), joined(coupling_limit_keys(), {application_factor_key()}))),
        .build = build_coupling,
        .elastic = true},
       {.name = "shaft",
@@ -112,8 +132,12 @@ std::vector<Kind> coupling_kinds() {
              .type = KeyType::integer,
              .fallback = "1",
              .domain = {.low = 1, .high = 100000},
-             .doc = "number of equal springs that it is cut into"}},
-           damping_keys()),
+             .doc = "number of equal springs that it is cut into"},
+            {.name = "allowable_shear_stress",
+             .unit = "Pa",
+             .domain = positive,
+             .doc = "limit for kurbel modes; needs the diameter"}},
+           joined(damping_keys(), {application_factor_key()})),
        .build = build_shaft,
        .elastic = true},
   };

@@ -63,7 +63,9 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
     if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[at_index(e.node)], e.phase});
-  find_cycle();
+  const auto [cycle, periodic] = cycle_of(*model_);
+  cycle_ = cycle;
+  periodic_ = periodic;
   set_modes(0, 1);
   // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed.
   const double whole = equations_.shaft_balance(0, 0, state_).inertia;
@@ -72,8 +74,7 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
 }
 
 // The shortest multiple of a turn after which every element that depends on an angle is back.
-void RigidMachine::find_cycle() {
-  const Model& m = *model_;
+CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->uses_angle()) period.push_back(e.element->angle_period() / std::abs(m.node_ratio[at_index(e.node)]));
@@ -82,12 +83,8 @@ void RigidMachine::find_cycle() {
                        [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });
   };
   for (int turns = 1; turns <= most_turns; ++turns)
-    if (repeats(turns * turn)) {
-      cycle_ = turns * turn;
-      return;
-    }
-  periodic_ = false;
-  cycle_ = m.cycle > 0 ? m.cycle : turn;
+    if (repeats(turns * turn)) return {turns * turn, true};
+  return {m.cycle > 0 ? m.cycle : turn, false};
 }
 
 bool RigidMachine::uses_time() const {

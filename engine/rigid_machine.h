@@ -13,6 +13,13 @@
 
 namespace kurbel {
 
+// Angle of one cycle of the reduction link, see RigidMachine::cycle().
+struct CyclePeriod {
+  double angle = 0;  // [rad]
+  bool periodic = true;
+};
+CyclePeriod cycle_of(const Model& model);
+
 class RigidMachine {
  public:
   // Compiles the scene with elasticity off. Throws SceneError where it makes no machine; std::invalid_argument in words
@@ -65,7 +72,6 @@ class RigidMachine {
     const ShaftElementMaker* maker;  // belongs to the model
     double ratio, phase;             // own angle = ratio · φ + phase
   };
-  void find_cycle();
   void look_ahead(double phi, double omega, double distance);
   void fill_state(double phi, double omega);
 

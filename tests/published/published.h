@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/csv.h"
+#include "engine/eigen_modes.h"
 #include "engine/equations.h"
 #include "tests/support/scenes.h"
 
@@ -99,6 +100,14 @@ inline void expect_frequencies(const std::string& text, const std::vector<double
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i] / unit, expected[i], relative * expected[i]) << "mode " << i + 1;
+  // The same from M and K, where rigid motion comes first.
+  const Scene scene = scene_from(text);
+  const UndampedModes modes = undamped_modes(linearise(compile(scene, scene.effects), {}));
+  ASSERT_EQ(modes.rigid, 1);
+  ASSERT_EQ(static_cast<std::size_t>(modes.omega.size()), expected.size() + 1);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(modes.omega[static_cast<Eigen::Index>(i) + 1] / unit, expected[i], relative * expected[i])
+        << "undamped mode " << i + 1;
 }
 
 // Two columns of a published series.

@@ -1,0 +1,78 @@
+// modes_command.cpp — kurbel modes: natural frequencies, critical speeds, forced response.
+#include <fmt/format.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "app/command_line.h"
+#include "app/terminal.h"
+#include "studies/modes_output.h"
+
+namespace kurbel::app {
+namespace {
+
+struct ModesArguments {
+  StudyOptions study;
+  std::string effects, speed, angle, torque;
+  std::vector<std::string> range;
+  int count = 20;
+  double orders = 0, barred = 1;
+};
+
+double speed_of(const std::string& option, const std::string& text, const Domain& domain) {
+  return quantity_of(option, text, "a speed", "300 rpm", domain);
+}
+
+int modes(const ModesArguments& arguments) {
+  const Scene scene = read(arguments.study);
+  check_folder(arguments.study);
+  ModesOptions options;
+  options.count = arguments.count;
+  options.orders = arguments.orders;
+  options.barred_factor = arguments.barred;
+  options.torque = arguments.torque;
+  if (!arguments.speed.empty()) options.speed = speed_of("--speed", arguments.speed, any_number);
+  if (!arguments.angle.empty())
+    options.angle = quantity_of("--angle", arguments.angle, "an angle", "90 deg", any_number);
+  if (!arguments.range.empty()) {
+    options.slowest = speed_of("--range", arguments.range[0], not_negative);
+    options.fastest = speed_of("--range", arguments.range[1], positive);
+  }
+  Progress progress(arguments.study.quiet);
+  options.interrupted = &interrupted();
+  options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
+  options.log = make_log(arguments.study.verbose);
+  Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
+  if (arguments.effects.empty() && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
+  const Modes found = find_modes(scene, effects, options);
+  return present(output_of(found), arguments.study);
+}
+
+}  // namespace
+
+void add_modes_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<ModesArguments>();
+  CLI::App* command = app.add_subcommand(
+      "modes", "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra");
+  add_study_options(*command, arguments->study);
+  command->add_option("--effects", arguments->effects,
+                      "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
+  command->add_option("--count", arguments->count, "number of modes (default: 20)");
+  command->add_option("--speed", arguments->speed,
+                      "operating point, e.g. \"300 rpm\" of the reduction link (default: its start, else steady)");
+  command->add_option("--angle", arguments->angle,
+                      "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
+  command
+      ->add_option("--range", arguments->range,
+                   "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
+      ->expected(2);
+  command->add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
+  command->add_option("--barred", arguments->barred,
+                      "bars speeds where a joint without limits swings by more than this times its mean (default: 1)");
+  command->add_option(
+      "--torque", arguments->torque,
+      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
+  command->callback([&code, arguments] { code = modes(*arguments); });
+}
+
+}  // namespace kurbel::app

@@ -1,0 +1,19 @@
+// rainflow.h — cycles of a load history after ASTM E1049-85, rainflow counting (5.4.4).
+#pragma once
+
+#include <vector>
+
+namespace kurbel {
+
+struct LoadCycle {
+  double range = 0, mean = 0, count = 0;  // count ½ or 1
+};
+
+// Ranges in the order in which the rules close them. Values between reversals do not matter.
+std::vector<LoadCycle> rainflow(const std::vector<double>& history);
+
+// Amplitude of as many equal full cycles as are counted that does the same damage at a Wöhler exponent m > 0:
+// (Σ n (range/2)^m/Σ n)^(1/m); 0 without cycles.
+double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent);
+
+}  // namespace kurbel
