@@ -459,7 +459,7 @@ void Study::simulate_torque() {
   if (history.time.size() >= 64) {
     const double step = (history.time.back() - history.time.front()) / static_cast<double>(history.time.size() - 1);
     history.spectrum = spectrum_of(history.value, step);
-    history.lines = waterfall(history.time, history.speed, history.value, 24);
+    history.lines = waterfall(history.time, history.speed, history.value, 12);
     const double turns = 1.0 / 64;
     std::vector<double> forwards = history.angle;
     if (forwards.back() < forwards.front())
