@@ -18,7 +18,8 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 class Lineariser {
  public:
-  Lineariser(std::shared_ptr<const Model> model, const OperatingPoint& point) : equations_(model, false), m_(*model) {
+  Lineariser(std::shared_ptr<const Model> model, const LinearisationPoint& point)
+      : equations_(model, false), m_(*model) {
     drive_.model = std::move(model);
     drive_.at = point;
   }
@@ -252,7 +253,7 @@ double LinearDrive::twist(std::size_t joint, const Eigen::VectorXd& q) const {
   return (j.a >= 0 ? j.gain_a * q[j.a] : 0.0) - (j.b >= 0 ? j.gain_b * q[j.b] : 0.0);
 }
 
-LinearDrive linearise(std::shared_ptr<const Model> model, const OperatingPoint& point) {
+LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point) {
   return Lineariser(std::move(model), point).drive();
 }
 

@@ -20,7 +20,7 @@ namespace kurbel {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-struct OperatingPoint {
+struct LinearisationPoint {
   double speed = 0;                  // of the reduction link [rad/s]; 0: at rest
   std::optional<double> angle = {};  // of the reduction link [rad]; empty: averaged over the cycle
   int positions = 512;               // of the average, a turn: piecewise loads have edges anywhere
@@ -38,7 +38,7 @@ struct LinearDrive {
   };
 
   std::shared_ptr<const Model> model;
-  OperatingPoint at;
+  LinearisationPoint at;
   std::vector<int> coordinate;   // per shaft of the model; −1: its speed is prescribed, or it sticks
   std::vector<int> shaft;        // per coordinate
   std::vector<double> ratio;     // per coordinate: speed over the reduction link's when all turns rigidly
@@ -55,7 +55,7 @@ struct LinearDrive {
 };
 
 // Throws std::invalid_argument where nothing is elastic, or no coordinate is free.
-LinearDrive linearise(std::shared_ptr<const Model> model, const OperatingPoint& at);
+LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& at);
 
 // The speed at which a scene is linearised unless told otherwise: of its start, else the rated one of its elements.
 double usual_speed(const Model& model);

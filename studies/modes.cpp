@@ -207,7 +207,7 @@ class Study {
     found_.excitations = find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (!found_.excitations.by_frequency.empty()) {
-      OperatingPoint point = found_.drive.at;
+      LinearisationPoint point = found_.drive.at;
       point.added = mean_beyond_start(found_.drive, found_.excitations);
       found_.drive = linearise(model_, point);
     }
@@ -220,7 +220,7 @@ class Study {
   }
 
   LinearDrive drive_at(double speed) const {
-    OperatingPoint point{.speed = signed_speed(speed), .angle = options_.angle, .positions = coarse_positions};
+    LinearisationPoint point{.speed = signed_speed(speed), .angle = options_.angle, .positions = coarse_positions};
     point.added = found_.drive.at.added;
     if (!options_.angle) {
       point.angle_torques = false;
