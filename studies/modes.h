@@ -85,7 +85,7 @@ struct DriveLimits {
 struct TorqueHistory {
   std::string channel;
   std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
-  Spectrum spectrum, orders;
+  AmplitudeSpectrum spectrum, orders;
   std::vector<WaterfallLine> lines;
   std::vector<LoadCycle> cycles;
   double greatest = 0, least = 0;

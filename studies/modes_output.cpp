@@ -514,7 +514,7 @@ void mark_modes(const Modes& m, Plot& plot, double factor, double end) {
 }
 
 // Up to a little above the highest mode that still shows.
-double end_of_spectrum(const Modes& m, const Spectrum& s) {
+double end_of_spectrum(const Modes& m, const AmplitudeSpectrum& s) {
   double largest = 0, end = 0;
   for (const double a : s.amplitude) largest = std::max(largest, a);
   for (std::size_t i = 0; i < s.frequency.size(); ++i)

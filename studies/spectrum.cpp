@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-Spectrum spectrum_of(const std::vector<double>& values, double step) {
+AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step) {
   if (values.size() < 16 || !(step > 0))
     throw std::invalid_argument(
         fmt::format("a spectrum needs 16 values or more at a step > 0; got {} at {:g}", values.size(), step));
@@ -31,7 +31,7 @@ Spectrum spectrum_of(const std::vector<double>& values, double step) {
   mean /= weight;
   for (std::size_t k = 0; k < n; ++k) windowed[k] = 2 * window[k] * (tail[k] - mean);  // Hann halves a sine
   const std::vector<Complex> lines = harmonics_of(windowed);
-  Spectrum spectrum;
+  AmplitudeSpectrum spectrum;
   spectrum.resolution = 1 / (static_cast<double>(n) * step);
   for (std::size_t r = 0; r < lines.size(); ++r) {
     spectrum.frequency.push_back(static_cast<double>(r) * spectrum.resolution);

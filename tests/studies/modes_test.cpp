@@ -62,7 +62,7 @@ TEST(Spectrum, SineOnALineHasItsAmplitudeAndFrequency) {
   std::vector<double> x;
   const double step = 1.0 / 1024;
   for (int k = 0; k < 4096; ++k) x.push_back(7 + 3 * std::sin(2 * pi * 60 * k * step));
-  const Spectrum s = spectrum_of(x, step);
+  const AmplitudeSpectrum s = spectrum_of(x, step);
   const auto line = static_cast<std::size_t>(std::lround(60 / s.resolution));
   EXPECT_NEAR(s.frequency[line], 60, 1e-12);
   EXPECT_NEAR(s.amplitude[line], 3, 1e-10);
@@ -76,7 +76,7 @@ TEST(Spectrum, OrderOfATorqueOnARunUpStandsStillOverTheAngle) {
     angle.push_back(2 * t + 0.5 * t * t * 3);  // the speed rises thirtyfold
     x.push_back(5 * std::cos(4 * angle.back()));
   }
-  const Spectrum s = spectrum_of(resampled_over_angle(angle, x, 2 * pi / 64), 1.0 / 64);
+  const AmplitudeSpectrum s = spectrum_of(resampled_over_angle(angle, x, 2 * pi / 64), 1.0 / 64);
   const auto line = static_cast<std::size_t>(std::lround(4 / s.resolution));
   EXPECT_NEAR(s.amplitude[line], 5, 1e-5);
 }
