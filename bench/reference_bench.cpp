@@ -32,8 +32,8 @@ void crank_problem(const char* name, const char* scene, double reference) {
       if (error <= 1e-6 && r1_cost_at_1e6 == 0 && std::string(name) == "R1") r1_cost_at_1e6 = t.median_seconds;
     }
   if (!tables->of_angle_alone()) return;
-  const WorkDiagram& diagram = tables->diagram(1);
-  WorkDiagram::Motion end;
+  const WorkOverAngle& diagram = tables->diagram(1);
+  WorkOverAngle::Motion end;
   constexpr int many = 1000;
   const StartSettings& begin = model->scene.run.start;
   const TimedRun t = timed(101, [&] {

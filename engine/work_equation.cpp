@@ -104,7 +104,7 @@ constexpr int deepest = 60;                           // bisections of a panel t
 // ---------------------------------------------------------------------------------------------------------------------
 // Panels
 
-WorkDiagram::WorkDiagram(RigidMachine& machine, const std::vector<double>& edges, int direction)
+WorkOverAngle::WorkOverAngle(RigidMachine& machine, const std::vector<double>& edges, int direction)
     : direction_(direction >= 0 ? 1 : -1), cycle_(machine.cycle()) {
   std::vector<double> end = edges;
   for (double& e : end)
@@ -129,7 +129,7 @@ WorkDiagram::WorkDiagram(RigidMachine& machine, const std::vector<double>& edges
 }
 
 // One panel where 16 nodes resolve I_r and M, else two halves.
-void WorkDiagram::add_panels(RigidMachine& machine, double begin, double end, double largest_torque) {
+void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, double largest_torque) {
   Panel panel;
   panel.begin = begin;
   panel.half = 0.5 * (end - begin);
@@ -161,7 +161,7 @@ void WorkDiagram::add_panels(RigidMachine& machine, double begin, double end, do
 }
 
 // What the tables' rounding leaves of a cycle without work is spread over the cycle and taken away.
-void WorkDiagram::close_cycle() {
+void WorkOverAngle::close_cycle() {
   if (std::abs(per_cycle_) > closes_within * turnover_) return;
   const double excess = per_cycle_ / cycle_;
   for (Panel& panel : panel_) {
@@ -172,26 +172,26 @@ void WorkDiagram::close_cycle() {
   per_cycle_ = 0;
 }
 
-const WorkDiagram::Panel& WorkDiagram::panel_at(double s) const {
+const WorkOverAngle::Panel& WorkOverAngle::panel_at(double s) const {
   const auto after =
       std::upper_bound(panel_.begin(), panel_.end(), s, [](double x, const Panel& p) { return x < p.begin; });
   return after == panel_.begin() ? panel_.front() : *(after - 1);
 }
 
-double WorkDiagram::work_in(const Panel& panel, double s) const {
+double WorkOverAngle::work_in(const Panel& panel, double s) const {
   return panel.work_begin + panel.half * integral(panel.torque_term, (s - panel.begin) / panel.half - 1);
 }
 
-double WorkDiagram::inertia_in(const Panel& panel, double s) const {
+double WorkOverAngle::inertia_in(const Panel& panel, double s) const {
   return sum(panel.inertia_term, (s - panel.begin) / panel.half - 1);
 }
 
-double WorkDiagram::work(double s) const {
+double WorkOverAngle::work(double s) const {
   const double cycles = std::floor(s / cycle_), rest = s - cycles * cycle_;
   return cycles * per_cycle_ + work_in(panel_at(rest), rest);
 }
 
-double WorkDiagram::inertia(double s) const {
+double WorkOverAngle::inertia(double s) const {
   const double rest = s - std::floor(s / cycle_) * cycle_;
   return inertia_in(panel_at(rest), rest);
 }
@@ -199,23 +199,23 @@ double WorkDiagram::inertia(double s) const {
 // ---------------------------------------------------------------------------------------------------------------------
 // Motion
 
-double WorkDiagram::Stretch::s(double u) const {
+double WorkOverAngle::Stretch::s(double u) const {
   const double v = 0.5 * (1 + u), w = 0.5 * (1 - u);
   if (rest == Rest::at_begin) return begin + (end - begin) * v * v;
   if (rest == Rest::at_end) return end - (end - begin) * w * w;
   return begin + (end - begin) * v;
 }
 
-double WorkDiagram::Stretch::ds_du(double u) const {
+double WorkOverAngle::Stretch::ds_du(double u) const {
   if (rest == Rest::at_begin) return 0.5 * (end - begin) * (1 + u);
   if (rest == Rest::at_end) return 0.5 * (end - begin) * (1 - u);
   return 0.5 * (end - begin);
 }
 
 // Walks through the panels with a constant E = T − W, adding up time until it is over or the machine at rest.
-class WorkDiagram::Walk {
+class WorkOverAngle::Walk {
  public:
-  Walk(const WorkDiagram& diagram, double s, double speed, double until) : diagram_(diagram), until_(until) {
+  Walk(const WorkOverAngle& diagram, double s, double speed, double until) : diagram_(diagram), until_(until) {
     motion_.cycles = static_cast<std::int64_t>(std::floor(s / diagram.cycle_));
     motion_.s = s - static_cast<double>(motion_.cycles) * diagram.cycle_;
     motion_.speed = speed;
@@ -390,13 +390,13 @@ class WorkDiagram::Walk {
     return u;
   }
 
-  const WorkDiagram& diagram_;
+  const WorkOverAngle& diagram_;
   double until_, energy_ = 0, skipped_time_ = 0;
   bool from_rest_ = false, over_ = false, skipped_ = false;
   Motion motion_;
 };
 
-WorkDiagram::Motion WorkDiagram::advance(double s0, double speed, double until) const {
+WorkOverAngle::Motion WorkOverAngle::advance(double s0, double speed, double until) const {
   if (!(std::isfinite(s0) && std::isfinite(speed) && speed >= 0 && std::isfinite(until)))
     throw std::invalid_argument(
         fmt::format("work diagram: start at s = {} rad with {} rad/s until {} s; must be numbers, the speed ≥ 0", s0,
@@ -453,11 +453,11 @@ const std::vector<double>& WorkTables::edges(int direction) {
   return *made;
 }
 
-const WorkDiagram& WorkTables::diagram(int direction) {
-  std::unique_ptr<WorkDiagram>& made = diagram_[side(direction)];
+const WorkOverAngle& WorkTables::diagram(int direction) {
+  std::unique_ptr<WorkOverAngle>& made = diagram_[side(direction)];
   if (!made) {
     if (!of_angle_alone_) throw std::logic_error("the work diagram needs torques of the angle alone");
-    made = std::make_unique<WorkDiagram>(machine_, machine_.edges(direction), direction);
+    made = std::make_unique<WorkOverAngle>(machine_, machine_.edges(direction), direction);
   }
   return *made;
 }

@@ -2,7 +2,7 @@
 //
 //     d(½ I_r ω²)/dφ = M(φ, ω),   dt = dφ/ω                                                       (THEORY 2.5)
 // Smooth between load edges, which sit at known angles. Where torques depend on the angle alone the first equation is
-// a quadrature of its own, T(φ) = T₀ + ∫M dφ, the same in every cycle: WorkDiagram. Machines whose torques depend on
+// a quadrature of its own, T(φ) = T₀ + ∫M dφ, the same in every cycle: WorkOverAngle. Machines whose torques depend on
 // the speed, too, are integrated by WorkStepper.
 #pragma once
 
@@ -20,10 +20,10 @@ namespace kurbel {
 // ∫M dφ and I_r(φ) over one cycle in one direction of motion, on panels that end at the load edges; each panel carries
 // its functions at 16 Gauss–Legendre nodes, short enough for them to agree with the machine to 1e-12.
 // s = direction · φ grows with the motion; s = 0 at φ = 0.
-class WorkDiagram {
+class WorkOverAngle {
  public:
   // For machines whose torques depend on the angle alone. edges: machine.edges(direction).
-  WorkDiagram(RigidMachine& machine, const std::vector<double>& edges, int direction);
+  WorkOverAngle(RigidMachine& machine, const std::vector<double>& edges, int direction);
 
   int direction() const { return direction_; }
   double cycle() const { return cycle_; }
@@ -89,14 +89,14 @@ class WorkTables {
   // Ascending in s = direction · φ, within [0, cycle).
   const std::vector<double>& edges(int direction);
   // Only where torques are of the angle alone.
-  const WorkDiagram& diagram(int direction);
+  const WorkOverAngle& diagram(int direction);
 
  private:
   static std::size_t side(int direction) { return direction >= 0 ? 0 : 1; }
   RigidMachine machine_;
   bool of_angle_alone_ = false;
   std::array<std::optional<std::vector<double>>, 2> edges_;
-  std::array<std::unique_ptr<WorkDiagram>, 2> diagram_;
+  std::array<std::unique_ptr<WorkOverAngle>, 2> diagram_;
 };
 
 }  // namespace kurbel

@@ -60,7 +60,7 @@ void MotionOverAngle::start(double t, std::span<const double> y, std::span<doubl
     looked_up_[i] = begin_[i] - two_turns * std::floor(begin_[i] / two_turns);
   const double omega = y[speed_index_];
   direction_ = omega >= 0 ? 1 : -1;
-  const WorkDiagram* before = diagram_;
+  const WorkOverAngle* before = diagram_;
   diagram_ = tables_.of_angle_alone() ? &tables_.diagram(direction_) : nullptr;
   place_ = place_of(y);
   const double kinetic = 0.5 * inertia(0) * omega * omega;

@@ -45,7 +45,7 @@ class MotionOverAngle final : public OdeSystem {
   WorkTables& tables_;
   const Model& model_;
   std::size_t quadratures_, speed_index_, link_;
-  const WorkDiagram* diagram_ = nullptr;  // null: torques depend on the speed
+  const WorkOverAngle* diagram_ = nullptr;  // null: torques depend on the speed
   int direction_ = 1;
   double place_ = 0, energy_ = 0;         // energy: T − W(s) [J]
   double end_place_ = 0, end_speed_ = 0;  // where the last motion ended

@@ -254,7 +254,7 @@ class CycleBuilder {
   }
 
   template <class F>
-  std::vector<Harmonic> orders_of(F&& value, double* mean = nullptr) const {
+  std::vector<ForceHarmonic> orders_of(F&& value, double* mean = nullptr) const {
     std::vector<double> values;
     for (const CyclePosition& p : cycle_.positions) values.push_back(value(p));
     return harmonics(values, static_cast<int>(std::lround(cycle_.cycle / turn)), mean);
@@ -505,9 +505,9 @@ std::optional<double> PowerFlow::efficiency() const {
 }
 
 // a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is left out.
-std::vector<Harmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
+std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
   const std::size_t n = values.size() - 1;
-  std::vector<Harmonic> orders;
+  std::vector<ForceHarmonic> orders;
   for (int k = 0; k <= highest_order; ++k) {
     std::complex<double> sum = 0;
     for (std::size_t i = 0; i < n; ++i)

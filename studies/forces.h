@@ -48,7 +48,7 @@ struct CyclePosition {
 };
 
 // Order k of the crank's turn: amplitude and phase of A cos(k φ − phase).
-struct Harmonic {
+struct ForceHarmonic {
   int order = 0;
   double amplitude = 0, phase = 0;
 };
@@ -79,7 +79,7 @@ struct ForceCycle {
   Peak reaction[joint_count];            // [N]
   Peak torque, shaking_force, shaking_moment;
   int both_edges = 0;  // positions where both edges bear
-  std::vector<Harmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
+  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
   double torque_mean = 0;
   std::vector<CycleWork> work;                // by account: crank, loads, weight, friction of each joint
   double kinetic_change = 0;                  // over the cycle [J]
@@ -123,6 +123,6 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
                                                   const std::vector<CyclePosition>& turn);
 
 // Orders 0 … highest of values given evenly over `turns` turns, both ends (trapezium rule, exact for smooth functions).
-std::vector<Harmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);
+std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);
 
 }  // namespace kurbel

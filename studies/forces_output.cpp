@@ -227,9 +227,10 @@ Json position_json(const CyclePosition& p) {
   return j;
 }
 
-Json orders_json(const std::vector<Harmonic>& orders) {
+Json orders_json(const std::vector<ForceHarmonic>& orders) {
   Json list = Json::array();
-  for (const Harmonic& h : orders) list.push_back({{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}});
+  for (const ForceHarmonic& h : orders)
+    list.push_back({{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}});
   return list;
 }
 
@@ -474,9 +475,9 @@ Plot harmonic_plot(const ForceCycle& c) {
             .y = {"amplitude", "N"},
             .series = {}};
   plot.bars = true;
-  const auto add = [&](const char* name, Role role, const std::vector<Harmonic>& orders) {
+  const auto add = [&](const char* name, Role role, const std::vector<ForceHarmonic>& orders) {
     Series s{.name = name, .role = role, .x = {}, .y = {}};
-    for (const Harmonic& h : orders) {
+    for (const ForceHarmonic& h : orders) {
       s.x.push_back(h.order);
       s.y.push_back(h.amplitude);
     }

@@ -60,10 +60,10 @@ double period_of_free_crank(double omega0) {
 
 // --- work diagram ---
 
-TEST(WorkDiagram, MotionOfTheFreeSliderCrankMatchesTheQuadratureInElevenDigits) {
+TEST(WorkOverAngle, MotionOfTheFreeSliderCrankMatchesTheQuadratureInElevenDigits) {
   WorkTables tables(rigid(test::scene_file("scenes/free_slider_crank.toml")));
-  const WorkDiagram& diagram = tables.diagram(1);
-  const WorkDiagram::Motion end = diagram.advance(0, 30, 10);
+  const WorkOverAngle& diagram = tables.diagram(1);
+  const WorkOverAngle::Motion end = diagram.advance(0, 30, 10);
   EXPECT_NEAR(static_cast<double>(end.cycles) * diagram.cycle() + end.s, 294.719373652657, 3e-12);
   EXPECT_NEAR(end.speed, 29.5167074225067, 3e-12);
   EXPECT_EQ(end.t, 10);
@@ -72,14 +72,14 @@ TEST(WorkDiagram, MotionOfTheFreeSliderCrankMatchesTheQuadratureInElevenDigits) 
 
 // A machine that does no work over a cycle is after a million cycles where its period says: phase errors are those of
 // the period times the number of cycles.
-TEST(WorkDiagram, PhaseErrorOverAMillionCyclesGrowsNoFasterThanTime) {
+TEST(WorkOverAngle, PhaseErrorOverAMillionCyclesGrowsNoFasterThanTime) {
   WorkTables tables(rigid(test::scene_file("scenes/free_slider_crank.toml")));
-  const WorkDiagram& diagram = tables.diagram(1);
+  const WorkOverAngle& diagram = tables.diagram(1);
   EXPECT_EQ(diagram.work_per_cycle(), 0);
   const double period = period_of_free_crank(30);
   for (const double cycles : {1e3, 1e4, 1e5, 1e6}) {
-    const WorkDiagram::Motion end = diagram.advance(0, 30, (cycles + 0.25) * period);
-    const WorkDiagram::Motion first = diagram.advance(0, 30, 0.25 * period);
+    const WorkOverAngle::Motion end = diagram.advance(0, 30, (cycles + 0.25) * period);
+    const WorkOverAngle::Motion first = diagram.advance(0, 30, 0.25 * period);
     EXPECT_EQ(static_cast<double>(end.cycles), cycles);
     EXPECT_NEAR(end.s, first.s, 1e-13 * cycles * 2 * pi);
     EXPECT_NEAR(end.speed, first.speed, 1e-13 * cycles * 30);
@@ -87,7 +87,7 @@ TEST(WorkDiagram, PhaseErrorOverAMillionCyclesGrowsNoFasterThanTime) {
 }
 
 // W(φ) = V(0) − V(φ): weights give back over a turn what they took.
-TEST(WorkDiagram, WorkOfWeightsIsTheLossOfPotentialEnergyInEitherDirection) {
+TEST(WorkOverAngle, WorkOfWeightsIsTheLossOfPotentialEnergyInEitherDirection) {
   const Scene scene = scene_from(R"(
 line = ["crank"]
 [crank]
@@ -115,7 +115,7 @@ until = "1 s"
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(0, 20 * pi);
   for (const int direction : {1, -1}) {
-    const WorkDiagram& diagram = tables.diagram(direction);
+    const WorkOverAngle& diagram = tables.diagram(direction);
     EXPECT_EQ(diagram.work_per_cycle(), 0);
     for (int i = 0; i < 100; ++i) {
       const double s = any(random);
@@ -131,13 +131,13 @@ std::string flywheel_with(const std::string& torque, const std::string& start) {
 }
 
 // φ = ½ (M/I) t², ω = (M/I) t: 1/ω is singular at the start.
-TEST(WorkDiagram, StartFromRestUnderAConstantTorqueIsTheParabola) {
+TEST(WorkOverAngle, StartFromRestUnderAConstantTorqueIsTheParabola) {
   const Scene scene = scene_from(
       flywheel_with("[drive]\nkind = \"torque source\"\non = \"wheel\"\ntorque = \"7 N*m\"\n", "speed = \"0 rad/s\""));
   WorkTables tables(rigid(scene));
-  const WorkDiagram& diagram = tables.diagram(1);
+  const WorkOverAngle& diagram = tables.diagram(1);
   for (const double t : {1e-3, 0.1, 1.0, 3.0, 30.0}) {
-    const WorkDiagram::Motion end = diagram.advance(0, 0, t);
+    const WorkOverAngle::Motion end = diagram.advance(0, 0, t);
     const double turned = static_cast<double>(end.cycles) * diagram.cycle() + end.s;
     EXPECT_NEAR(turned, 0.5 * 3.5 * t * t, 2e-13 * (1 + turned)) << t;
     EXPECT_NEAR(end.speed, 3.5 * t, 1e-13 + 1e-12 * 3.5 * t) << t;
@@ -145,11 +145,11 @@ TEST(WorkDiagram, StartFromRestUnderAConstantTorqueIsTheParabola) {
 }
 
 // Braked by a constant torque the wheel stops after I ω₀/M at ½ I ω₀²/M.
-TEST(WorkDiagram, StopUnderAConstantTorqueIsExact) {
+TEST(WorkOverAngle, StopUnderAConstantTorqueIsExact) {
   const Scene scene = scene_from(
       flywheel_with("[brake]\nkind = \"load\"\non = \"wheel\"\ntorque = \"7 N*m\"\n", "speed = \"10 rad/s\""));
   WorkTables tables(rigid(scene));
-  const WorkDiagram::Motion end = tables.diagram(1).advance(0, 10, 100);
+  const WorkOverAngle::Motion end = tables.diagram(1).advance(0, 10, 100);
   EXPECT_TRUE(end.stalled);
   EXPECT_EQ(end.speed, 0);
   EXPECT_NEAR(static_cast<double>(end.cycles) * 2 * pi + end.s, 100.0 / 7, 1e-12);
@@ -157,7 +157,7 @@ TEST(WorkDiagram, StopUnderAConstantTorqueIsExact) {
 }
 
 // A constant torque drives against a press force: the crank stops where T₀ + M φ = F (x_edge − x(φ)).
-TEST(WorkDiagram, StallUnderAPressLoadLiesWhereTheEnergyIsUsedUp) {
+TEST(WorkOverAngle, StallUnderAPressLoadLiesWhereTheEnergyIsUsedUp) {
   const std::string text = with(with(text_of("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
                                 "kind          = \"dc shunt motor\"\nstall_torque  = \"60 N*m\"          # torque at "
                                 "standstill\nno_load_speed = \"40 rad/s\"        # speed without load\n",
@@ -165,7 +165,7 @@ TEST(WorkDiagram, StallUnderAPressLoadLiesWhereTheEnergyIsUsedUp) {
   const Scene scene = scene_from(text);
   const auto model = rigid(scene);
   WorkTables tables(model);
-  const WorkDiagram::Motion end = tables.diagram(1).advance(0, 10, 10);
+  const WorkOverAngle::Motion end = tables.diagram(1).advance(0, 10, 10);
   ASSERT_TRUE(end.stalled);
   EXPECT_EQ(end.cycles, 0);
   const SliderCrankGeometry geometry = free_crank();

@@ -48,13 +48,13 @@ TEST(ShakingForce, HasTheOrdersOfTheSlidersAcceleration) {
   const double u = 2 * 0.1 * 20 * 20, k = 1.0 / 3;
   const double a2 = k + std::pow(k, 3) / 4 + 15 * std::pow(k, 5) / 128 + 35 * std::pow(k, 7) / 512;
   const double a4 = std::pow(k, 3) / 4 + 3 * std::pow(k, 5) / 16 + 35 * std::pow(k, 7) / 256;
-  const std::vector<Harmonic>& x = f.prescribed->shaking_x;
+  const std::vector<ForceHarmonic>& x = f.prescribed->shaking_x;
   EXPECT_NEAR(x[0].amplitude, u, 1e-12 * u);
   EXPECT_NEAR(x[1].amplitude, u * a2, 1e-5 * u);  // the series' next term is 2205 λ⁹/65536 ≈ 2e-6
   EXPECT_NEAR(x[3].amplitude, u * a4, 2e-5 * u);
   for (const int odd : {2, 4, 6}) EXPECT_NEAR(x[static_cast<std::size_t>(odd)].amplitude, 0, 1e-11 * u) << odd + 1;
   EXPECT_NEAR(x[0].phase, 0, 1e-12);
-  for (const Harmonic& h : f.prescribed->shaking_y) EXPECT_NEAR(h.amplitude, 0, 1e-11 * u);
+  for (const ForceHarmonic& h : f.prescribed->shaking_y) EXPECT_NEAR(h.amplitude, 0, 1e-11 * u);
 }
 
 TEST(ShakingForce, ShareOfTheFirstOrderThatIsBalancedAppearsAcross) {
