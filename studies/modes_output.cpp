@@ -615,12 +615,14 @@ void add_response(Report& report, const Modes& m) {
     campbell.cards.push_back(table_card("Parametric instability by the varying inertia, first order", zone_rows(m), 0));
     const ParametricZone& z = m.zones.back();
     const double zeta = m.modes[at(z.mode - 1)].ratio;
-    campbell.cards.push_back(
-        Formula{.title = "Half width of a zone",
-                .symbols = "ΔΩ/Ω = √(ε²/16 − ζ²) around Ω = 2 ω/r",
-                .numbers = fmt::format("√({:.4g}²/16 − {:.4g}²) = {:.4g} around {:.5g} 1/min", z.variation, zeta,
-                                       z.half_width, rpm(z.centre)),
-                .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."});
+    campbell.cards.push_back(Formula{
+        .title = "Half width of a zone",
+        .symbols = "ΔΩ/Ω = √(ε²/16 − ζ²) around Ω = 2 ω/r",
+        .numbers = z.variation > 4 * zeta ? fmt::format("√({:.4g}²/16 − {:.4g}²) · {:.5g} 1/min = {:.4g} 1/min",
+                                                        z.variation, zeta, rpm(z.centre), rpm(z.centre * z.half_width))
+                                          : fmt::format("{:.4g} ≤ 4 · {:.4g}: closed by damping, around {:.5g} 1/min",
+                                                        z.variation, zeta, rpm(z.centre)),
+        .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."});
   }
   ReportSection& forced = report.add("Forced response");
   forced.cards.push_back(

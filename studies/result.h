@@ -69,7 +69,7 @@ struct Result {
   double cpu_total = 0;  // of all runs, errors included [s]
   std::vector<std::string> notes;
   std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
-  std::shared_ptr<const Traces> traces;          // for plots; null unless asked for
+  std::shared_ptr<const Traces> traces;                  // for plots; null unless asked for
   std::shared_ptr<const Model> model;
 
   const Figure* find(const std::string& name) const;
