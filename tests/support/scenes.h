@@ -11,7 +11,7 @@
 
 namespace kurbel::test {
 
-inline std::string source_path(const std::string& relative) { return std::string(KURBEL_SOURCE_DIR) + "/" + relative; }
+inline std::string source_path(const std::string& relative) { return KURBEL_SOURCE_DIR "/" + relative; }
 
 inline Scene scene_from(const std::string& text) { return parse_scene(text, "test.toml", all_kinds()); }
 inline Scene scene_file(const std::string& relative) { return read_scene(source_path(relative), all_kinds()); }
