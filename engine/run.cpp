@@ -87,6 +87,8 @@ class Loop {
           failure.time,
           fmt::format("{}; worst: {}. Try another method, a looser accuracy, or a smaller stiffness or load step there",
                       failure.what(), equations_.state_name(failure.state)));
+    } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
+      fail(stepper_ ? stepper_->t() : 0, error.what());
     }
     finish();
     return std::move(out_);
