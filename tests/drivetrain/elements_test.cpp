@@ -6,6 +6,8 @@
 #include "drivetrain/catalogue_motor.h"
 #include "drivetrain/coupling.h"
 #include "drivetrain/dc_series_motor.h"
+#include "drivetrain/engine_torque.h"
+#include "drivetrain/fluid_motors.h"
 #include "drivetrain/loads.h"
 #include "drivetrain/motors.h"
 #include "drivetrain/started_motor.h"
@@ -72,6 +74,12 @@ TEST(ShaftElements, DerivativesAreExact) {
         StartedMotor<CatalogueMotor, FrequencyConverter>{by_points, {0, 1.5, 300, by_points.synchronous_speed}, limit},
         200);
   }
+  const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
+  expect_exact_derivatives(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 300);
+  expect_exact_derivatives(PneumaticMotor{20, 60, 0.4}, 100);
+  const Curve pressure({0, 1, 2.5, 5, 9}, {4e5, 2e6, 3e5, 1e5, 2e5}, Curve::Form::smooth, 4 * M_PI);
+  expect_exact_derivatives(EngineTorque(pressure, {}, {0, 3, 7}), 100);
+  expect_exact_derivatives(EngineTorque(pressure, {0.005, 0.04, 0.14, 1e5}, {0, 3, 7}), 100);
   expect_exact_derivatives(SpeedLoad{Account::useful, 0.3, 0.02}, 100);
   expect_exact_derivatives(OpposingLoad{Account::useful, 5, 0.3, 0.02, 0}, 100);
   expect_exact_derivatives(
@@ -248,6 +256,9 @@ TEST(Motors, DriveBetweenStandstillAndTheirNoLoadSpeed) {
   expect_drives_between_standstill_and(motor_by_points(), 157.08, 400);
   expect_drives_between_standstill_and(
       StartedMotor<CatalogueMotor, StarDelta>{motor_by_points(), {0, 2, 0, 0.5}, HUGE_VAL}, 157.08, 400);
+  expect_drives_between_standstill_and(PneumaticMotor{20, 60, 0.4}, 60, 100);
+  const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
+  expect_drives_between_standstill_and(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 100, 300);
 }
 
 TEST(DcShuntMotor, IsTheStraightLineBetweenStallAndNoLoad) {
