@@ -353,6 +353,46 @@ TEST(FrequencyConverter, ItsTorqueLimitHoldsInBothDirections) {
   EXPECT_NEAR((slower[400] - slower[100]) / 0.75, -60 / k.inertia, 1e-9 * 60 / k.inertia);
 }
 
+// In a scene, too, the points' torques are those of the catalogue times the square of the voltage.
+TEST(StartedMotors, ByCataloguePointsFollowTheVoltage) {
+  const KlossStart k;
+  for (const double u : {1.0, 0.9}) {
+    const Result r = run(k.scene(fmt::format("starting_ratio = 2.2\nvoltage_factor = {}", u), 0.1));
+    EXPECT_NEAR(test::series(r, "torque.motor")[0], u * u * 2.2 * k.mb / k.nu, 1e-12 * k.mb);
+  }
+}
+
+// At any moment and speed the torque is finite and within its limit, and the modes that hold there say so.
+template <class Motor, class Starter>
+void expect_finite_within_limit(const Motor& motor, const Starter& starter, double limit) {
+  const StartedMotor<Motor, Starter> started{motor, starter, limit};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> time(-1, 12), speed(-3, 5);
+  for (int i = 0; i < 3000; ++i) {
+    ShaftState<double> x{time(random), 0, speed(random) * motor.synchronous_speed, 0, 1};
+    x.mode = started.first_mode(x);
+    const double torque = started.torque(x);
+    EXPECT_TRUE(std::isfinite(torque)) << x.t << " s, " << x.rate;
+    EXPECT_LE(std::abs(torque), limit * (1 + 1e-14));
+    double g[5];
+    started.guard(x, g);
+    for (const double guard : g) EXPECT_GE(guard, 0) << x.t << " s, " << x.rate;
+  }
+}
+TEST(StartedMotors, TorqueIsFiniteAndWithinItsLimitEverywhere) {
+  const InductionMotor kloss = InductionMotor::from_catalogue(15e3, 152.9, 157.08, 2.8, 0.8, 1);
+  const CataloguePoints points{
+      .starting_torque = 210, .breakdown = {135, 290}, .rated = {153, 98}, .synchronous_speed = 157.08};
+  const CatalogueMotor catalogue{points.curve(), 157.08, 98};
+  for (const double limit : {70.0, HUGE_VAL}) {
+    expect_finite_within_limit(kloss, StarDelta{1, 4, 0, 0.3}, limit);
+    expect_finite_within_limit(catalogue, StarDelta{1, -1, 120, 0.3}, limit);
+    expect_finite_within_limit(catalogue, SoftStart{0, 0, 5}, limit);
+    expect_finite_within_limit(kloss, FrequencyConverter{0, 5, 420, 157.08}, limit);
+    expect_finite_within_limit(catalogue, FrequencyConverter{0, 5, 80, 157.08}, limit);
+  }
+}
+
 // The characteristic by points can be started in every way, too, and its corners cost no accuracy.
 TEST(StartedMotors, ByCataloguePointsCloseTheEnergyBalance) {
   const KlossStart k;
