@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "drivetrain/dc_series_motor.h"
 #include "drivetrain/motors.h"
 #include "drivetrain/shared_keys.h"
@@ -44,6 +46,11 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
   const int node = single_shaft(s, net);
   DcSeriesMotor motor{s.number("voltage"), s.number("resistance"), s.number("constant"), 0, s.name};
   motor.max_speed = s.number_or("max_speed", 5 * s.number_or("rated_speed", motor.base_speed()));
+  if (s.given("rated_speed") && motor.max_speed <= s.number("rated_speed"))
+    messages.add(
+        s.where("max_speed"),
+        fmt::format("dc series motor \"{}\": max_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm", s.name,
+                    motor.max_speed * 30 / std::numbers::pi, s.number("rated_speed") * 30 / std::numbers::pi));
   net.put(node, s.name, motor, window_of(s, messages));
 }
 
