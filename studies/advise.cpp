@@ -34,13 +34,6 @@ double work_of(const Result& r, const std::string& line) {
   const auto found = r.energy.by_line.find(line);
   return found == r.energy.by_line.end() ? 0 : found->second;
 }
-double account_of(const Result& r, const std::string& component) {
-  double sum = 0;
-  for (const auto& [name, work] : r.energy.by_account)
-    if (name == component || name.starts_with(component + ".")) sum += std::abs(work);
-  return sum;
-}
-
 class Adviser {
  public:
   Adviser(const Scene& scene, const AdviseOptions& options) : scene_(scene), options_(options) {

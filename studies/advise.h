@@ -27,21 +27,21 @@ struct Screen {
 
 // A set that was run against the full model.
 struct TriedSet {
-  EffectSet on;
-  std::string words;
-  double deviation = 0;  // greatest of the figures asked for
-  std::string figure;    // where
+  EffectSet on = {};
+  std::string words = {};
+  double deviation = 0;     // greatest of the figures asked for
+  std::string figure = {};  // where
   double cpu_seconds = 0;
-  ModelSize size;
+  ModelSize size = {};
   bool within = false;
-  std::string refused;  // why it did not run
+  std::string refused = {};  // why it did not run
 };
 
 // The recommended set at a point that took no part in the choice.
 struct HeldOut {
-  std::string what;  // "loads +20 % (load.torque)"
+  std::string what = {};  // "loads +20 % (load.torque)"
   double deviation = 0;
-  std::string figure, refused;
+  std::string figure = {}, refused = {};
   bool within = false;
 };
 

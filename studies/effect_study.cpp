@@ -21,7 +21,7 @@ bool is_telling(const Figure& figure) {
 
 std::vector<FigureChange> changes_between(const Result& full, const Result& other,
                                           const std::vector<std::string>& wanted) {
-  constexpr double least = 1e-3;  // of the scale: a figure smaller than that is not judged by its own size
+  constexpr double least = 0.05;  // of the scale: a figure smaller than that is not judged by its own size
   std::vector<FigureChange> changes;
   for (const Figure& figure : full.figures) {
     const bool asked = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {

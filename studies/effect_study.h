@@ -9,20 +9,20 @@
 
 namespace kurbel {
 
-// How far a figure is from that of the full model, over the greater of its value and its scale's thousandth.
+// How far a figure is from that of the full model, over the greater of its value and a twentieth of its scale.
 struct FigureChange {
   std::string figure, unit;
   double full = 0, without = 0, relative = 0;
 };
 
 struct LeftOut {
-  EffectUnit effect;
-  Result result;
-  std::vector<FigureChange> changes;  // of the figures that both have, the greatest first
-  ModelSize saved;                    // states, nonzeros, guards that the effect adds
+  EffectUnit effect = {};
+  Result result = {};
+  std::vector<FigureChange> changes = {};  // of the figures that both have, the greatest first
+  ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
   long events_added = 0;
   double time_ratio = 0;  // processor time of the full model over that without
-  std::string refused;    // why the machine cannot run without it
+  std::string refused = {};    // why the machine cannot run without it
 };
 
 struct EffectStudy {

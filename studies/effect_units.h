@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model.h"
 #include "engine/scene.h"
 
 namespace kurbel {
