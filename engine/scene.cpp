@@ -402,7 +402,7 @@ class SceneReader {
       } else {
         scene_.effects.*(known->flag) = entry.value.flag;
         said_.insert(entry.key);
-        if (entry.value.flag && known->where_given && !has_parameters(scene_, *known) && unreadable_.empty())
+        if (entry.value.flag && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene_, *known) && unreadable_.empty())
           refuse(entry.at, fmt::format("[effects]: {} = true, but no component has parameters for it; give {}, or drop "
                                        "the line",
                                        entry.key, known->parameters));
@@ -424,7 +424,7 @@ class SceneReader {
   // What the file does not mention is on where there are parameters for it.
   void complete_effects() {
     for (const EffectFlag& effect : effect_flags())
-      if (effect.where_given && !said_.count(effect.name))
+      if (effect.unsaid == EffectFlag::Unsaid::where_given && !said_.count(effect.name))
         scene_.effects.*(effect.flag) = has_parameters(scene_, effect);
   }
   std::vector<std::string> elastic_names() const {
