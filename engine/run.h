@@ -32,7 +32,7 @@ class RunExtension : public OdeSystem {
 
 struct RunOptions {
   double tolerance = 1e-8;      // local, over the scale of each state
-  std::string method = "auto";  // auto, work, dopri5, dop853, esdirk, bdf, adams
+  std::string method = "auto";  // auto or one that method_named() knows
   double until = 1;             // [s]
   double budget = 300;          // processor time [s]
   const std::atomic<bool>* interrupted = nullptr;
