@@ -222,8 +222,7 @@ class AccuracyRun {
       return;
     }
     told.tolerance = reference_tolerance;
-    told.agreement = trajectory_difference(*found[1].trajectory, *found[0].trajectory);
-    // Half the distance is the best guess of either's error; no claim is made below the whole.
+    told.agreement = std::max(trajectory_difference(*found[1].trajectory, *found[0].trajectory), reference_tolerance);
     for (Figure& f : found[0].figures) {
       const Figure* other = found[1].find(f.name);
       f.error = (other ? std::abs(f.value - other->value) : not_known) + f.resolution;
@@ -273,7 +272,8 @@ class AccuracyRun {
         const Figure* f = level.reference.find(followed.name);
         const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
         level.told.value.push_back(sound ? f->value : not_known);
-        level.told.floor.push_back(sound ? std::max(*f->error / std::abs(f->value), 1e-16) : not_known);
+        // Two runs may agree by luck: never below their tolerance.
+        level.told.floor.push_back(sound ? std::max(*f->error / std::abs(f->value), reference_tolerance) : not_known);
       }
   }
   bool is_of_link(const std::string& name) const {

@@ -5,13 +5,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/units.h"
 #include "studies/accuracy.h"
 
 namespace kurbel {
 namespace {
 
 std::string percent(double error) { return fmt::format("{:.2g} %", 100 * error); }
+
+std::string duration(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.2g} µs", 1e6 * seconds)
+         : seconds < 1  ? fmt::format("{:.2g} ms", 1e3 * seconds)
+                        : fmt::format("{:.2g} s", seconds);
+}
 
 class Judge {
  public:
@@ -46,7 +51,7 @@ class Judge {
   }
 
   std::string told(const MeasuredSetting& s) const {
-    return fmt::format("{}, {}, measured {}", study_.name_of(s), with_unit(s.seconds, "s", 2), percent(total(s)));
+    return fmt::format("{}, {}, measured {}", study_.name_of(s), duration(s.seconds), percent(total(s)));
   }
 
   void find() {
@@ -136,7 +141,7 @@ class Judge {
                                    percent(off), full().name, key());
     if (enough)
       text += fmt::format("; more than {} at {:.0e} ({}) is wasted on it", enough->method, enough->tolerance,
-                          with_unit(enough->seconds, "s", 2));
+                          duration(enough->seconds));
     return text;
   }
 
@@ -178,8 +183,9 @@ std::vector<std::size_t> pareto_front(const std::vector<double>& error, const st
     return seconds[a] != seconds[b] ? seconds[a] < seconds[b] : error[a] < error[b];
   });
   std::vector<std::size_t> front;
+  // Gains of less than a tenth are none: times wander by as much.
   for (const std::size_t i : order)
-    if (front.empty() || error[i] < error[front.back()]) front.push_back(i);
+    if (front.empty() || error[i] < 0.9 * error[front.back()]) front.push_back(i);
   return front;
 }
 
@@ -197,9 +203,8 @@ void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options) {
   if (options.budget) {
     const MeasuredSetting* s = judge.best_for(*options.budget);
     study.answers.push_back(
-        s ? fmt::format("Most exact for {} of processor time: {}", with_unit(*options.budget, "s", 3), judge.told(*s))
-          : fmt::format("No setting tried takes less than {}: the cheapest takes longer",
-                        with_unit(*options.budget, "s", 3)));
+        s ? fmt::format("Most exact for {} of processor time: {}", duration(*options.budget), judge.told(*s))
+          : fmt::format("No setting tried takes less than {}: the cheapest takes longer", duration(*options.budget)));
   }
 }
 
