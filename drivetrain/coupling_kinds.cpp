@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivetrain/backlash.h"
 #include "drivetrain/coupling.h"
 #include "drivetrain/shared_keys.h"
 #include "engine/network.h"
@@ -30,11 +31,58 @@ Key application_factor_key() {
           .doc = "K_A on the mean torque, in kurbel modes"};
 }
 
+std::vector<Key> backlash_keys() {
+  return {{.name = "backlash",
+           .unit = "rad",
+           .domain = not_negative,
+           .doc = "whole gap b between the flanks",
+           .effect = "backlash"},
+          {.name = "contact",
+           .type = KeyType::text,
+           .fallback = "\"no pulling\"",
+           .doc = "law of contact of the flanks (backlash.h)",
+           .choices = {"no pulling", "Hunt-Crossley", "clipped"}},
+          {.name = "contact_exponent",
+           .fallback = "1.5",
+           .domain = {.low = 1, .high = 3},
+           .doc = "n of Hunt–Crossley; the stiffness then counts per rad^n"},
+          {.name = "contact_damping", .unit = "s/rad", .domain = not_negative, .doc = "d of Hunt–Crossley"}};
+}
+
+BacklashData backlash_of(const Section& s, Messages& messages) {
+  BacklashData data;
+  data.contact.stiffness = s.number("stiffness");
+  data.contact.gap = s.number("backlash");
+  data.given = damping_of(s, messages);
+  const std::string& law = s.text("contact");
+  const bool hunt = law == "Hunt-Crossley";
+  data.contact.law = hunt ? ContactLaw::hunt_crossley : law == "clipped" ? ContactLaw::clipped : ContactLaw::no_pulling;
+  if (hunt) {
+    data.contact.exponent = s.number("contact_exponent");
+    data.contact.damping = s.number_or("contact_damping", 0);
+    for (const char* key : {"damping", "damping_ratio", "relative_damping", "loss_factor"})
+      if (s.given(key))
+        messages.add(s.where(key), fmt::format("coupling \"{}\": \"{}\" does not apply to Hunt–Crossley contact; give "
+                                               "contact_damping",
+                                               s.name, key));
+  } else {
+    for (const char* key : {"contact_damping", "contact_exponent"})
+      if (s.given(key))
+        messages.add(
+            s.where(key),
+            fmt::format("coupling \"{}\": \"{}\" belongs to contact = \"Hunt-Crossley\"; drop it", s.name, key));
+  }
+  return data;
+}
+
 void build_coupling(const Section& s, Network& net, Messages& messages) {
   const int in = net.add_node(s.name, "in", s.number("inertia_in"));
   const int out = net.add_node(s.name, "out", s.number("inertia_out"));
   net.ports[s.name] = {in, out};
-  net.connect(in, out, 1, s.name, CouplingData{s.number("stiffness"), damping_of(s, messages)});
+  if (s.given("backlash"))
+    net.connect(in, out, 1, s.name, backlash_of(s, messages));
+  else
+    net.connect(in, out, 1, s.name, CouplingData{s.number("stiffness"), damping_of(s, messages)});
 }
 
 // k = G J_p/L, J = ρ J_p L, J_p = π (D⁴ − d⁴)/32; cut into n equal springs with the inertia between and at the ends.
@@ -85,22 +133,23 @@ std::vector<Kind> coupling_kinds() {
       {.name = "coupling",
        .doc = "spring and damper between two half inertias; rigid when its elasticity is off",
        .placement = Placement::inline_two,
-       .keys = joined({{.name = "stiffness",
-                        .unit = "N*m/rad",
-                        .domain = positive,
-                        .doc = "torsional stiffness k",
-                        .required = true},
-                       {.name = "inertia_in",
-                        .unit = "kg*m2",
-                        .fallback = "\"0 kg*m2\"",
-                        .domain = not_negative,
-                        .doc = "half on the driving side"},
-                       {.name = "inertia_out",
-                        .unit = "kg*m2",
-                        .fallback = "\"0 kg*m2\"",
-                        .domain = not_negative,
-                        .doc = "half on the driven side"}},
-                      joined(damping_keys(), joined(coupling_limit_keys(), {application_factor_key()}))),
+       .keys = joined(
+           {{.name = "stiffness",
+             .unit = "N*m/rad",
+             .domain = positive,
+             .doc = "torsional stiffness k",
+             .required = true},
+            {.name = "inertia_in",
+             .unit = "kg*m2",
+             .fallback = "\"0 kg*m2\"",
+             .domain = not_negative,
+             .doc = "half on the driving side"},
+            {.name = "inertia_out",
+             .unit = "kg*m2",
+             .fallback = "\"0 kg*m2\"",
+             .domain = not_negative,
+             .doc = "half on the driven side"}},
+           joined(joined(damping_keys(), backlash_keys()), joined(coupling_limit_keys(), {application_factor_key()}))),
        .build = build_coupling,
        .elastic = true},
       {.name = "shaft",

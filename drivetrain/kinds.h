@@ -10,6 +10,7 @@ namespace kurbel {
 std::vector<Kind> drivetrain_kinds();  // all of these:
 
 std::vector<Kind> inertia_kinds();
+std::vector<Kind> clutch_kinds();
 std::vector<Kind> coupling_kinds();
 std::vector<Kind> gearbox_kinds();
 std::vector<Kind> motor_kinds();

@@ -22,9 +22,9 @@ struct Merging {
   int groups = 0;
 };
 
-// Walks the joints that `is_rigid` admits.
+// Walks the joints that `is_rigid` admits, and the relations in their usual motion where they are asked for.
 template <class IsRigid>
-Merging merge(const Network& network, IsRigid is_rigid) {
+Merging merge(const Network& network, IsRigid is_rigid, bool through_relations = false) {
   const std::size_t n = network.nodes.size();
   std::vector<std::vector<std::size_t>> joints_at(n);
   for (std::size_t j = 0; j < network.joints.size(); ++j)
@@ -32,6 +32,10 @@ Merging merge(const Network& network, IsRigid is_rigid) {
       joints_at[at(network.joints[j].a)].push_back(j);
       joints_at[at(network.joints[j].b)].push_back(j);
     }
+  std::vector<std::vector<const Network::Relation*>> relations_at(n);
+  if (through_relations)
+    for (const Network::Relation& relation : network.relations)
+      for (int k = 0; k < relation.members(); ++k) relations_at[at(relation.node[at(k)])].push_back(&relation);
   Merging merging{std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
   for (std::size_t first = 0; first < n; ++first) {
     if (merging.group[first] >= 0) continue;
@@ -47,6 +51,19 @@ Merging merge(const Network& network, IsRigid is_rigid) {
         merging.group[other] = merging.groups;
         merging.gain[other] = from_a ? merging.gain[node] / joint.ratio : merging.gain[node] * joint.ratio;
         queue.push_back(other);
+      }
+      for (const Network::Relation* relation : relations_at[node]) {
+        const auto own = static_cast<std::size_t>(
+            std::find(relation->node.begin(), relation->node.end(), static_cast<int>(node)) - relation->node.begin());
+        for (int k = 0; k < relation->members(); ++k) {
+          const std::size_t other = at(relation->node[at(k)]);
+          if (merging.group[other] >= 0) continue;
+          merging.group[other] = merging.groups;
+          const double usual = relation->usual[own];
+          merging.gain[other] =
+              usual == 0 ? relation->usual[at(k)] : merging.gain[node] * relation->usual[at(k)] / usual;
+          queue.push_back(other);
+        }
       }
     }
     ++merging.groups;
@@ -66,10 +83,12 @@ class Compiler {
     check_tree();
     choose_reduction_node();
     find_node_ratios();
+    switch_connections();
     settle_relative_damping();
     switch_effects();
     make_shafts();
     make_elastic_joints();
+    make_relations();
     check_inertias();
     find_scales();
     track_angles();
@@ -90,8 +109,11 @@ class Compiler {
 
   void check_tree() {
     if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
-    const Merging all = merge(net(), [](const Network::Joint&) { return true; });
-    if (all.groups > 1 || net().joints.size() + 1 != net().nodes.size())
+    const Merging all = merge(
+        net(), [](const Network::Joint&) { return true; }, true);
+    std::size_t links = net().joints.size();
+    for (const Network::Relation& relation : net().relations) links += at(relation.members()) - 1;
+    if (all.groups > 1 || links + 1 != net().nodes.size())
       throw SceneError(
           {{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
   }
@@ -108,10 +130,12 @@ class Compiler {
   }
 
   void find_node_ratios() {
-    const Merging all = merge(net(), [](const Network::Joint&) { return true; });
+    const Merging all = merge(
+        net(), [](const Network::Joint&) { return true; }, true);
     model_.node_ratio = all.gain;
     const double reduction = all.gain[at(model_.reduction_node)];
-    for (double& ratio : model_.node_ratio) ratio /= reduction;
+    for (double& ratio : model_.node_ratio) ratio /= reduction == 0 ? 1 : reduction;
+    for (const double ratio : model_.node_ratio) model_.scale_ratio.push_back(ratio == 0 ? 1 : std::abs(ratio));
   }
 
   // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
@@ -135,8 +159,22 @@ class Compiler {
     }
   }
 
+  // Connections in the form that the effects leave them.
+  void switch_connections() {
+    for (Network::Joint& joint : net().joints)
+      if (joint.element)
+        if (auto changed = joint.element->with(model_.effects)) joint.element = std::move(changed);
+  }
+
   void switch_effects() {
     for (Network::Joint& joint : net().joints) {
+      if (joint.element && joint.element->slips()) {
+        joint.elastic = !model_.effects.locked;
+        if (!joint.elastic)
+          model_.merged.push_back(
+              fmt::format("\"{}\" counts as locked; the shafts on either side are one", joint.component));
+        continue;
+      }
       joint.elastic = joint.element && model_.effects.is_elastic(joint.component);
       if (joint.element && !joint.elastic &&
           (model_.merged.empty() || model_.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
@@ -217,7 +255,37 @@ class Compiler {
       if (!joint.elastic) continue;
       model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)],
                                 model_.shaft_of_node[at(joint.b)], model_.gain_of_node[at(joint.a)],
-                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4});
+                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips()});
+    }
+  }
+
+  // The relations over the merged shafts; where two members became one shaft their gains add.
+  void make_relations() {
+    const auto add = [&](std::vector<ShaftGain>& row, int node, double gain) {
+      const int shaft = model_.shaft_of_node[at(node)];
+      gain *= model_.gain_of_node[at(node)];
+      for (ShaftGain& entry : row)
+        if (entry.shaft == shaft) {
+          entry.gain += gain;
+          return;
+        }
+      row.push_back({shaft, gain});
+    };
+    for (std::size_t r = 0; r < net().relations.size(); ++r) {
+      const Network::Relation& given = net().relations[r];
+      ShaftRelation relation;
+      relation.relation = static_cast<int>(r);
+      for (int k = 0; k < given.members(); ++k) add(relation.motion, given.node[at(k)], given.gain[at(k)]);
+      if (given.lossy) {
+        // L brakes the driving side against the frame of the gear: v = ω₀ − ω₂, felt at 1 and 2.
+        add(relation.loss, given.node[1], given.gain[1]);
+        add(relation.sliding, given.node[0], 1);
+        if (given.members() == 3) {
+          add(relation.loss, given.node[2], 1 + given.gain[2]);
+          add(relation.sliding, given.node[2], -1);
+        }
+      }
+      model_.relations.push_back(std::move(relation));
     }
   }
 
@@ -264,7 +332,7 @@ class Compiler {
     for (std::size_t n = 0; n < net().nodes.size(); ++n)
       inertia += net().nodes[n].inertia * model_.node_ratio[n] * model_.node_ratio[n];
     for (const Network::ShaftElement& e : net().elements) {
-      const double ratio = std::abs(model_.node_ratio[at(e.node)]);
+      const double ratio = model_.scale_ratio[at(e.node)];
       const Rated rated = e.element->rated();
       speed = std::max(speed, std::abs(rated.speed) / ratio);
       double& sum = e.element->account() == Account::driving ? torque : resisting;
@@ -274,13 +342,13 @@ class Compiler {
     for (std::size_t n = 0; n < net().nodes.size(); ++n) {
       if (net().nodes[n].prescribed < 0) continue;
       const PrescribedSpeed& given = net().prescribed[at(net().nodes[n].prescribed)];
-      for (const double s : given.speed) speed = std::max(speed, std::abs(s / model_.node_ratio[n]));
-      speed = std::max(speed, std::abs(given.amplitude / model_.node_ratio[n]));
+      for (const double s : given.speed) speed = std::max(speed, std::abs(s / model_.scale_ratio[n]));
+      speed = std::max(speed, std::abs(given.amplitude / model_.scale_ratio[n]));
     }
     const StartSettings& start = model_.scene.run.start;
     const auto speed_of = [&](const std::string& component, double value) {
       const int node = component.empty() ? model_.reduction_node : net().ports.at(component).in;
-      speed = std::max(speed, std::abs(value / model_.node_ratio[at(node)]));
+      speed = std::max(speed, std::abs(value / model_.scale_ratio[at(node)]));
     };
     if (start.speed != 0) speed_of(start.on, start.speed);
     for (const auto& [component, given] : start.components)
@@ -292,14 +360,15 @@ class Compiler {
     model_.speed_scale = speed;
     model_.torque_scale = torque;
     for (Shaft& shaft : model_.shafts) {
-      const double ratio = std::abs(model_.node_ratio[at(shaft.reference)]);
+      const double ratio = model_.scale_ratio[at(shaft.reference)];
       shaft.speed_scale = speed * ratio;
       shaft.torque_scale = torque / ratio;
     }
     for (ElasticJoint& e : model_.elastic) {
       const Network::Joint& joint = net().joints[at(e.joint)];
       const double stiffness = joint.element->stiffness();
-      if (stiffness > 0) e.twist_scale = torque / std::abs(model_.node_ratio[at(joint.a)]) / stiffness;
+      if (e.slips) e.twist_scale = 1;
+      if (stiffness > 0) e.twist_scale = torque / model_.scale_ratio[at(joint.a)] / stiffness;
     }
   }
 
@@ -311,7 +380,28 @@ class Compiler {
     model_.angles.push_back({node, shaft, gain});
     return static_cast<int>(model_.angles.size()) - 1;
   }
-  void track_angles() { model_.reduction_angle = tracked(model_.reduction_node); }
+  void track_angles() {
+    model_.reduction_angle = tracked(model_.reduction_node);
+    for (const SequenceStep& step : model_.scene.sequence.steps)
+      model_.trigger_angle.push_back(step.when == SequenceStep::When::angle ? tracked(net().ports.at(step.of).in) : -1);
+  }
+
+  // A component that the sequence sets: its place among the commands, or −1.
+  int command_of(const std::string& component) {
+    const auto is = [&](const CommandTarget& target) { return target.component == component; };
+    const auto known = std::find_if(model_.commands.begin(), model_.commands.end(), is);
+    return known == model_.commands.end() ? -1 : static_cast<int>(known - model_.commands.begin());
+  }
+  void list_commands() {
+    for (const SequenceStep& step : model_.scene.sequence.steps)
+      for (const std::string& component : step.set)
+        if (command_of(component) < 0) model_.commands.push_back({component, {}});
+  }
+  int own_places(const std::string& component, const std::vector<OwnState>& states) {
+    const int first = static_cast<int>(model_.own_states.size());
+    for (const OwnState& state : states) model_.own_states.push_back({component, state});
+    return first;
+  }
 
   int account(const std::string& name, Account kind) {
     model_.accounts.push_back({name, kind});
@@ -319,18 +409,28 @@ class Compiler {
   }
 
   void place_elements() {
+    list_commands();
     PoolSet pools;
     std::string last;
     int loss = -1;
     for (std::size_t i = 0; i < model_.elastic.size(); ++i) {
-      const ElasticJoint& e = model_.elastic[i];
+      ElasticJoint& e = model_.elastic[i];
       const Network::Joint& joint = net().joints[at(e.joint)];
       if (joint.component != last || loss < 0) loss = account(joint.component, Account::harmful);
       last = joint.component;
-      joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss});
+      e.loss_account = loss;
+      ConnectionExtras extras{.own = own_places(joint.component, joint.element->own_states()),
+                              .component = joint.component};
+      if (joint.element->has_modes()) extras.mode = static_cast<int>(model_.mode_slots++);
+      if (joint.element->commanded()) extras.command = command_of(joint.component);
+      if (joint.element->uses_angle()) extras.angle = tracked(joint.a);
+      joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss}, extras);
     }
+    for (ShaftRelation& relation : model_.relations)
+      if (net().relations[at(relation.relation)].lossy)
+        relation.loss_account = account(net().relations[at(relation.relation)].component, Account::harmful);
     for (std::size_t i = 0; i < net().elements.size(); ++i) {
-      const Network::ShaftElement& e = net().elements[i];
+      Network::ShaftElement& e = net().elements[i];
       ShaftPorts ports{.id = static_cast<int>(i),
                        .shaft = model_.shaft_of_node[at(e.node)],
                        .gain = model_.gain_of_node[at(e.node)]};
@@ -340,7 +440,11 @@ class Compiler {
       }
       ports.mode = static_cast<int>(model_.mode_slots);
       model_.mode_slots += at(e.element->mode_count());
-      ports.account = account(e.component, e.element->account());
+      ports.own = own_places(e.component, e.element->own_states());
+      ports.command = command_of(e.component);
+      if (ports.command >= 0 && !e.element->commanded())
+        model_.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
+      ports.account = e.account = account(e.component, e.element->account());
       for (const auto& [name, kind] : e.element->further_accounts()) account(name, kind);
       e.element->place(pools, ports, {e.window, e.component});
     }
@@ -363,7 +467,7 @@ class Compiler {
       if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
       const std::string name = total == 1 ? joint.component : fmt::format("{}.{}", joint.component, k);
       model_.torque_joints.push_back(
-          {name, static_cast<int>(j), index, model_.torque_scale / std::abs(model_.node_ratio[at(joint.a)])});
+          {name, static_cast<int>(j), index, model_.torque_scale / model_.scale_ratio[at(joint.a)]});
     }
   }
 
@@ -397,6 +501,11 @@ std::string Model::node_label(int node) const {
   return n.label.empty() ? n.component : n.component + "." + n.label;
 }
 
+bool Model::has_contacts() const {
+  return !relations.empty() ||
+         std::any_of(elastic.begin(), elastic.end(), [](const ElasticJoint& e) { return e.slips; });
+}
+
 std::string Model::explain() const {
   const std::size_t twists = elastic.size();
   std::string text = fmt::format("effects on: {}\n", effects.describe());
@@ -420,10 +529,21 @@ std::string Model::explain() const {
   if (shafts.size() > shown) text += fmt::format("  … and {} more shafts\n", shafts.size() - shown);
   for (std::size_t i = 0; i < elastic.size() && i < shown; ++i) {
     const Network::Joint& joint = network.joints[static_cast<std::size_t>(elastic[i].joint)];
-    text +=
-        fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
-                    with_unit(joint.element->stiffness(), "N*m/rad"), with_unit(joint.element->damping(), "N*m*s/rad"));
+    if (elastic[i].slips) {
+      text += fmt::format("  slip of {}: carries {} before it slips\n", joint.component,
+                          with_unit(joint.element->capacity(), "N*m"));
+    } else {
+      text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
+                          with_unit(joint.element->stiffness(), "N*m/rad"),
+                          with_unit(joint.element->damping(), "N*m*s/rad"));
+    }
+    if (const std::string words = joint.element->describe(); !words.empty()) text += "    " + words + "\n";
   }
+  for (const Network::Relation& relation : network.relations)
+    text += fmt::format("  \"{}\" ties {} speeds at run time{}\n", relation.component, relation.members(),
+                        relation.lossy ? ", with losses" : "");
+  for (const OwnStatePlace& own : own_states)
+    text += fmt::format("  state of its own: {} of {}\n", own.state.name, own.component);
   for (const Network::ShaftElement& e : network.elements)
     if (const std::string words = e.element->describe(); !words.empty()) text += "  " + words + "\n";
   for (const std::string& line : merged) text += "  merged: " + line + "\n";
@@ -446,6 +566,8 @@ Network build_network(const Scene& scene) {
   const auto port_named = [&](const std::string& from) {
     const std::size_t dot = from.find('.');
     const Network::Ports& ports = network.ports.at(from.substr(0, dot));
+    if (dot != std::string::npos)
+      if (const auto other = ports.others.find(from.substr(dot + 1)); other != ports.others.end()) return other->second;
     return dot != std::string::npos && from.substr(dot + 1) == "in" ? ports.in : ports.out;
   };
   for (const Line& line : scene.lines) {

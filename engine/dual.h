@@ -48,6 +48,16 @@ struct Dual {
     const double root = std::sqrt(x.value);
     return x.chain(root, 0.5 / root);
   }
+  friend Dual exp(const Dual& x) {
+    const double e = std::exp(x.value);
+    return x.chain(e, e);
+  }
+  friend Dual tanh(const Dual& x) {
+    const double h = std::tanh(x.value);
+    return x.chain(h, 1 - h * h);
+  }
+  // xⁿ for x > 0.
+  friend Dual pow(const Dual& x, double n) { return x.chain(std::pow(x.value, n), n * std::pow(x.value, n - 1)); }
   friend Dual abs(const Dual& x) { return x.chain(std::abs(x.value), x.value < 0 ? -1.0 : 1.0); }
 };
 

@@ -8,15 +8,38 @@
 //   double energy(double twist) const;                       stored [J]
 //   double stiffness_at_rest() const;                        [N·m/rad]
 //
+// A **slipping connection** (clutch, one-way clutch, belt) has no spring. While it is stuck its two shafts turn as one
+// and τ is whatever that takes; torque() is asked for while it slips, in the sense x.direction of θ̇.
+//   static constexpr bool slips = true;
+//   Hold hold(const Twist<double>&) const;                   range of τ that it can carry without slipping [N·m]
+//   double capacity() const;                                 order of magnitude of that range [N·m]
+//
 // A **shaft element** sits on one shaft and exerts a torque M on it, positive in the direction of positive rotation.
 //   template <class T> T torque(const ShaftState<T>&) const;
 //   static constexpr Account account;                        which line of the energy balance its work belongs to
 //   Rated rated() const;                                     orders of magnitude for error scales
 //   static constexpr bool uses_angle = true;                 optional: depends on the angle
 //   static constexpr bool directional = true;                optional: opposes motion; then Hold hold(state) const
-//   static constexpr int guards = n;                         optional: piecewise; then first_mode, guard, next_mode
 //   double next_edge(double t) const; int mode_at(double t)  optional: piecewise over time
 //   bool uses_time() const; bool uses_speed() const;         optional: whether M depends on t, on ω; unsaid: it does
+//
+// Either may have, with x its local motion (Twist or ShaftState):
+//   static constexpr int guards = n;                         piecewise; then
+//     void guard(x, double* g) const;                          n values, positive while the mode x.mode holds, of order
+//     1 int first_mode(x) const;                                 mode for a state from nowhere int next_mode(x, int
+//     which) const;                       after guard `which` fell through zero std::string mode_name(int mode) const;
+//     for the list of events; empty: not worth telling
+//   static constexpr int regularised_mode = m;               a mode without guards, for events that find no rest
+//   static constexpr int states = n;                         states of its own, x.own[0 … n−1]; then
+//     template <class T> void rates(const X<T>& x, T* rate) const;   their time derivatives
+//     void first_states(x, double* own) const;                 at the start
+//     OwnState state(int k) const;                             its name, unit and order of magnitude
+//     double stored(const double* own) const;                  optional: energy in them [J]
+//   double loss_power(x) const;                              of a connection with states: τ θ̇ − dE/dt; and its
+//                                                            spring_torque and energy take x in place of the twist
+//   template <class T> T turning_torque(x) const;            of a connection with uses_angle: further torque on a,
+//                                                            −∂E/∂φ_a
+//   static constexpr bool commanded = true;                  an operating sequence sets x.command (1 unless told)
 #pragma once
 
 #include <string>
@@ -25,17 +48,32 @@ namespace kurbel {
 
 template <class T>
 struct Twist {
-  T angle{};  // θ [rad]
-  T rate{};   // θ̇ [rad/s]
+  T angle{};               // θ [rad]
+  T rate{};                // θ̇ [rad/s]
+  double t = 0;            // [s]
+  int mode = 0;            // piece of a piecewise law, fixed between events
+  int direction = 1;       // sense of slip, fixed between events; 0 = stuck
+  double command = 1;      // what an operating sequence says
+  const T* own = nullptr;  // states of the element
+  T turn{};                // φ_a, where the element uses the angle [rad], turns removed
 };
 
 template <class T>
 struct ShaftState {
-  double t = 0;       // [s]
-  T angle{};          // φ of the shaft that the element sits on [rad], turns removed
-  T rate{};           // ω [rad/s]
-  int mode = 0;       // piece of a piecewise law, fixed between events
-  int direction = 1;  // sign of ω, fixed between events; 0 = at standstill
+  double t = 0;            // [s]
+  T angle{};               // φ of the shaft that the element sits on [rad], turns removed
+  T rate{};                // ω [rad/s]
+  int mode = 0;            // piece of a piecewise law, fixed between events
+  int direction = 1;       // sign of ω, fixed between events; 0 = at standstill
+  double command = 1;      // what an operating sequence says
+  const T* own = nullptr;  // states of the element
+};
+
+// A state of its own that an element brings.
+struct OwnState {
+  std::string name;  // "current"
+  std::string unit;  // SI
+  double scale = 1;  // order of magnitude, for error control
 };
 
 // Lines of the energy balance. Useful work goes into the process; harmful work is friction and damping.
@@ -82,6 +120,29 @@ template <class E>
 concept Guarded = requires {
   E::guards;
 };
+template <class E>
+concept Slipping = requires {
+  requires E::slips;
+};
+template <class E>
+concept HasStates = requires {
+  E::states;
+};
+template <class E>
+concept Commanded = requires {
+  requires E::commanded;
+};
+template <class E>
+concept Regularisable = requires {
+  E::regularised_mode;
+};
+template <class E>
+constexpr int states_of() {
+  if constexpr (HasStates<E>)
+    return E::states;
+  else
+    return 0;
+}
 template <class E>
 concept Timed = requires(const E& e) {
   e.next_edge(0.0);

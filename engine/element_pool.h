@@ -1,41 +1,41 @@
-// element_pool.h — all elements of one type, evaluated in one loop behind one virtual call. No element, no pool, no
-// cost.
+// element_pool.h — what a pool of elements is to the equations: one loop behind one virtual call. No element, no pool,
+// no cost. Pools of connections and of shaft elements: connection_pool.h, shaft_pool.h.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "engine/dual.h"
 #include "engine/element.h"
 
 namespace kurbel {
 
 // Where the machine is. Arrays belong to the equations.
 struct Instant {
-  double t;
-  const double* angle;   // per tracked angle
-  const double* twist;   // per elastic connection
-  const double* speed;   // per shaft
-  const int* mode;       // per element
-  const int* direction;  // per shaft
-  const char* active;    // per element: within its window of time
+  double t = 0;
+  const double* angle = nullptr;    // per tracked angle
+  const double* twist = nullptr;    // per elastic connection
+  const double* speed = nullptr;    // per shaft
+  const int* mode = nullptr;        // per element
+  const int* direction = nullptr;   // per shaft
+  const char* active = nullptr;     // per element: within its window of time
+  const int* slip = nullptr;        // per elastic connection: sense of slip, 0 = stuck
+  const double* command = nullptr;  // per command of the operating sequence
+  const double* own = nullptr;      // the elements' own states
 };
 
 // What the elements do to the machine at that instant.
 struct Sums {
-  double* torque;             // per shaft: sum of torques
-  double* inertia;            // per shaft: variable inertias are added to the constant ones
-  double* twist_rate;         // per elastic connection
-  double* connection_torque;  // per elastic connection: transmitted torque k θ + c θ̇
-  double* spring_torque;      // per elastic connection: spring torque k θ; written only when work_rate is wanted
-  double* element_torque;     // per shaft element
-  double* element_inertia;    // per shaft element: its variable inertia
-  double* work_rate;          // per work account, or null where nobody asks
+  double* torque = nullptr;             // per shaft: sum of torques
+  double* inertia = nullptr;            // per shaft: variable inertias are added to the constant ones
+  double* twist_rate = nullptr;         // per elastic connection
+  double* connection_torque = nullptr;  // per elastic connection: transmitted torque k θ + c θ̇
+  double* spring_torque = nullptr;      // per elastic connection: spring torque k θ; only when work_rate is wanted
+  double* element_torque = nullptr;     // per shaft element
+  double* element_inertia = nullptr;    // per shaft element: its variable inertia
+  double* work_rate = nullptr;          // per work account, or null where nobody asks
+  double* own_rate = nullptr;           // per own state: its derivative
 };
 
 // Registers the places of a sparse Jacobian; a column or row of −1 is a motion that is no state.
@@ -46,6 +46,7 @@ class JacobianPattern {
   virtual int angle(int tracked) const = 0;    // state indices
   virtual int twist(int connection) const = 0;
   virtual int speed(int shaft) const = 0;  // −1: prescribed
+  virtual int own(int slot) const = 0;     // an element's own state
 };
 
 // Everything that can be asked of the machine at one instant. Pointers are valid until the next evaluation.
@@ -97,8 +98,15 @@ class ElementPool {
   virtual void fire(const Instant&, int /*guard*/, int* /*mode*/) const {}
   virtual GuardLabel label(int /*guard*/, const int* /*mode*/) const { return {}; }
   virtual void first_modes(const Instant&, int* /*mode*/) const {}
+  // Modes that hang on the sense of motion, after that has changed.
+  virtual void follow_directions(const Instant&, int* /*mode*/) const {}
+  // Gives the element of this guard its law without events; false where it has none.
+  virtual bool regularise(int /*guard*/, int* /*mode*/) const { return false; }
+  virtual void first_states(const Instant&, double* /*own*/) const {}
   // Torques at standstill: what the opposing elements of each shaft can hold.
   virtual void add_holds(const Instant&, Hold* /*per shaft*/, Hold* /*per element*/) const {}
+  // What the slipping connections can carry without slipping, and what they carry while they slip.
+  virtual void add_slip_holds(const Instant&, Hold* /*per elastic connection*/) const {}
   // Edges at known times.
   virtual double next_edge(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
   virtual void set_timed_modes(double /*t*/, int* /*mode*/, char* /*active*/) const {}
@@ -107,224 +115,6 @@ class ElementPool {
   // Kinetic energy of the variable inertias, found in another way than from I_r: a check of the reduction.
   virtual double kinetic_energy_of_bodies(const Instant&) const { return 0; }
   virtual void add_channels(std::vector<Channel>&) const {}
-};
-
-// Where an element of the pool is connected.
-struct ConnectionPorts {
-  int id = 0;  // index of the twist
-  int shaft_a = 0, shaft_b = 0;
-  double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
-  int loss_account = 0;
-};
-
-struct ShaftPorts {
-  int id = 0;    // index among shaft elements
-  int mode = 0;  // first of its mode slots
-  int shaft = 0;
-  double gain = 1;  // speed of the element's own shaft over that of the merged one
-  int angle = -1;   // tracked angle
-  int angle_shaft = 0;
-  double phase = 0;  // added to the tracked angle [rad]
-  int account = 0;
-};
-
-// What a pool needs of an element only now and then.
-struct ShaftElementLabel {
-  Window window;
-  std::string component;
-};
-
-template <class E>
-class ConnectionPool final : public ElementPool {
- public:
-  // Long chains are bound by memory: what every step needs stands close together, Jacobian slots apart.
-  struct Placed {
-    E element;
-    ConnectionPorts at;
-  };
-  void place(E element, ConnectionPorts at) { placed_.push_back({std::move(element), at}); }
-
-  void add(const Instant& now, Sums& sums) const override {
-    if (sums.work_rate) return add_with_work(now, sums);
-    for (const Placed& p : placed_) {
-      const Twist<double> x = motion(p, now);
-      const double tau = p.element.torque(x);
-      sums.twist_rate[p.at.id] = x.rate;
-      sums.connection_torque[p.at.id] = tau;
-      sums.torque[p.at.shaft_a] -= p.at.gain_a * tau;
-      sums.torque[p.at.shaft_b] += p.at.gain_b * tau;
-    }
-  }
-
-  void register_jacobian(JacobianPattern& pattern) override {
-    slots_.clear();
-    for (const Placed& p : placed_) {
-      const int theta = pattern.twist(p.at.id), a = pattern.speed(p.at.shaft_a), b = pattern.speed(p.at.shaft_b);
-      slots_.push_back({pattern.entry(a, theta), pattern.entry(a, a), pattern.entry(a, b), pattern.entry(b, theta),
-                        pattern.entry(b, a), pattern.entry(b, b)});
-    }
-  }
-
-  void add_jacobian(const Instant& now, const double*, double* slots) const override {
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-      const Placed& p = placed_[i];
-      const std::array<int, 6>& slot = slots_[i];
-      const Twist<double> x = motion(p, now);
-      const auto tau = p.element.torque(Twist<Dual<2>>{Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1)});
-      const double ga = p.at.gain_a, gb = p.at.gain_b, by_angle = tau.d[0], by_rate = tau.d[1];
-      slots[slot[0]] -= ga * by_angle;
-      slots[slot[1]] -= ga * by_rate * ga;
-      slots[slot[2]] += ga * by_rate * gb;
-      slots[slot[3]] += gb * by_angle;
-      slots[slot[4]] += gb * by_rate * ga;
-      slots[slot[5]] -= gb * by_rate * gb;
-    }
-  }
-
-  double energy(const Instant& now) const override {
-    double sum = 0;
-    for (const Placed& p : placed_) sum += p.element.energy(now.twist[p.at.id]);
-    return sum;
-  }
-
- private:
-  static Twist<double> motion(const Placed& p, const Instant& now) {
-    return {now.twist[p.at.id], p.at.gain_a * now.speed[p.at.shaft_a] - p.at.gain_b * now.speed[p.at.shaft_b]};
-  }
-  void add_with_work(const Instant& now, Sums& sums) const {
-    for (const Placed& p : placed_) {
-      const Twist<double> x = motion(p, now);
-      const double tau = p.element.torque(x), spring = p.element.spring_torque(x.angle);
-      sums.twist_rate[p.at.id] = x.rate;
-      sums.connection_torque[p.at.id] = tau;
-      sums.spring_torque[p.at.id] = spring;
-      sums.torque[p.at.shaft_a] -= p.at.gain_a * tau;
-      sums.torque[p.at.shaft_b] += p.at.gain_b * tau;
-      sums.work_rate[p.at.loss_account] -= (tau - spring) * x.rate;
-    }
-  }
-
-  std::vector<Placed> placed_;
-  std::vector<std::array<int, 6>> slots_;
-};
-
-template <class E>
-class ShaftPool final : public ElementPool {
- public:
-  struct Placed {
-    E element;
-    ShaftPorts at;
-    int slot_angle = 0, slot_rate = 0;
-  };
-  void place(E element, const ShaftPorts& at, ShaftElementLabel label) {
-    placed_.push_back({std::move(element), at, 0, 0});
-    label_.push_back(std::move(label));
-  }
-
-  void add(const Instant& now, Sums& sums) const override {
-    for (const Placed& p : placed_) {
-      const ShaftState<double> x = state(p, now);
-      const double torque = now.active[p.at.id] ? p.element.torque(x) : 0.0;
-      sums.element_torque[p.at.id] = torque;
-      sums.torque[p.at.shaft] += p.at.gain * torque;
-      if (sums.work_rate) sums.work_rate[p.at.account] += torque * x.rate;
-    }
-  }
-
-  void register_jacobian(JacobianPattern& pattern) override {
-    for (Placed& p : placed_) {
-      const int speed = pattern.speed(p.at.shaft);
-      if constexpr (UsesAngle<E>) p.slot_angle = pattern.entry(speed, pattern.angle(p.at.angle));
-      p.slot_rate = pattern.entry(speed, speed);
-    }
-  }
-
-  void add_jacobian(const Instant& now, const double*, double* slots) const override {
-    for (const Placed& p : placed_) {
-      if (!now.active[p.at.id]) continue;
-      const ShaftState<double> x = state(p, now);
-      const auto torque = p.element.torque(
-          ShaftState<Dual<2>>{x.t, Dual<2>::input(x.angle, 0), Dual<2>::input(x.rate, 1), x.mode, x.direction});
-      if constexpr (UsesAngle<E>) slots[p.slot_angle] += p.at.gain * torque.d[0];
-      slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
-    }
-  }
-
-  int guard_count() const override {
-    if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::guards;
-    return 0;
-  }
-  bool guards_are_of_angle() const override {
-    if constexpr (Guarded<E>)
-      return UsesAngle<E> && std::none_of(placed_.begin(), placed_.end(), [](const Placed& p) {
-               return depends_on_speed(p.element) || depends_on_time(p.element);
-             });
-    return true;
-  }
-  void guards(const Instant& now, double* g) const override {
-    if constexpr (Guarded<E>)
-      for (const Placed& p : placed_) {
-        if (now.active[p.at.id]) {
-          p.element.guard(state(p, now), g);
-        } else {
-          for (int i = 0; i < E::guards; ++i) g[i] = 1;
-        }
-        g += E::guards;
-      }
-  }
-  void fire(const Instant& now, int guard, int* mode) const override {
-    if constexpr (Guarded<E>) {
-      const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      mode[p.at.mode] = p.element.next_mode(state(p, now), guard % E::guards);
-    }
-  }
-  GuardLabel label(int guard, const int* mode) const override {
-    if constexpr (Guarded<E>) {
-      const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      return {label_[static_cast<std::size_t>(guard / E::guards)].component, p.element.mode_name(mode[p.at.mode])};
-    }
-    return {};
-  }
-  void first_modes(const Instant& now, int* mode) const override {
-    if constexpr (Guarded<E>)
-      for (const Placed& p : placed_) mode[p.at.mode] = p.element.first_mode(state(p, now));
-  }
-  void add_holds(const Instant& now, Hold* shaft, Hold* element) const override {
-    if constexpr (Directional<E>)
-      for (const Placed& p : placed_) {
-        if (!now.active[p.at.id]) continue;
-        const Hold hold = p.element.hold(state(p, now));
-        element[p.at.id] = hold;
-        shaft[p.at.shaft].low += p.at.gain * hold.low;
-        shaft[p.at.shaft].high += p.at.gain * hold.high;
-      }
-  }
-  double next_edge(double t) const override {
-    double next = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-      if (label_[i].window.start > t) next = std::min(next, label_[i].window.start);
-      if (label_[i].window.stop > t) next = std::min(next, label_[i].window.stop);
-      if constexpr (Timed<E>) next = std::min(next, placed_[i].element.next_edge(t));
-    }
-    return next;
-  }
-  void set_timed_modes(double t, int* mode, char* active) const override {
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-      const Placed& p = placed_[i];
-      active[p.at.id] = t >= label_[i].window.start && t < label_[i].window.stop;
-      if constexpr (Timed<E>) mode[p.at.mode] = p.element.mode_at(t);
-    }
-  }
-
- private:
-  ShaftState<double> state(const Placed& p, const Instant& now) const {
-    double angle = 0;
-    if constexpr (UsesAngle<E>) angle = now.angle[p.at.angle] + p.at.phase;
-    return {now.t, angle, p.at.gain * now.speed[p.at.shaft], now.mode[p.at.mode], now.direction[p.at.shaft]};
-  }
-
-  std::vector<Placed> placed_;
-  std::vector<ShaftElementLabel> label_;
 };
 
 }  // namespace kurbel

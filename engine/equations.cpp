@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace kurbel {
 namespace {
@@ -32,7 +33,6 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
     constant_inertia_.push_back(m.shafts[s].inertia);
     inverse_inertia_.push_back(m.shafts[s].inertia > 0 ? 1 / m.shafts[s].inertia : 0);
   }
-  guard_count_ += 2 * directional_.size();
   inertia_ = constant_inertia_;
   const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size(), nodes = m.network.nodes.size();
   direction_.assign(shafts, 1);
@@ -52,6 +52,8 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   if (!reacting_.empty()) {
     for (auto* per_shaft : {&reaction_alpha_, &reaction_torque_, &reaction_slope_})
       per_shaft->assign(model_->shafts.size(), 0);
+    for (auto* per_shaft : {&reaction_effective_torque_, &reaction_effective_inertia_, &reaction_next_})
+      per_shaft->assign(model_->shafts.size(), 0);
     reaction_element_.assign(elements, 0);
   }
   element_inertia_.assign(elements, 0);
@@ -62,8 +64,13 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   element_hold_.assign(elements, {});
   work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
   shaft_angle_.assign(shafts, 0);
+  own_rate_.assign(m.own_states.size(), 0);
   list_rigid_trees();
   list_elastic_tree();
+  list_contacts();
+  command_.assign(m.commands.size(), {});
+  command_value_.assign(m.commands.size(), 1);
+  if (!m.scene.sequence.steps.empty()) ++guard_count_;
 }
 
 // The elastic joints in an order that leads outwards from the reduction link.
@@ -127,6 +134,9 @@ double Equations::prescribed_acceleration(std::size_t shaft, double t) const {
 // Everything that changes at known times.
 void Equations::set_timed_modes(double t) {
   for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
+  for (std::size_t c = 0; c < command_.size(); ++c)
+    for (const int e : model_->commands[c].switched)
+      if (command_[c].value + command_[c].rate * (t - command_[c].from) <= 0.5) active_[at(e)] = 0;
   for (std::size_t p = 0; p < prescribed_piece_.size(); ++p)
     prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
 }
@@ -139,29 +149,52 @@ Instant Equations::instant(double t, std::span<const double> y) {
     for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = prescribed_speed(s, t);
     speed = speed_.data();
   }
-  return {t, y.data(), y.data() + twists_begin(), speed, mode_.data(), direction_.data(), active_.data()};
+  for (std::size_t c = 0; c < command_.size(); ++c)
+    command_value_[c] = command_[c].value + command_[c].rate * (t - command_[c].from);
+  return {t,
+          y.data(),
+          y.data() + twists_begin(),
+          speed,
+          mode_.data(),
+          direction_.data(),
+          active_.data(),
+          slip_.data(),
+          command_value_.data(),
+          y.data() + own_begin()};
 }
 
 // Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
-void Equations::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate) {
+void Equations::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
+                         double* own_rate) {
   const Model& m = *model_;
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
   snapshot_.now = instant(t, y);
-  snapshot_.sums = {
-      torque_.data(),         inertia_.data(),         twist_rate, connection_torque_.data(), spring_torque_.data(),
-      element_torque_.data(), element_inertia_.data(), work_rate};
+  snapshot_.sums = {torque_.data(),
+                    inertia_.data(),
+                    twist_rate,
+                    connection_torque_.data(),
+                    spring_torque_.data(),
+                    element_torque_.data(),
+                    element_inertia_.data(),
+                    work_rate,
+                    own_rate ? own_rate : own_rate_.data()};
   for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
-  for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
-  for (const int s : variable_)
-    if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
-  for (const int s : directional_)
-    if (direction_[at(s)] == 0 && at(s) < m.free_shafts) alpha[s] = 0;
+  if (contacts_.empty() && m.relations.empty() && reacting_.empty()) {
+    for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
+    for (const int s : variable_)
+      if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
+    return;
+  }
+  add_known_contact_torques();
+  std::copy(torque_.begin(), torque_.end(), free_torque_.begin());
+  find_accelerations(t, free_torque_, inertia_, alpha);
   if (!reacting_.empty()) settle_reactions(t, alpha, work_rate);
+  publish_contacts(work_rate);
 }
 
-// I α = M + M_r(α) by Newton's method on every shaft: M_r′ counts as inertia.
+// I α = M + M_r(α) by Newton's method: M_r′ counts as inertia.
 void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
   const Model& m = *model_;
   std::copy(alpha, alpha + m.free_shafts, reaction_alpha_.begin());
@@ -173,15 +206,20 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
     Reactions sums{reaction_torque_.data(), reaction_slope_.data(), reaction_element_.data(), work};
     for (const ElementPool* pool : reacting_) pool->add_reactions(snapshot_.now, reaction_alpha_.data(), sums);
   };
+  std::vector<double>& torque = reaction_effective_torque_;
+  std::vector<double>& inertia = reaction_effective_inertia_;
   constexpr int most_steps = 50;
   for (int i = 0; i < most_steps; ++i) {
     react(nullptr);
+    for (std::size_t s = 0; s < m.shafts.size(); ++s) {
+      torque[s] = free_torque_[s] + reaction_torque_[s] + reaction_slope_[s] * reaction_alpha_[s];
+      inertia[s] = inertia_[s] + reaction_slope_[s];
+    }
+    find_accelerations(t, torque, inertia, reaction_next_.data());
     double change = 0;
     for (std::size_t s = 0; s < m.free_shafts; ++s) {
-      if (m.shafts[s].directional && direction_[s] == 0) continue;
-      const double left = torque_[s] + reaction_torque_[s] - inertia_[s] * reaction_alpha_[s];
-      const double step = left / (inertia_[s] + reaction_slope_[s]);
-      reaction_alpha_[s] += step;
+      const double step = reaction_next_[s] - reaction_alpha_[s];
+      reaction_alpha_[s] = reaction_next_[s];
       change = std::max(
           change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
     }
@@ -197,7 +235,7 @@ void Equations::flow(double t, std::span<const double> y, std::span<double> ydot
   const Model& m = *model_;
   double* const alpha = ydot.data() + speed_index(0);
   double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
-  evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate);
+  evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + own_begin());
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
@@ -224,13 +262,20 @@ void Equations::find_joint_torques(const double* alpha) {
     balance_[at(joint.a)] += connection_torque_[i];
     balance_[at(joint.b)] -= joint.ratio * connection_torque_[i];
   }
+  for (std::size_t r = 0; r < m.relations.size(); ++r) {
+    const Network::Relation& relation = net.relations[r];
+    const double taken = relation_torque_[r], lost = relation_loss_[r];
+    for (int k = 0; k < relation.members(); ++k) balance_[at(relation.node[at(k)])] += relation.gain[at(k)] * taken;
+    balance_[at(relation.node[1])] -= relation.gain[1] * lost;
+    if (relation.members() == 3) balance_[at(relation.node[2])] -= (1 + relation.gain[2]) * lost;
+  }
   // At standstill the opposing elements hold the rest, in proportion to what each can hold.
-  for (const int s : directional_) {
+  bool holds_known = false;
+  for (std::size_t c = 0; c < directional_.size(); ++c) {
+    const int s = directional_[c];
     if (direction_[at(s)] != 0) continue;
-    std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
-    std::fill(element_hold_.begin(), element_hold_.end(), Hold{});
-    for (const auto& pool : m.pools) pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
-    const double rest = -torque_[at(s)];
+    if (!std::exchange(holds_known, true)) find_holds();
+    const double rest = -contact_torque_[c];
     const double capacity = rest > 0 ? shaft_hold_[at(s)].high : shaft_hold_[at(s)].low;
     if (capacity == 0) continue;
     for (std::size_t e = 0; e < net.elements.size(); ++e) {
@@ -299,9 +344,10 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
   const std::size_t stored = layout.pattern.row.size();
   for (std::size_t k = 0; k < slot_.size(); ++k)
     if (layout.slot_position[k] < stored) values[layout.slot_position[k]] += slot_[k];
+  if (!contacts_.empty() || !m.relations.empty()) mix_coupled_rows(values);
   for (std::size_t i = 0; i < stored; ++i) {
     const int s = layout.row_shaft[i];
-    if (s >= 0)
+    if (s >= 0 && !coupled_[at(s)])
       values[i] *= m.shafts[at(s)].directional && direction_[at(s)] == 0
                        ? 0.0
                        : 1 / (inertia_[at(s)] + (reacting_.empty() ? 0.0 : reaction_slope_[at(s)]));
@@ -316,6 +362,7 @@ ErrorControl Equations::error_control(double tolerance) const {
     control.scale.push_back(std::max(1.0, std::abs(m.node_ratio[at(angle.node)])));
   for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
+  for (const OwnStatePlace& own : m.own_states) control.scale.push_back(own.state.scale);
   control.scale.resize(size(), 0.0);
   if (!audit() || m.free_shafts == m.shafts.size()) return control;
   // Beside a prescribed motion the states may be smoother than the torques: only the quadratures keep the steps short.
@@ -331,7 +378,10 @@ std::string Equations::state_name(std::size_t state) const {
   if (state < m.angle_count()) return fmt::format("angle of {}", m.node_label(m.angles[state].node));
   if (state < speed_index(0))
     return fmt::format("twist of {}", m.network.joints[at(m.elastic[state - twists_begin()].joint)].component);
-  if (state < states_) return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
+  if (state < own_begin()) return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
+  if (state < states_)
+    return fmt::format("{} of {}", m.own_states[state - own_begin()].state.name,
+                       m.own_states[state - own_begin()].component);
   if (state < states_ + m.accounts.size()) return fmt::format("work of {}", m.accounts[state - states_].name);
   return "a squared torque";
 }

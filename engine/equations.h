@@ -1,7 +1,9 @@
 // equations.h — the equations of motion of a compiled model, and the modes that hold between events.
 //
-// State: [ angles φ | twists θ | speeds ω | quadratures ].
+// State: [ angles φ | twists θ | speeds ω | the elements' own states | quadratures ].
 //   φ̇ = gain ω,   θ̇ = gain_a ω_a − gain_b ω_b,   I(φ) ω̇ = Σ torques − ½ I′ ω²          (THEORY 2.4, 5)
+// While a contact is stuck (a locked clutch, a held shaft) its speeds are tied: one degree of freedom less, and the
+// torque that it transmits is found with the accelerations (constraints.h). Which contacts are stuck is a mode.
 // Twists are states of their own: a twist of 1e-4 rad keeps its digits when the machine has turned 1e6 rad.
 #pragma once
 
@@ -10,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/constraints.h"
 #include "engine/model.h"
 #include "engine/stepper.h"
 
@@ -18,6 +21,20 @@ namespace kurbel {
 struct Event {
   double t = 0;
   std::string component, what;
+  std::string from = {};  // the mode before, where it has a name
+};
+
+// Two sides that stick together or slip: a shaft against the frame with all that brakes it, the sides of a clutch, a
+// gear against its own losses.
+struct Contact {
+  enum class Kind { frame, connection, loss };
+  Kind kind = Kind::frame;
+  int index = 0;                  // shaft, elastic joint, relation
+  std::vector<ShaftGain> motion;  // speed of slip v = Σ gain ω
+  std::vector<ShaftGain> torque;  // what one unit of its torque λ, which opposes v > 0, does to the shafts
+  double speed_scale = 1, torque_scale = 1;
+  std::string name;
+  bool regularised = false;  // its events found no rest: λ follows v smoothly instead
 };
 
 class Equations final : public OdeSystem {
@@ -59,8 +76,10 @@ class Equations final : public OdeSystem {
   void fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log);
   double next_edge(double t) const;
   void pass_edge(double t, std::span<double> y, std::vector<Event>& log);
-  bool has_directions() const { return !directional_.empty(); }
   bool at_standstill(std::size_t shaft) const { return direction_[shaft] == 0; }
+  // Gives whatever owns these guards a law without events, for good. What changed, in words; empty: nothing can.
+  std::string regularise(const std::vector<std::size_t>& guards);
+  std::string guard_owner(std::size_t guard) const;
 
   // --- angles ---
   // Takes whole multiples of two turns out of the angles; true if any changed.
@@ -106,14 +125,56 @@ class Equations final : public OdeSystem {
   double prescribed_speed(std::size_t shaft, double t) const;
   double prescribed_acceleration(std::size_t shaft, double t) const;
   void set_timed_modes(double t);
-  void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate);
+  std::size_t contact_guards_begin() const {
+    return guard_count_ - 2 * contacts_.size() - lossy_.size() - (model_->scene.sequence.steps.empty() ? 0 : 1);
+  }
+  std::size_t own_begin() const { return twists_begin() + model_->twist_count() + model_->free_shafts; }
+  void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
+                double* own_rate = nullptr);
   void settle_reactions(double t, double* alpha, double* work_rate);
+  void refuse_impossible_slip(double t, std::span<const double> y);
+  void free_member_follows(std::span<double> y, const std::vector<char>& given);
   void find_joint_torques(const double* alpha);
   void write_quadratures(double* rate);
   void list_rigid_trees();
   void list_elastic_tree();
-  void settle_directions(double t, std::span<double> y, const std::vector<std::size_t>& shafts,
-                         std::vector<Event>* log);
+  // contacts (equations_contacts.cpp)
+  void list_contacts();
+  int& sense(std::size_t contact);
+  int sense(std::size_t contact) const { return const_cast<Equations*>(this)->sense(contact); }
+  double slip_speed(const Contact& contact, const Instant& now) const;
+  void tie_stuck_contacts();
+  void add_known_contact_torques();
+  void find_accelerations(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
+  void publish_contacts(double* work_rate);
+  void find_holds();
+  Hold limits(std::size_t contact) const;
+  double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
+  struct Misfit {
+    double size = 0;
+    std::size_t contact = 0;  // or relation + contacts_.size()
+    int better = 0;
+  };
+  Misfit worst_misfit(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                      double* total = nullptr);
+  void settle_contacts(double t, std::span<double> y, const std::vector<std::size_t>& stopped,
+                       const std::vector<std::pair<std::size_t, int>>& forced, std::vector<Event>* log);
+  bool try_all_modes(double t, std::span<const double> y, const std::vector<std::size_t>& among);
+  void tie_speeds(double t, std::span<double> y);
+  std::string sharing(const Contact& contact);
+  void log_contacts(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
+                    const std::vector<std::size_t>& always, std::vector<Event>& log);
+  void contact_guards(double t, std::span<const double> y, double* g);
+  bool is_prescribed(const Contact& contact) const;
+  double effective_inertia(const Contact& contact) const;
+  void mix_coupled_rows(std::span<double> values);
+  // the operating sequence (equations_sequence.cpp)
+  void begin_sequence(double t, std::span<double> y, std::vector<Event>* log);
+  void arm_step(double t, std::span<const double> y);
+  void take_steps(double t, std::span<const double> y, std::vector<Event>* log);
+  double sequence_guard(std::span<const double> y) const;
+  void switch_elements();
+
   std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
   void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
@@ -132,14 +193,39 @@ class Equations final : public OdeSystem {
   std::vector<int> mode_, direction_, prescribed_piece_;
   std::vector<char> active_;
   std::vector<double> turns_;  // per tracked angle, in units of two turns
+  std::vector<int> slip_;      // per elastic joint: sense of slip, 0 = stuck; 1 where there is no contact
+  std::vector<int> loss_direction_, loss_sign_;  // per relation: sense of sliding, sign of λ
+
+  std::vector<Contact> contacts_;  // shafts against the frame first
+  Constraints constraints_;
+  std::vector<std::size_t> row_contact_;      // contact of each constraint row; relations stand before them
+  std::vector<int> lossy_;                    // relations with losses
+  std::vector<std::size_t> contact_of_loss_;  // per relation
+  std::vector<char> still_;                   // per shaft: tied to the frame
+  std::vector<char> coupled_;                 // per shaft: its row mixes with others
+  bool tied_ = false;                         // constraints beyond single shafts at standstill
+  std::vector<double> contact_torque_, relation_torque_, multiplier_, all_alpha_;
+  std::vector<double> relation_loss_;
+  std::vector<double> free_torque_;  // on the shafts, without what contacts and relations transmit
+  std::vector<Hold> slip_hold_;
+
+  // operating sequence
+  struct Command {
+    double value = 1, rate = 0, from = 0, until = -1e300, to = 1;  // value + rate (t − from) until then
+  };
+  std::vector<Command> command_;
+  std::vector<double> command_value_;
+  std::size_t next_step_ = 0;
+  double armed_time_ = 1e300, armed_angle_ = 0, last_step_time_ = 0;
 
   // working arrays
-  std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_;
+  std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_, own_rate_;
   std::vector<double> element_torque_, element_inertia_, balance_, joint_torque_, node_angle_, work_rate_, shaft_angle_;
   std::vector<Hold> shaft_hold_, element_hold_;
   // torques that depend on the accelerations; empty where no element reacts
   std::vector<const ElementPool*> reacting_;
   std::vector<double> reaction_alpha_, reaction_torque_, reaction_slope_, reaction_element_;
+  std::vector<double> reaction_effective_torque_, reaction_effective_inertia_, reaction_next_;
   Snapshot snapshot_{};
 
   // Jacobian: the model's layout with the quadratures' empty diagonal appended

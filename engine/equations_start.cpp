@@ -1,13 +1,18 @@
 // equations_start.cpp — the state that a scene starts from: angles, twists in balance with the loads, modes.
 #include "engine/equations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace kurbel {
 namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double at_rest = 1e-14;  // of the speed scale
 
 }  // namespace
 
@@ -61,12 +66,15 @@ std::vector<double> Equations::start(double t, const StartSettings& settings) {
   for (std::size_t s = 0; s < m.free_shafts; ++s)
     y[speed_index(static_cast<int>(s))] =
         settings.speed * m.node_ratio[at(m.shafts[s].reference)] / m.node_ratio[at(on)];
+  std::vector<char> given(m.shafts.size(), 0);
   for (const auto& [component, c] : settings.components) {
     if (!c.speed) continue;
     const int node = m.network.ports.at(component).in;
     const int s = m.shaft_of_node[at(node)];
     if (at(s) < m.free_shafts) y[speed_index(s)] = *c.speed / m.gain_of_node[at(node)];
+    given[at(s)] = 1;
   }
+  free_member_follows(y, given);
   settle_modes(t, y, settings.equilibrium);
   return y;
 }
@@ -97,18 +105,59 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   const Model& m = *model_;
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
+  begin_sequence(t, y, nullptr);
   set_timed_modes(t);
-  for (const int s : directional_) {
-    const double w = instant(t, y).speed[s];
-    direction_[at(s)] = w > 0 ? 1 : w < 0 ? -1 : 0;
+  std::vector<std::size_t> still;
+  const Instant now = instant(t, y);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double v = slip_speed(contacts_[c], now);
+    sense(c) = std::abs(v) <= at_rest * contacts_[c].speed_scale ? 0 : v > 0 ? 1 : -1;
+    contacts_[c].regularised = false;
+    if (sense(c) == 0 && !is_prescribed(contacts_[c])) still.push_back(c);
   }
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
   if (equilibrium) balance_twists(y, t);
-  std::vector<std::size_t> still;
-  for (const int s : directional_)
-    if (direction_[at(s)] == 0) still.push_back(at(s));
-  settle_directions(t, y, still, nullptr);
+  for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
+  settle_contacts(t, y, still, {}, nullptr);
+  refuse_impossible_slip(t, y);
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+}
+
+// A contact that can only ever hold in the sense in which it slips: the sides would have to hit each other.
+void Equations::refuse_impossible_slip(double t, std::span<const double> y) {
+  if (contacts_.empty()) return;
+  snapshot_.now = instant(t, y);
+  find_holds();
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    if (contacts_[c].kind == Contact::Kind::connection && sense(c) != 0 &&
+        std::isinf(sense(c) > 0 ? limits(c).high : limits(c).low))
+      throw std::runtime_error(
+          fmt::format("\"{}\" cannot slip in the sense in which the machine starts ({:.6g} rad/s): its driving side "
+                      "would have to be "
+                      "no faster than its driven side. Start both sides at one speed",
+                      contacts_[c].name, slip_speed(contacts_[c], snapshot_.now)));
+}
+
+// Speeds that a relation demands of members whose speeds are not given.
+void Equations::free_member_follows(std::span<double> y, const std::vector<char>& given) {
+  const Model& m = *model_;
+  for (std::size_t pass = 0; pass < m.relations.size(); ++pass)
+    for (const ShaftRelation& relation : m.relations) {
+      double sum = 0;
+      const ShaftGain* open = nullptr;
+      for (const ShaftGain& g : relation.motion) {
+        const bool is_free = at(g.shaft) < m.free_shafts;
+        sum += g.gain * (is_free ? y[speed_index(g.shaft)] : prescribed_speed(at(g.shaft), 0));
+        if (is_free && !given[at(g.shaft)]) open = &g;
+      }
+      if (open) {
+        y[speed_index(open->shaft)] -= sum / open->gain;
+      } else if (std::abs(sum) > 1e-9 * m.speed_scale) {
+        throw std::runtime_error(
+            fmt::format("the start speeds contradict \"{}\", which ties them; leave one of them out",
+                        m.network.relations[at(relation.relation)].component));
+      }
+    }
 }
 
 std::vector<double> Equations::modes_from_scratch(double t, double reduction_angle, double reduction_speed) {
@@ -121,7 +170,11 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   wrap(y);
   set_timed_modes(t);
   for (const int s : directional_) direction_[at(s)] = reduction_speed > 0 ? 1 : reduction_speed < 0 ? -1 : 0;
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) slip_[i] = m.elastic[i].slips ? 0 : 1;  // clutches locked
+  std::fill(loss_direction_.begin(), loss_direction_.end(), reduction_speed >= 0 ? 1 : -1);
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
+  tie_stuck_contacts();
   return y;
 }
 

@@ -1,5 +1,6 @@
 // jacobian_layout.cpp — the sparsity of the equations comes from the elements themselves.
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "engine/model.h"
@@ -20,11 +21,43 @@ class Recorder final : public JacobianPattern {
     if (static_cast<std::size_t>(shaft) >= model_.free_shafts) return -1;
     return static_cast<int>(model_.angle_count() + model_.twist_count()) + shaft;
   }
+  int own(int slot) const override {
+    return static_cast<int>(model_.angle_count() + model_.twist_count() + model_.free_shafts) + slot;
+  }
   std::vector<std::pair<int, int>> places;  // column, row
 
  private:
   const Model& model_;
 };
+
+// Groups of free shafts that slipping connections and relations join, each of two or more.
+std::vector<std::vector<int>> coupled_shafts(const Model& model) {
+  std::vector<int> group(model.free_shafts);
+  std::iota(group.begin(), group.end(), 0);
+  const auto is_free = [&](int s) { return static_cast<std::size_t>(s) < model.free_shafts; };
+  const auto tie = [&](int a, int b) {
+    if (!is_free(a) || !is_free(b)) return;
+    const int from = group[static_cast<std::size_t>(b)], to = group[static_cast<std::size_t>(a)];
+    std::replace(group.begin(), group.end(), from, to);
+  };
+  std::vector<char> touched(model.free_shafts, 0);
+  const auto touch = [&](int s) {
+    if (is_free(s)) touched[static_cast<std::size_t>(s)] = 1;
+  };
+  for (const ElasticJoint& e : model.elastic)
+    if (e.slips) tie(e.shaft_a, e.shaft_b), touch(e.shaft_a), touch(e.shaft_b);
+  for (const ShaftRelation& relation : model.relations)
+    for (const ShaftGain& entry : relation.motion) {
+      touch(entry.shaft);
+      for (const ShaftGain& other : relation.motion) tie(entry.shaft, other.shaft);
+    }
+  std::map<int, std::vector<int>> members;
+  for (std::size_t s = 0; s < model.free_shafts; ++s)
+    if (touched[s]) members[group[s]].push_back(static_cast<int>(s));
+  std::vector<std::vector<int>> groups;
+  for (auto& [first, shafts] : members) groups.push_back(std::move(shafts));
+  return groups;
+}
 
 }  // namespace
 
@@ -42,6 +75,22 @@ JacobianLayout lay_out_jacobian(const Model& model) {
     rate(record.twist(static_cast<int>(i)), model.elastic[i].shaft_a, model.elastic[i].gain_a);
     rate(record.twist(static_cast<int>(i)), model.elastic[i].shaft_b, -model.elastic[i].gain_b);
   }
+  // Shafts that a locked clutch or a relation may tie together share all their columns.
+  JacobianLayout layout;
+  std::vector<std::vector<int>> coupled_slots;
+  for (const std::vector<int>& shafts : coupled_shafts(model)) {
+    JacobianLayout::Coupled group{shafts, {}, {}};
+    for (const auto& [column, row] : record.places)
+      if (column >= 0 && std::any_of(shafts.begin(), shafts.end(), [&](int s) { return record.speed(s) == row; }))
+        group.columns.push_back(column);
+    for (const int s : shafts) group.columns.push_back(record.speed(s));
+    std::sort(group.columns.begin(), group.columns.end());
+    group.columns.erase(std::unique(group.columns.begin(), group.columns.end()), group.columns.end());
+    std::vector<int>& slots = coupled_slots.emplace_back();
+    for (const int column : group.columns)
+      for (const int s : shafts) slots.push_back(record.entry(record.speed(s), column));
+    layout.coupled.push_back(std::move(group));
+  }
   const int states = static_cast<int>(model.state_count());
   for (int i = 0; i < states; ++i) record.entry(i, i);  // KLU needs every diagonal entry, zeros too
 
@@ -49,13 +98,12 @@ JacobianLayout lay_out_jacobian(const Model& model) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return record.places[a] < record.places[b]; });
-  JacobianLayout layout;
   layout.pattern.size = model.state_count();
   layout.pattern.column_start.assign(model.state_count() + 1, 0);
   layout.slot_position.assign(record.places.size(), 0);
   std::pair<int, int> last{-1, -1};
   std::vector<std::size_t> stateless;
-  const int first_speed = states - static_cast<int>(model.free_shafts);
+  const int first_speed = record.speed(0) < 0 ? states : record.speed(0);
   for (const std::size_t slot : order) {
     const auto [column, row] = record.places[slot];
     if (column < 0 || row < 0) {
@@ -64,7 +112,8 @@ JacobianLayout lay_out_jacobian(const Model& model) {
     }
     if (std::pair(column, row) != last) {
       layout.pattern.row.push_back(row);
-      layout.row_shaft.push_back(row >= first_speed ? row - first_speed : -1);
+      const int shaft = row - first_speed;
+      layout.row_shaft.push_back(shaft >= 0 && shaft < static_cast<int>(model.free_shafts) ? shaft : -1);
       ++layout.pattern.column_start[static_cast<std::size_t>(column) + 1];
       last = {column, row};
     }
@@ -76,6 +125,9 @@ JacobianLayout lay_out_jacobian(const Model& model) {
   for (const auto& [slot, value] : kinematic)
     if (layout.slot_position[slot] < layout.pattern.row.size())
       layout.constant.emplace_back(layout.slot_position[slot], value);
+  for (std::size_t g = 0; g < layout.coupled.size(); ++g)
+    for (const int slot : coupled_slots[g])
+      layout.coupled[g].position.push_back(layout.slot_position[static_cast<std::size_t>(slot)]);
   return layout;
 }
 

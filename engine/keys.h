@@ -50,6 +50,7 @@ struct Key {
   bool required = false;
   std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
   const std::vector<Kind>* nested = nullptr;  // of sections
+  std::string effect = "";                    // giving it gives the scene parameters for this effect
 };
 
 // How a kind of component stands in a machine.
@@ -68,6 +69,8 @@ struct Kind {
   void (*build)(const Section&, Network&, Messages&) = nullptr;
   // The component's elasticity can be switched off, which merges the shafts on either side.
   bool elastic = false;
+  // Shafts besides "in" and "out" that a branch may begin at: "ring".
+  std::vector<std::string> further_shafts = {};
 };
 
 // A characteristic as read, in SI; made into a Curve by the component that owns it.
@@ -110,6 +113,11 @@ struct Section {
   const std::string& text(std::string_view key) const { return (*this)[key].text; }
   Location where(std::string_view key) const { return has(key) ? find(key)->at : at; }
 };
+
+// A few names of many.
+std::string shortened_list(std::vector<std::string> names, std::string_view conjunction = "or");
+// " — did you mean "x"?", or nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 // "a", "b" or "c"
 std::string listed(const std::vector<std::string>& names, std::string_view conjunction = "or");

@@ -31,6 +31,35 @@ struct ElasticJoint {
   int shaft_a = 0, shaft_b = 0;
   double gain_a = 1, gain_b = 1;
   double twist_scale = 1e-4;  // [rad]
+  bool slips = false;         // a clutch: no spring
+  int loss_account = 0;
+};
+
+// Σ gain · ω over shafts.
+struct ShaftGain {
+  int shaft = 0;
+  double gain = 1;
+};
+
+// A relation of the network over the merged shafts.
+struct ShaftRelation {
+  int relation = 0;                // in the network
+  std::vector<ShaftGain> motion;   // Σ gain ω = 0
+  std::vector<ShaftGain> loss;     // torque on the shafts by a unit of loss L
+  std::vector<ShaftGain> sliding;  // speed that the loss opposes
+  int loss_account = -1;           // −1: none
+};
+
+// A state that an element brings along.
+struct OwnStatePlace {
+  std::string component;
+  OwnState state;
+};
+
+// A component that the operating sequence switches or sets.
+struct CommandTarget {
+  std::string component;
+  std::vector<int> switched;  // shaft elements that are merely on or off
 };
 
 // An angle that something depends on: turns are kept apart from the remainder.
@@ -58,6 +87,12 @@ struct JacobianLayout {
   std::vector<std::size_t> slot_position;                // per slot: stored entry; one past the end: no state
   std::vector<std::pair<std::size_t, double>> constant;  // kinematic entries: stored entry, value
   std::vector<int> row_shaft;                            // per stored entry: shaft of a speed's row, else −1
+  // Shafts whose accelerations mix while constraints hold; all their rows have all their columns.
+  struct Coupled {
+    std::vector<int> shafts, columns;
+    std::vector<std::size_t> position;  // stored entry of [column][shaft]
+  };
+  std::vector<Coupled> coupled;
 };
 
 struct Model {
@@ -68,9 +103,14 @@ struct Model {
   std::size_t free_shafts = 0;
   std::vector<int> shaft_of_node;
   std::vector<double> gain_of_node;  // ω_node = gain · ω_shaft
-  std::vector<double> node_ratio;    // ω_node / ω_reduction_link when the whole machine turns rigidly
+  std::vector<double> node_ratio;    // ω_node / ω_reduction_link in the machine's usual motion, all turning together
+  std::vector<double> scale_ratio;   // its magnitude, never 0: 1 where a shaft usually stands
   std::vector<ElasticJoint> elastic;
   std::vector<TrackedAngle> angles;
+  std::vector<ShaftRelation> relations;
+  std::vector<OwnStatePlace> own_states;
+  std::vector<CommandTarget> commands;
+  std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it watches, −1: none
   std::vector<TorqueJoint> torque_joints;
   std::vector<WorkAccount> accounts;
   std::vector<std::unique_ptr<ElementPool>> pools;
@@ -88,7 +128,9 @@ struct Model {
 
   std::size_t angle_count() const { return angles.size(); }
   std::size_t twist_count() const { return elastic.size(); }
-  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts; }
+  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
+  // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
+  bool has_contacts() const;
   std::string node_label(int node) const;
   // What was merged, the coordinates, their inertias, and why.
   std::string explain() const;

@@ -26,7 +26,7 @@ void Network::join(int a, int b, double ratio, const std::string& component) {
 
 void Network::put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window,
                        double phase) {
-  elements.push_back({node, component, std::move(maker), window, phase});
+  elements.push_back({node, component, std::move(maker), window, phase, -1});
 }
 
 void Network::prescribe(int node, PrescribedSpeed speed) {

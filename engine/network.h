@@ -1,6 +1,7 @@
 // network.h — the machine before merging: every shaft end a node, every connection a joint, every element on its node.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -10,7 +11,8 @@
 #include <typeindex>
 #include <vector>
 
-#include "engine/element_pool.h"
+#include "engine/connection_pool.h"
+#include "engine/shaft_pool.h"
 
 namespace kurbel {
 
@@ -33,7 +35,18 @@ class PoolSet {
   std::vector<std::unique_ptr<std::unique_ptr<ElementPool>>> pools_;  // in the order of first use
 };
 
-// An elastic connection, waiting to be placed into its pool.
+struct Effects;
+
+// Lists what an element says about its own states.
+template <class E>
+std::vector<OwnState> own_states_of(const E& element) {
+  std::vector<OwnState> states;
+  if constexpr (HasStates<E>)
+    for (int k = 0; k < E::states; ++k) states.push_back(element.state(k));
+  return states;
+}
+
+// A connection between two shafts, waiting to be placed into its pool: elastic, or slipping.
 class ConnectionMaker {
  public:
   virtual ~ConnectionMaker() = default;
@@ -42,9 +55,19 @@ class ConnectionMaker {
   virtual double damping() const = 0;
   virtual double twist_at(double torque) const = 0;
   virtual double torque(double twist, double rate) const = 0;
-  // dτ/dt from θ̇ and θ̈.
+  // dτ/dt from θ̇ and θ̈, where the torque hangs on the twist alone.
+  virtual bool knows_torque_rate() const { return true; }
   virtual double torque_rate(double twist, double rate, double acceleration) const = 0;
-  virtual void place(PoolSet& pools, const ConnectionPorts& ports) const = 0;
+  virtual bool slips() const { return false; }   // no spring: a clutch, never merged by effects
+  virtual double capacity() const { return 0; }  // of one that slips [N·m]
+  virtual bool has_modes() const { return false; }
+  virtual bool commanded() const { return false; }
+  virtual bool uses_angle() const { return false; }
+  virtual std::vector<OwnState> own_states() const { return {}; }
+  // The element with these effects on; null where they change nothing.
+  virtual std::shared_ptr<ConnectionMaker> with(const Effects&) const { return nullptr; }
+  virtual std::string describe() const { return {}; }  // for people: the law it follows
+  virtual void place(PoolSet& pools, const ConnectionPorts& ports, const ConnectionExtras& extras) const = 0;
 };
 
 // From an element that is final, or from a specification that becomes one when the inertias are known (`settled`).
@@ -57,26 +80,81 @@ class ConnectionMakerOf final : public ConnectionMaker {
   void settle(double inertia) override {
     if constexpr (!std::is_same_v<E, Specification>) element_ = given_.settled(inertia);
   }
-  double stiffness() const override { return element_.stiffness_at_rest(); }
-  double damping() const override { return element_.torque(Twist<Dual<1>>{Dual<1>(0.0), Dual<1>::input(0.0, 0)}).d[0]; }
-  double twist_at(double torque) const override { return element_.twist_at(torque); }
-  double torque(double twist, double rate) const override { return element_.torque(Twist<double>{twist, rate}); }
-  double torque_rate(double twist, double rate, double acceleration) const override {
-    Twist<Dual<1>> x{Dual<1>(twist), Dual<1>(rate)};
-    x.angle.d[0] = rate;
-    x.rate.d[0] = acceleration;
-    return element_.torque(x).d[0];
+  double stiffness() const override {
+    if constexpr (Slipping<E>)
+      return 0;
+    else
+      return element_.stiffness_at_rest();
   }
-  void place(PoolSet& pools, const ConnectionPorts& ports) const override {
-    pools.of<ConnectionPool<E>>().place(element_, ports);
+  double damping() const override {
+    if constexpr (Slipping<E> || HasStates<E>)
+      return 0;
+    else
+      return element_.torque(moving(Twist<double>{}, Dual<1>(0.0), Dual<1>::input(0.0, 0))).d[0];
+  }
+  double twist_at(double torque) const override {
+    if constexpr (Slipping<E>)
+      return 0;
+    else
+      return element_.twist_at(torque);
+  }
+  double torque(double twist, double rate) const override {
+    if constexpr (Slipping<E> || HasStates<E>) {
+      return 0;
+    } else {
+      Twist<double> x{twist, rate};
+      if constexpr (Guarded<E>) x.mode = element_.first_mode(x);
+      return element_.torque(x);
+    }
+  }
+  bool knows_torque_rate() const override { return !Slipping<E> && !HasStates<E> && !UsesAngle<E> && !Commanded<E>; }
+  double torque_rate(double twist, double rate, double acceleration) const override {
+    if constexpr (Slipping<E> || HasStates<E>) {
+      return 0;
+    } else {
+      Dual<1> angle(twist), speed(rate);
+      angle.d[0] = rate;
+      speed.d[0] = acceleration;
+      return element_.torque(moving(Twist<double>{twist, rate}, angle, speed)).d[0];
+    }
+  }
+  bool slips() const override { return Slipping<E>; }
+  double capacity() const override {
+    if constexpr (Slipping<E>)
+      return element_.capacity();
+    else
+      return 0;
+  }
+  bool has_modes() const override { return Guarded<E>; }
+  bool commanded() const override { return Commanded<E>; }
+  bool uses_angle() const override { return UsesAngle<E>; }
+  std::vector<OwnState> own_states() const override { return own_states_of(element_); }
+  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const override {
+    if constexpr (requires { given_.with(effects); })
+      return given_.with(effects);
+    else
+      return nullptr;
+  }
+  std::string describe() const override {
+    if constexpr (requires { element_.describe(); })
+      return element_.describe();
+    else
+      return {};
+  }
+  void place(PoolSet& pools, const ConnectionPorts& ports, const ConnectionExtras& extras) const override {
+    pools.of<ConnectionPool<E>>().place(element_, ports, extras);
   }
 
  private:
+  Twist<Dual<1>> moving(const Twist<double>& x, Dual<1> angle, Dual<1> rate) const {
+    Twist<Dual<1>> y{angle, rate};
+    if constexpr (Guarded<E>) y.mode = element_.first_mode(x);
+    return y;
+  }
+
   Specification given_;
   E element_;
 };
-
-struct Effects;
 
 // An element on a shaft, waiting to be placed. Mechanisms have makers of their own.
 class ShaftElementMaker {
@@ -104,6 +182,8 @@ class ShaftElementMaker {
   // A law over time without a period holds still from here on [s].
   virtual double settled_from() const { return -HUGE_VAL; }
   virtual int mode_count() const { return 1; }
+  virtual bool commanded() const { return false; }
+  virtual std::vector<OwnState> own_states() const { return {}; }
   // The element with these effects on; null where they change nothing.
   virtual std::shared_ptr<ShaftElementMaker> with(const Effects&) const { return nullptr; }
   virtual std::string describe() const { return {}; }  // for people: where its numbers come from
@@ -141,6 +221,20 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
     if constexpr (requires { element_.settled_from(); }) return element_.settled_from();
     return -HUGE_VAL;
   }
+  bool commanded() const override { return Commanded<E>; }
+  std::vector<OwnState> own_states() const override { return own_states_of(element_); }
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const override {
+    if constexpr (requires { element_.with(effects); })
+      return element_.with(effects);
+    else
+      return nullptr;
+  }
+  std::string describe() const override {
+    if constexpr (requires { element_.describe(); })
+      return element_.describe();
+    else
+      return {};
+  }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
     pools.of<ShaftPool<E>>().place(element_, ports, label);
   }
@@ -158,6 +252,20 @@ struct PrescribedSpeed {
   double value(double t, int piece) const;
   double slope(double t, int piece) const;  // dω/dt
   double next_edge(double t) const;
+};
+
+// What a gear loses: a torque L on its driving side against its motion, proportional to the torque λ that it takes up
+// there, L = slope λ + offset, by the sense of motion and the sign of λ. At standstill anything between holds.
+struct GearLoss {
+  struct Line {
+    double slope = 0, offset = 0;  // 1, [N·m]
+  };
+  Line forwards_driving, forwards_driven;    // moving forwards with λ > 0 (power flows a → b), λ < 0
+  Line backwards_driven, backwards_driving;  // moving backwards with λ > 0, λ < 0
+  const Line& line(int direction, int sign) const {
+    if (direction > 0) return sign > 0 ? forwards_driving : forwards_driven;
+    return sign > 0 ? backwards_driven : backwards_driving;
+  }
 };
 
 class Network {
@@ -181,13 +289,28 @@ class Network {
     std::shared_ptr<ShaftElementMaker> element;
     Window window;
     double phase = 0;
+    int account = -1;  // of the work it does, once compiled
+  };
+  // A relation between the speeds of two or three shafts that holds at run time: ω₀ + gain₁ ω₁ + gain₂ ω₂ = 0.
+  // Planetary gear, differential, gear in a housing that moves, gear with losses. The torque λ that it takes from
+  // node 0 comes out at the others, −gain λ.
+  struct Relation {
+    std::array<int, 3> node{-1, -1, -1};
+    std::array<double, 3> gain{1, 0, 0};
+    std::array<double, 3> usual{1, 1, 0};  // speeds in the usual motion of the machine; they obey the relation
+    std::string component;
+    bool lossy = false;
+    GearLoss loss = {};
+    int members() const { return node[2] >= 0 ? 3 : 2; }
   };
   struct Ports {
     int in = -1, out = -1;
+    std::map<std::string, int> others = {};  // further shafts, by name
   };
 
   int add_node(const std::string& component, const std::string& label, double inertia);
   void join(int a, int b, double ratio, const std::string& component);
+  void relate(Relation relation) { relations.push_back(std::move(relation)); }
   template <class E>
   void connect(int a, int b, double ratio, const std::string& component, E element) {
     if constexpr (requires { typename E::Element; }) {
@@ -207,6 +330,7 @@ class Network {
 
   std::vector<Node> nodes;
   std::vector<Joint> joints;
+  std::vector<Relation> relations;
   std::vector<ShaftElement> elements;
   std::vector<PrescribedSpeed> prescribed;
   std::map<std::string, Ports> ports;   // of each component

@@ -62,10 +62,21 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     const int j = joint.joint, e = joint.elastic;
     channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
     if (e < 0) continue;
+    if (model.elastic[at(e)].slips) {
+      const int a = model.elastic[at(e)].shaft_a, b = model.elastic[at(e)].shaft_b;
+      const double ga = model.elastic[at(e)].gain_a, gb = model.elastic[at(e)].gain_b;
+      channels.push_back({"slip." + joint.component, "rad/s",
+                          [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; }});
+      continue;
+    }
     channels.push_back(
         {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
     channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
   }
+  for (std::size_t k = 0; k < model.own_states.size(); ++k)
+    if (is_wanted(wanted, model.own_states[k].component))
+      channels.push_back({model.own_states[k].state.name + "." + model.own_states[k].component,
+                          model.own_states[k].state.unit, [k](const Snapshot& s) { return s.now.own[k]; }});
   for (const Channel& channel : model.pool_channels)
     if (is_wanted(wanted, channel.name.substr(channel.name.find('.') + 1))) channels.push_back(channel);
   return channels;
@@ -111,16 +122,22 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
                           .rate = {}};
     ExtremeOf spring = transmitted;
     spring.name = "peak_spring_torque." + joint.component;
+    const bool known = e >= 0 && model.network.joints[at(j)].element->knows_torque_rate();
+    if (e >= 0 && model.elastic[at(e)].slips) {
+      wanted.push_back(std::move(transmitted));  // no spring
+      continue;
+    }
     if (e >= 0) {
       const ElasticJoint elastic = model.elastic[at(e)];
-      transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
-        const double acceleration =
-            elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
-        return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
-      };
+      if (known)
+        transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
+          const double acceleration =
+              elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
+          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
+        };
       spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
       // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
-      spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
+      if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
     }
     wanted.push_back(std::move(transmitted));
     wanted.push_back(std::move(spring));

@@ -10,6 +10,7 @@
 #include "engine/document.h"
 #include "engine/network.h"
 #include "engine/section_reader.h"
+#include "engine/sequence_reader.h"
 #include "engine/units.h"
 
 namespace kurbel {
@@ -18,26 +19,13 @@ namespace {
 using Type = DocumentValue::Type;
 
 const std::vector<std::string>& reserved_names() {
-  static const std::vector<std::string> names = {"title", "description", "line", "branch", "effects", "run"};
+  static const std::vector<std::string> names = {"title",   "description", "line", "branch",
+                                                 "effects", "sequence",    "run"};
   return names;
 }
 
 // "gearbox.out" → "gearbox".
 std::string component_of(const std::string& port) { return port.substr(0, port.find('.')); }
-
-// A few names of many.
-std::string shortened_list(std::vector<std::string> names, std::string_view conjunction = "or") {
-  constexpr std::size_t most = 30;
-  if (names.size() <= most) return listed(names, conjunction);
-  const std::size_t more = names.size() - most;
-  names.resize(most);
-  return fmt::format("{} … and {} more", listed(names, ","), more);
-}
-
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  const auto near = nearest(word, names);
-  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
-}
 
 bool fits(const std::string& method, const std::string& model) {
   const std::vector<std::string>& methods = methods_of(model);
@@ -67,6 +55,8 @@ class SceneReader {
     check_connections();
     put_in_canonical_order();
     read_effects();
+    complete_effects();
+    read_sequence();
     read_run();
     if (!messages_.empty()) check_parameters();
     messages_.throw_if_any();
@@ -141,7 +131,8 @@ class SceneReader {
   bool read_component(const DocumentEntry& entry) {
     const std::string& name = entry.key;
     // A slip of the pen in [effects] or [run], and no component at all.
-    const auto table_meant = entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "run", "branch"});
+    const auto table_meant =
+        entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "sequence", "run", "branch"});
     if (table_meant) {
       refuse(entry.at,
              fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
@@ -304,9 +295,18 @@ class SceneReader {
     if (!placed.count(component)) return;                                     // said elsewhere
     const std::string port = line.from.size() > component.size() ? line.from.substr(component.size() + 1) : "";
     const bool two = section->kind->placement == Placement::inline_two;
-    if (two && port != "in" && port != "out")
-      refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from),
-                                  section->kind->name, component, component, component));
+    const std::vector<std::string>& more = section->kind->further_shafts;
+    if (two && port != "in" && port != "out" && !std::count(more.begin(), more.end(), port)) {
+      if (more.empty()) {
+        refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from),
+                                    section->kind->name, component, component, component));
+      } else {
+        std::vector<std::string> ports = {component + ".in", component + ".out"};
+        for (const std::string& other : more) ports.push_back(component + "." + other);
+        refuse(line.at, fmt::format("{}: {} \"{}\" has {} shafts; say {}", in_quotes(line.from), section->kind->name,
+                                    component, ports.size(), listed(ports)));
+      }
+    }
     if (!two && component.size() != line.from.size())
       refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name,
                                   component, component));
@@ -384,30 +384,48 @@ class SceneReader {
       return refuse(effects->at, fmt::format("effects = {}; must be a table, e.g. effects = {{ elasticity = true }}",
                                              effects->value.describe()));
     for (const DocumentEntry& entry : effects->value.entries) {
-      if (entry.key == "joint_friction") {
-        if (entry.value.type == Type::flag)
-          scene_.effects.joint_friction = entry.value.flag;
-        else
-          refuse(entry.value.at,
-                 fmt::format("[effects]: joint_friction = {}; must be true or false", entry.value.describe()));
+      if (entry.key == "elasticity") {
+        read_elasticity(entry);
         continue;
       }
-      if (entry.key != "elasticity") {
-        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: \"elasticity\" and \"joint_friction\"",
-                                     in_quotes(entry.key), suggestion(entry.key, {"elasticity", "joint_friction"})));
-        continue;
-      }
-      if (entry.value.type == Type::flag) {
-        scene_.effects.all_elastic = entry.value.flag;
-      } else if (entry.value.type == Type::list) {
-        for (const DocumentValue& item : entry.value.items) add_elastic(item);
-      } else {
+      const auto flags = effect_flags();
+      const auto known =
+          std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return entry.key == f.name; });
+      if (known == flags.end()) {
+        std::vector<std::string> names = {"elasticity"};
+        for (const EffectFlag& f : flags) names.emplace_back(f.name);
+        refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: {}", in_quotes(entry.key),
+                                     suggestion(entry.key, names), listed(names, "and")));
+      } else if (entry.value.type != Type::flag) {
         refuse(entry.value.at,
-               fmt::format("[effects]: elasticity = {}; must be true, false or a list of components{}",
-                           entry.value.describe(),
-                           entry.value.type == Type::text ? fmt::format(", e.g. [{}]", entry.value.describe()) : ""));
+               fmt::format("[effects]: {} = {}; must be true or false", entry.key, entry.value.describe()));
+      } else {
+        scene_.effects.*(known->flag) = entry.value.flag;
+        said_.insert(entry.key);
+        if (entry.value.flag && known->where_given && !has_parameters(scene_, *known) && unreadable_.empty())
+          refuse(entry.at, fmt::format("[effects]: {} = true, but no component has parameters for it; give {}, or drop "
+                                       "the line",
+                                       entry.key, known->parameters));
       }
     }
+  }
+  void read_elasticity(const DocumentEntry& entry) {
+    if (entry.value.type == Type::flag) {
+      scene_.effects.all_elastic = entry.value.flag;
+    } else if (entry.value.type == Type::list) {
+      for (const DocumentValue& item : entry.value.items) add_elastic(item);
+    } else {
+      refuse(entry.value.at,
+             fmt::format("[effects]: elasticity = {}; must be true, false or a list of components{}",
+                         entry.value.describe(),
+                         entry.value.type == Type::text ? fmt::format(", e.g. [{}]", entry.value.describe()) : ""));
+    }
+  }
+  // What the file does not mention is on where there are parameters for it.
+  void complete_effects() {
+    for (const EffectFlag& effect : effect_flags())
+      if (effect.where_given && !said_.count(effect.name))
+        scene_.effects.*(effect.flag) = has_parameters(scene_, effect);
   }
   std::vector<std::string> elastic_names() const {
     std::vector<std::string> names;
@@ -428,6 +446,13 @@ class SceneReader {
                                 : fmt::format("{} is no component{}", item.describe(), suggestion(item.text, allowed));
     refuse(item.at, fmt::format("[effects]: elasticity: {}; allowed: {}", why,
                                 allowed.empty() ? "none in this scene" : shortened_list(allowed)));
+  }
+
+  void read_sequence() {
+    const DocumentEntry* sequence = document_.find("sequence");
+    if (!sequence) return;
+    const auto is_component = [&](const std::string& name) { return find(name) != nullptr; };
+    scene_.sequence = kurbel::read_sequence(sequence->value, component_names(), is_component, messages_);
   }
 
   void read_run() {
@@ -541,23 +566,12 @@ class SceneReader {
   Scene scene_;
   std::map<std::string, std::size_t> index_;  // of each component in scene_.components
   std::set<std::string> unreadable_;          // keys and tables that were refused as a whole
+  std::set<std::string> said_;                // effects that the file mentions
   const DocumentEntry* misplaced_line_ = nullptr;
   bool lines_sound_ = true;  // false: what is not connected follows from an error that was named
 };
 
 }  // namespace
-
-bool Effects::is_elastic(const std::string& component) const {
-  return all_elastic || std::count(elastic.begin(), elastic.end(), component) > 0;
-}
-
-std::string Effects::describe() const {
-  std::string text = all_elastic ? "elasticity" : elastic.empty() ? "" : "elasticity of ";
-  if (!all_elastic)
-    for (std::size_t i = 0; i < elastic.size(); ++i) text += (i ? ", " : "") + elastic[i];
-  if (joint_friction) text += text.empty() ? "joint friction" : " and joint friction";
-  return text.empty() ? "none" : text;
-}
 
 const Section* Scene::find(const std::string& name) const {
   const auto found =
@@ -618,53 +632,6 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
 
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds) {
   return parse_scene(read_text_file(path, max_scene_bytes), path, kinds);
-}
-
-namespace {
-
-void add_elasticity(const std::string& text, const Scene& scene, Effects& effects) {
-  if (text == "elasticity") {
-    effects.all_elastic = true;
-    return;
-  }
-  const std::string prefix = "elasticity:";
-  if (!text.starts_with(prefix))
-    throw std::invalid_argument(fmt::format(
-        "effects {}{}; allowed: none, elasticity, elasticity:COUPLING,…, joint_friction, or two joined by +",
-        in_quotes(text), suggestion(text, {"none", "elasticity", "joint_friction"})));
-  for (std::size_t begin = prefix.size(); begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name = text.substr(begin, end - begin);
-    const Section* section = scene.find(name);
-    if (!section || !section->kind->elastic) {
-      std::vector<std::string> allowed;
-      for (const Section& s : scene.components)
-        if (s.kind->elastic) allowed.push_back(s.name);
-      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name)
-                                      : "is no component" + suggestion(name, allowed);
-      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why,
-                                              allowed.empty() ? "none in this scene" : shortened_list(allowed)));
-    }
-    effects.elastic.push_back(name);
-    begin = end + 1;
-  }
-}
-
-}  // namespace
-
-Effects parse_effects(const std::string& text, const Scene& scene) {
-  Effects effects;
-  if (text == "none") return effects;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('+', begin), text.size());
-    const std::string one = text.substr(begin, end - begin);
-    if (one == "joint_friction")
-      effects.joint_friction = true;
-    else
-      add_elasticity(one, scene, effects);
-    begin = end + 1;
-  }
-  return effects;
 }
 
 }  // namespace kurbel

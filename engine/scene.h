@@ -6,20 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects.h"
 #include "engine/keys.h"
 #include "engine/messages.h"
 
 namespace kurbel {
-
-// Which effects are simulated. Every name in `elastic` is a component whose elasticity is on.
-struct Effects {
-  bool all_elastic = false;
-  std::vector<std::string> elastic;
-  bool joint_friction = false;  // in the mechanisms' joints
-
-  bool is_elastic(const std::string& component) const;
-  std::string describe() const;  // "elasticity", "elasticity of main_coupling", "joint friction", "none"
-};
 
 // Start of one component: what is not given follows from the others.
 struct ComponentStart {
@@ -46,6 +37,22 @@ struct RunSettings {
   double budget = 300;              // s of CPU time for one integration
 };
 
+// One step of an operating sequence: when it happens, what it sets.
+struct SequenceStep {
+  enum class When { at, after, angle, speed_above, speed_below };
+  When when = When::after;
+  double value = 0;              // s, s, rad, rad/s, rad/s
+  std::string of = {};           // the component whose angle or speed it waits for
+  std::vector<std::string> set;  // components
+  double to = 1;                 // 1 on, 0 off, between: part; −1: reversed
+  double over = 0;               // ramp [s]
+  Location at = {};
+};
+struct Sequence {
+  std::vector<SequenceStep> steps;  // each waits for the one before it
+  bool repeat = false;
+};
+
 // A row of components along a shaft, beginning at a component of another line ("" for the main line).
 struct Line {
   std::string from = {};  // "gearbox.out"
@@ -59,6 +66,7 @@ struct Scene {
   std::vector<Line> lines;          // main line first, branches in canonical order
   std::vector<Section> components;  // canonical order: along the lines, then by name
   Effects effects;
+  Sequence sequence;
   RunSettings run;
 
   const Section* find(const std::string& name) const;
@@ -67,10 +75,6 @@ struct Scene {
 // Reads a scene; `kinds` lists the components that a line may hold. Throws SceneError with all errors of the file.
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds);
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds);
-
-// "none", or joined by "+": "elasticity" or "elasticity:motor_coupling,main_coupling", "joint_friction". Throws
-// std::invalid_argument.
-Effects parse_effects(const std::string& text, const Scene& scene);
 
 // Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.
 const std::vector<std::string>& methods_of(const std::string& model);

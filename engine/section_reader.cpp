@@ -23,6 +23,19 @@ std::string Domain::describe(const std::string& unit) const {
   return "finite";
 }
 
+std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {
+  constexpr std::size_t most = 30;
+  if (names.size() <= most) return listed(names, conjunction);
+  const std::size_t more = names.size() - most;
+  names.resize(most);
+  return fmt::format("{} … and {} more", listed(names, ","), more);
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const auto near = nearest(word, names);
+  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+}
+
 std::string listed(const std::vector<std::string>& names, std::string_view conjunction) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

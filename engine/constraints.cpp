@@ -1,0 +1,120 @@
+// constraints.cpp — accelerations and transmitted torques of shafts that move together.
+#include "engine/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+Eigen::Index ix(std::size_t index) { return static_cast<Eigen::Index>(index); }
+
+constexpr double dependent = 1e-10;  // rows nearer to each other than this, in direction, say the same
+
+}  // namespace
+
+void Constraints::set(std::vector<ConstraintRow> rows) {
+  rows_ = std::move(rows);
+  factorised_for_.clear();
+}
+
+void Constraints::factorise(std::span<const double> inertia, bool symmetric) {
+  const std::size_t m = rows_.size();
+  bool same = !factorised_for_.empty() && !symmetric;
+  for (std::size_t k = 0, place = 0; same && k < m; ++k)
+    for (const ShaftGain& g : rows_[k].motion) same = factorised_for_[place++] == inertia[at(g.shaft)];
+  if (same) return;
+  factorised_for_.clear();
+  for (const ConstraintRow& row : rows_)
+    for (const ShaftGain& g : row.motion) factorised_for_.push_back(inertia[at(g.shaft)]);
+  schur_.setZero(ix(m), ix(m));
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; j < m; ++j)
+      for (const ShaftGain& g : rows_[i].motion) {
+        if (at(g.shaft) >= free_) continue;
+        for (const ShaftGain& t : symmetric ? rows_[j].motion : rows_[j].torque)
+          if (t.shaft == g.shaft) schur_(ix(i), ix(j)) += (symmetric ? -1 : 1) * g.gain * t.gain / inertia[at(g.shaft)];
+      }
+  if (symmetric) factorised_for_.clear();
+  // Rows and columns of like size, so that a rank can be told.
+  root_capacity_.resize(ix(m));
+  for (std::size_t k = 0; k < m; ++k) root_capacity_[ix(k)] = std::sqrt(rows_[k].capacity);
+  Eigen::VectorXd size(ix(m));
+  for (std::size_t k = 0; k < m; ++k) size[ix(k)] = std::sqrt(std::max(std::abs(schur_(ix(k), ix(k))), 1e-300));
+  const Eigen::MatrixXd scaled = size.cwiseInverse().asDiagonal() * schur_ * size.cwiseInverse().asDiagonal();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rank;
+  rank.setThreshold(dependent);
+  rank.compute(scaled);
+  singular_ = rank.rank() < ix(m);
+  if (!singular_) {
+    regular_.compute(schur_);
+    return;
+  }
+  least_.setThreshold(dependent);
+  least_.compute(size.cwiseInverse().asDiagonal() * schur_ * root_capacity_.asDiagonal());
+  right_ = size.cwiseInverse();
+}
+
+Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& right) const {
+  if (!singular_) return regular_.solve(right);
+  return root_capacity_.asDiagonal() * least_.solve(Eigen::VectorXd(right_.asDiagonal() * right));
+}
+
+void Constraints::solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
+                        std::span<double> multiplier) {
+  for (std::size_t s = 0; s < free_; ++s) alpha[s] = torque[s] / inertia[s];
+  if (rows_.empty()) return;
+  factorise(inertia);
+  Eigen::VectorXd right(ix(rows_.size()));
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    double sum = 0;
+    for (const ShaftGain& g : rows_[k].motion) sum += g.gain * alpha[at(g.shaft)];
+    right[ix(k)] = -sum;
+  }
+  const Eigen::VectorXd lambda = multipliers(right);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    multiplier[k] = lambda[ix(k)];
+    for (const ShaftGain& t : rows_[k].torque)
+      if (at(t.shaft) < free_) alpha[at(t.shaft)] += t.gain * lambda[ix(k)] / inertia[at(t.shaft)];
+  }
+}
+
+void Constraints::project(std::span<const double> inertia, std::span<double> speed) {
+  if (rows_.empty()) return;
+  factorise(inertia, true);
+  Eigen::VectorXd right(ix(rows_.size()));
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    double sum = 0;
+    for (const ShaftGain& g : rows_[k].motion) sum += g.gain * speed[at(g.shaft)];
+    right[ix(k)] = -sum;
+  }
+  const Eigen::VectorXd impulse = multipliers(right);
+  factorised_for_.clear();
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (const ShaftGain& g : rows_[k].motion)
+      if (at(g.shaft) < free_) speed[at(g.shaft)] -= g.gain * impulse[ix(k)] / inertia[at(g.shaft)];
+}
+
+Eigen::MatrixXd Constraints::mobility(std::span<const double> inertia, std::span<const int> shafts) {
+  const std::size_t n = shafts.size(), m = rows_.size();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(ix(n), ix(n));
+  for (std::size_t i = 0; i < n; ++i) result(ix(i), ix(i)) = 1 / inertia[at(shafts[i])];
+  if (m == 0) return result;
+  factorise(inertia);
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(ix(m), ix(n)), t = Eigen::MatrixXd::Zero(ix(n), ix(m));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < m; ++k) {
+      for (const ShaftGain& entry : rows_[k].motion)
+        if (entry.shaft == shafts[i]) g(ix(k), ix(i)) += entry.gain / inertia[at(shafts[i])];
+      for (const ShaftGain& entry : rows_[k].torque)
+        if (entry.shaft == shafts[i]) t(ix(i), ix(k)) += entry.gain / inertia[at(shafts[i])];
+    }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::VectorXd lambda = multipliers(-g.col(ix(i)));
+    result.col(ix(i)) += t * lambda;
+  }
+  return result;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,134 @@
+// effects.cpp — the list of effects, and how people name them.
+#include "engine/effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "engine/scene.h"
+
+namespace kurbel {
+namespace {
+
+bool gives(const Section& section, const std::string& effect) {
+  for (const Setting& setting : section.settings) {
+    if (setting.given && section.kind) {
+      const auto& keys = section.kind->keys;
+      const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
+      if (key != keys.end() && key->effect == effect) return true;
+    }
+    for (const Section& nested : setting.sections)
+      if (gives(nested, effect)) return true;
+  }
+  return false;
+}
+
+void add_elasticity(const std::string& text, const Scene& scene, Effects& effects) {
+  const std::string prefix = "elasticity:";
+  for (std::size_t begin = prefix.size(); begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    const Section* section = scene.find(name);
+    if (!section || !section->kind->elastic) {
+      std::vector<std::string> allowed;
+      for (const Section& s : scene.components)
+        if (s.kind->elastic) allowed.push_back(s.name);
+      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name)
+                                      : "is no component" + suggestion(name, allowed);
+      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why,
+                                              allowed.empty() ? "none in this scene" : shortened_list(allowed)));
+    }
+    effects.elastic.push_back(name);
+    begin = end + 1;
+  }
+}
+
+// One name, switched on or off.
+void switch_effect(const std::string& name, bool on, const Scene& scene, Effects& effects) {
+  if (name == "elasticity") {
+    effects.all_elastic = on;
+    if (!on) effects.elastic.clear();
+    return;
+  }
+  if (on && name.starts_with("elasticity:")) return add_elasticity(name, scene, effects);
+  const auto flags = effect_flags();
+  const auto known = std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return name == f.name; });
+  if (known == flags.end()) {
+    std::vector<std::string> names = {"none", "elasticity"};
+    for (const EffectFlag& f : flags) names.emplace_back(f.name);
+    const std::string near = suggestion(name, names);
+    names.insert(names.begin() + 2, "elasticity:COUPLING,…");
+    throw std::invalid_argument(fmt::format("effects {}{}; allowed: {}; several joined by +, or -NAME to take one away",
+                                            in_quotes(name), near, listed(names)));
+  }
+  if (on && known->where_given && !has_parameters(scene, *known))
+    throw std::invalid_argument(fmt::format("effects {}: no component of the scene has parameters for it; give {}",
+                                            in_quotes(name), known->parameters));
+  effects.*(known->flag) = on;
+}
+
+}  // namespace
+
+std::span<const EffectFlag> effect_flags() {
+  static constexpr std::array<EffectFlag, 7> flags = {{
+      {"joint_friction", &Effects::joint_friction, "joint friction", false,
+       "friction in the joints of a slider-crank, found together with the reactions", "a joint's friction_coefficient"},
+      {"backlash", &Effects::backlash, "backlash", true, "gaps between flanks, with contact and flight as modes",
+       "the backlash of a coupling or a gear stage"},
+      {"mesh_variation", &Effects::mesh_variation, "mesh variation", true,
+       "tooth stiffness that varies at the frequency of mesh", "mesh_variation of a gear mesh"},
+      {"transients", &Effects::transients, "electrical transients", true, "currents and fluxes of motors as states",
+       "the inductance of a motor"},
+      {"relaxation", &Effects::relaxation, "relaxation", true, "Maxwell branches of rubber couplings as states",
+       "the branches of a rubber coupling"},
+      {"bearing_friction", &Effects::bearing_friction, "bearing friction", true,
+       "dry and mixed friction of bearings, with sticking", "a bearing"},
+      {"gear_losses", &Effects::gear_losses, "gear losses", true,
+       "losses of gears by the direction of power, with self-locking", "the efficiency of a gearbox"},
+  }};
+  return flags;
+}
+
+bool has_parameters(const Scene& scene, const EffectFlag& effect) {
+  return std::any_of(scene.components.begin(), scene.components.end(),
+                     [&](const Section& section) { return gives(section, effect.name); });
+}
+
+bool Effects::is_elastic(const std::string& component) const {
+  return all_elastic || std::count(elastic.begin(), elastic.end(), component) > 0;
+}
+
+std::string Effects::describe() const {
+  std::vector<std::string> words;
+  if (all_elastic) {
+    words.emplace_back("elasticity");
+  } else if (!elastic.empty()) {
+    std::string text = "elasticity of ";
+    for (std::size_t i = 0; i < elastic.size(); ++i) text += (i ? ", " : "") + elastic[i];
+    words.push_back(text);
+  }
+  for (const EffectFlag& effect : effect_flags())
+    if (this->*(effect.flag)) words.emplace_back(effect.words);
+  if (words.empty()) return "none";
+  std::string text = words.front();
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+Effects parse_effects(const std::string& text, const Scene& scene) {
+  if (text == "none") return {};
+  Effects effects;
+  if (text.starts_with('-')) effects = scene.effects;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('+', begin), text.size());
+    const std::string one = text.substr(begin, end - begin);
+    const bool on = !one.starts_with('-');
+    switch_effect(on ? one : one.substr(1), on, scene, effects);
+    begin = end + 1;
+  }
+  return effects;
+}
+
+}  // namespace kurbel

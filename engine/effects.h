@@ -1,0 +1,47 @@
+// effects.h — what is simulated beyond the rigid machine. What is off costs nothing.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kurbel {
+
+struct Scene;
+
+// Every name in `elastic` is a component whose elasticity is on.
+struct Effects {
+  bool all_elastic = false;
+  std::vector<std::string> elastic = {};
+  bool joint_friction = false;    // in the mechanisms' joints
+  bool backlash = false;          // gaps between flanks; off: they always touch
+  bool mesh_variation = false;    // tooth stiffness over the mesh; off: its mean
+  bool transients = false;        // circuits of motors; off: their static characteristic
+  bool relaxation = false;        // of rubber; off: its static stiffness and damping
+  bool bearing_friction = false;  // off: none
+  bool gear_losses = false;       // off: gears without losses
+  bool locked = false;            // clutches count as locked: for studies of the rigid machine
+
+  bool is_elastic(const std::string& component) const;
+  std::string describe() const;  // "elasticity", "elasticity of main_coupling", "joint friction", "none"
+};
+
+// An effect that is either on or off for the whole machine.
+struct EffectFlag {
+  const char* name;  // in [effects] and --effects
+  bool Effects::*flag;
+  const char* words;       // "joint friction"
+  bool where_given;        // on, unless said otherwise, where the scene has parameters for it
+  const char* adds;        // what it simulates
+  const char* parameters;  // what a scene needs for it
+};
+std::span<const EffectFlag> effect_flags();
+
+// A key that this effect needs stands somewhere in the scene.
+bool has_parameters(const Scene& scene, const EffectFlag& effect);
+
+// "none", or joined by "+": "elasticity" or "elasticity:motor_coupling,main_coupling", and names of flags; "-name"
+// takes one away from those of the scene. Throws std::invalid_argument.
+Effects parse_effects(const std::string& text, const Scene& scene);
+
+}  // namespace kurbel
