@@ -143,7 +143,7 @@ void free_crank(BenchBook& book) {
   }
 #ifdef KURBEL_MUJOCO
   BenchCurve mujoco{.problem = "R1", .solver = "MuJoCo RK4", .peer = true, .points = {}};
-  for (const double step : {1e-3, 1e-4, 2e-5}) {
+  for (const double step : {2e-4, 1e-4, 3e-5}) {
     BenchPoint m{.setting = step};
     const double before = processor_seconds();
     m.error = std::abs(mujoco_r1(step) - reference);

@@ -151,6 +151,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
+    view_.set_anew(true);
     find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
@@ -162,8 +163,10 @@ class Loop {
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
-    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
+      view_.set_anew(false);
+    }
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
     if (t >= edge_) {
