@@ -237,19 +237,19 @@ class AccuracyRun {
 
   // --- figures ---
 
-  // Peaks first, the largest one before all; then what else is asked of a machine.
+  // Peaks first, the largest one before all; then what else is asked of a machine, in this order.
   void follow_figures() {
     const Result& full = levels_[study_.fullest].reference;
     std::vector<const Figure*> peaks, others;
-    for (const Figure& f : full.figures) {
-      if (!(std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300)) || !f.error || !std::isfinite(*f.error)) continue;
-      if (f.name.starts_with("peak_torque."))
-        peaks.push_back(&f);
-      else
-        for (const char* prefix :
-             {"delta.", "run_up_time", "max_speed.", "peak_force.", "final_angle.", "final_speed."})
-          if (f.name.starts_with(prefix) && (prefix[0] != 'f' || is_of_link(f.name))) others.push_back(&f);
-    }
+    const auto sound = [](const Figure& f) {
+      return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
+    };
+    for (const Figure& f : full.figures)
+      if (sound(f) && f.name.starts_with("peak_torque.")) peaks.push_back(&f);
+    for (const char* prefix : {"delta.", "run_up_time", "final_angle.", "final_speed.", "max_speed.", "peak_force."})
+      for (const Figure& f : full.figures)
+        if (sound(f) && f.name.starts_with(prefix) && (!f.name.starts_with("final_") || is_of_link(f.name)))
+          others.push_back(&f);
     std::stable_sort(peaks.begin(), peaks.end(),
                      [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });
     if (peaks.size() > 3) peaks.resize(3);

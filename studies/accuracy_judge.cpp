@@ -13,9 +13,9 @@ namespace {
 std::string percent(double error) { return fmt::format("{:.2g} %", 100 * error); }
 
 std::string duration(double seconds) {
-  return seconds < 1e-3 ? fmt::format("{:.2g} µs", 1e6 * seconds)
-         : seconds < 1  ? fmt::format("{:.2g} ms", 1e3 * seconds)
-                        : fmt::format("{:.2g} s", seconds);
+  return seconds < 1e-3 ? fmt::format("{:.3g} µs", 1e6 * seconds)
+         : seconds < 1  ? fmt::format("{:.3g} ms", 1e3 * seconds)
+                        : fmt::format("{:.3g} s", seconds);
 }
 
 class Judge {
@@ -118,8 +118,8 @@ class Judge {
       error = next;
     }
     if (dearer.empty()) return fmt::format("No setting tried is nearer to {} than 1 %", key());
-    return fmt::format("Digit by digit from 1 % to {:.0e} the time grows by {}; there it is {}", error, dearer,
-                       told(*before));
+    return fmt::format("Digit by digit from 1 % to {:.0e} (relative) the time grows by {}; there it is {}", error,
+                       dearer, told(*before));
   }
 
   // Where tightening the tolerance is wasted, because the model is coarser.
