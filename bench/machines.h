@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
@@ -88,19 +87,6 @@ inline double final_angle(const std::shared_ptr<const Model>& model, double tole
                      .progress = {}};
   const RunOutcome out = integrate(equations, options, {});
   return equations.angle_with_turns(static_cast<std::size_t>(model->reduction_angle), out.state);
-}
-
-inline void print_machine() {
-  std::FILE* f = std::fopen("/proc/cpuinfo", "r");
-  char line[256];
-  std::string name = "unknown processor";
-  while (f && std::fgets(line, sizeof line, f))
-    if (std::string(line).starts_with("model name")) {
-      name = line;
-      break;
-    }
-  if (f) std::fclose(f);
-  std::printf("machine: %s  compiler: g++ %s; SUNDIALS 6.4.1, Simbody 3.7 of Debian 12\n\n", name.c_str(), __VERSION__);
 }
 
 }  // namespace kurbel::bench

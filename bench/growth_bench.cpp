@@ -1,0 +1,80 @@
+// growth_bench.cpp — how does the cost of a step grow with the number of inertias, and does the error stay?
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/benches.h"
+#include "bench/machines.h"
+
+namespace kurbel::bench {
+namespace {
+
+struct Grown {
+  int size;
+  double per_step, steps, first_speed;
+};
+
+Grown grown(int n, const std::string& method, double tolerance) {
+  const auto model = equal_chain(n, false);
+  const TimedRun t = timed(n >= 100000 ? 1 : n >= 10000 ? 3 : 5, [&] { return bare_run(model, tolerance, method); });
+  const double steps = static_cast<double>(t.outcome.statistics.stepper.steps);
+  return {n, t.median_seconds / steps, steps, t.outcome.state[static_cast<std::size_t>(n)]};
+}
+
+// Least squares of log(time per step) over log N.
+double exponent(const std::vector<Grown>& of) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const Grown& g : of) {
+    const double x = std::log(g.size), y = std::log(g.per_step);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double n = static_cast<double>(of.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace
+
+// E2: N equal inertias for 0.2 s. The wave from the first one passes 632 of them, so that from N = 1000 on its speed at
+// the end is one and the same.
+void growth_with_size(BenchBook& book) {
+  Table table{
+      .title = "E2: cost of a step, chains of N equal inertias",
+      .columns = {"method", "N", "steps", "per step and inertia [ns]", "ω of the first [rad/s]", "error [rad/s]"},
+      .rows = {}};
+  Plot plot{.title = "Cost of a step over the number of inertias",
+            .x = {"inertias", "", true},
+            .y = {"time of a step", "ms", true},
+            .series = {}};
+  const double tolerance = 1e-6, reference = grown(1000, "dop853", 1e-12).first_speed;
+  std::size_t colour = 0;
+  for (const char* method : {"dopri5", "verner6", "dop853", "esdirk", "bdf"}) {
+    std::vector<Grown> all;
+    for (const int n : {100, 1000, 10000, 100000}) {
+      all.push_back(grown(n, method, tolerance));
+      const Grown& g = all.back();
+      table.rows.push_back({method, fmt::format("{}", n), fmt::format("{:.0f}", g.steps),
+                            fmt::format("{:.1f}", 1e9 * g.per_step / n), fmt::format("{:.9g}", g.first_speed),
+                            n >= 1000 ? fmt::format("{:.1e}", std::abs(g.first_speed - reference)) : ""});
+    }
+    Series series{.name = method, .role = further_role(colour++), .x = {}, .y = {}, .points = true};
+    for (const Grown& g : all) {
+      series.x.push_back(g.size);
+      series.y.push_back(1e3 * g.per_step);
+    }
+    plot.series.push_back(std::move(series));
+    const double p = exponent(all), first = std::abs(all[1].first_speed - reference),
+                 last = std::abs(all[3].first_speed - reference);
+    if (std::string(method) == "dopri5")
+      book.target("E2, N = 1e5, per step and inertia, 7 stages", "≤ 40 ns",
+                  fmt::format("{:.0f} ns", 1e9 * all[3].per_step / 1e5), all[3].per_step <= 40e-9 * 1e5);
+    if (std::string(method) == "esdirk" || std::string(method) == "bdf")
+      book.target(fmt::format("E2, {}: exponent of the time of a step over N", method), "≤ 1.1",
+                  fmt::format("{:.2f}", p), p <= 1.1);
+    book.target(fmt::format("E2, {}: error at N = 1e5 against N = 1e3, tolerance {:.0e}", method, tolerance), "≤ 2 ×",
+                fmt::format("{:.2g} ×", last / first), last <= 2 * first + 1e-12);
+  }
+  book.tables.push_back(table);
+  book.plots.push_back(plot);
+}
+
+}  // namespace kurbel::bench
