@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     costs_of_modes();
   }
   if (wants("elements")) {
+    costs_of_elements(book);
     costs_of_mechanisms();
     costs_of_steady_cycles();
   }
