@@ -57,6 +57,8 @@ double quantity_of(const std::string& option, const std::string& text, const std
 int present(const StudyOutput& output, const StudyOptions& options);
 
 // Each registers its commands; an action leaves its exit code in `code`.
+void add_advise_command(CLI::App& app, int& code);   // advise
+void add_effects_command(CLI::App& app, int& code);  // effects
 void add_forces_command(CLI::App& app, int& code);  // forces
 void add_gears_command(CLI::App& app, int& code);   // gears
 void add_modes_command(CLI::App& app, int& code);   // modes

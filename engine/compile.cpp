@@ -184,6 +184,7 @@ class Compiler {
         model_.merged.push_back(fmt::format(
             "\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
     }
+    if (model_.effects.locked) release_brakes();
     bool any = false;
     for (Network::ShaftElement& e : net().elements)
       if (auto changed = e.element->with(model_.effects)) {
@@ -205,6 +206,19 @@ class Compiler {
         stands[at(merging.group[n])] = 1;
     for (std::size_t n = 0; n < net().nodes.size(); ++n) of_node.push_back(stands[at(merging.group[n])]);
     return of_node;
+  }
+
+  // With clutches locked the machine runs: what the operating sequence brakes with is released, and the sequence is
+  // over.
+  void release_brakes() {
+    std::set<std::string> told;
+    for (const SequenceStep& step : model_.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
+    model_.scene.sequence.steps.clear();
+    std::erase_if(net().elements, [&](const Network::ShaftElement& e) {
+      const bool brake = told.count(e.component) && e.element->directional() && e.element->commanded();
+      if (brake) model_.merged.push_back(fmt::format("\"{}\" counts as released", e.component));
+      return brake;
+    });
   }
 
   void make_shafts() {

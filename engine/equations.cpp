@@ -386,8 +386,7 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
 ErrorControl Equations::error_control(double tolerance) const {
   const Model& m = *model_;
   ErrorControl control{tolerance, {}};
-  for (const TrackedAngle& angle : m.angles)
-    control.scale.push_back(std::max(1.0, std::abs(m.node_ratio[at(angle.node)])));
+  for (const TrackedAngle& angle : m.angles) control.scale.push_back(std::max(1.0, m.scale_ratio[at(angle.node)]));
   for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
   for (const OwnStatePlace& own : m.own_states) control.scale.push_back(own.state.scale);

@@ -22,6 +22,7 @@ struct Event {
   double t = 0;
   std::string component, what;
   std::string from = {};  // the mode before, where it has a name
+  double angle = 0;       // of the reduction link then, turns counted [rad]
 };
 
 // Two sides that stick together or slip: a shaft against the frame with all that brakes it, the sides of a clutch, a

@@ -119,7 +119,7 @@ Periodicity periodicity_of(const Model& m) {
   std::vector<NamedPeriod> angles, times;
   for (const Network::ShaftElement& e : m.network.elements) {
     if (e.element->uses_angle() && e.element->angle_period() > 0)
-      angles.push_back({e.element->angle_period() / std::abs(m.node_ratio[at(e.node)]), e.component});
+      angles.push_back({e.element->angle_period() / m.scale_ratio[at(e.node)], e.component});
     if (e.element->time_period() > 0) times.push_back({e.element->time_period(), e.component});
     result.settled_from = std::max(result.settled_from, e.element->settled_from());
   }
@@ -144,11 +144,13 @@ Periodicity periodicity_of(const Model& m) {
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
   const Model& m = *shared_;
-  if (!m.relations.empty())
+  if (!m.own_states.empty() || m.has_contacts() || !m.scene.sequence.steps.empty())
     throw std::invalid_argument(fmt::format(
-        "\"{}\" ties shafts only while the machine runs (losses, a housing that moves, three free shafts); a "
-        "steady cycle is not sought with that: simulate with kurbel run, or leave it out with --effects",
-        m.network.relations.front().component));
+        "a steady cycle is sought for twists and speeds alone; {}. Simulate with kurbel run until it is steady",
+        !m.own_states.empty() ? fmt::format("\"{}\" has a state of its own ({})", m.own_states.front().component,
+                                            m.own_states.front().state.name)
+        : m.has_contacts()    ? "this machine has shafts that are tied at run time"
+                              : "an operating sequence does not repeat with the cycle"));
   periodicity_ = periodicity_of(m);
   start_time_ = periodicity_.settled_from;
   const int node = prescribed_node(m);

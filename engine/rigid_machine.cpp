@@ -41,6 +41,11 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   if (model->free_shafts != 1)
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
+  if (!model->own_states.empty())
+    throw std::invalid_argument(
+        fmt::format("\"{}\" has a state of its own ({}), so that angle and speed do not describe the machine; simulate "
+                    "with kurbel run",
+                    model->own_states.front().component, model->own_states.front().state.name));
   return model;
 }
 
@@ -62,7 +67,13 @@ double lowest(const std::function<double(double)>& f, double a, double b) {
 
 }  // namespace
 
-RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, Effects{})) {}
+Effects rigid_effects() {
+  Effects effects;
+  effects.locked = true;
+  return effects;
+}
+
+RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rigid_effects())) {}
 
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
@@ -82,7 +93,7 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / std::abs(m.node_ratio[at_index(e.node)]));
+    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / m.scale_ratio[at_index(e.node)]);
   const auto repeats = [&](double cycle) {
     return std::all_of(period.begin(), period.end(),
                        [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <deque>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -52,6 +54,10 @@ class FlushDenormals {
 // A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
 constexpr double fired_below = -1e-11, at_root = 1e-13;
 constexpr int most_events_at_once = 100;
+// So many events while the machine turns by no more than this find no rest of themselves: bouncing that dies away,
+// a contact that flickers. Their elements then follow laws without events.
+constexpr std::size_t restless_events = 60;
+constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
 
 // Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
 // ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
@@ -165,7 +171,9 @@ class Loop {
     if (!fired.empty()) return pass_event(t, fired);
     if (t >= edge_) {
       std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      const std::size_t known = out_.events.size();
       equations_.pass_edge(t, y, out_.events);
+      note_angle(known, y);
       equations_.wrap(y);
       restart(t, y);
       return true;
@@ -289,7 +297,7 @@ class Loop {
     }
   }
 
-  bool pass_event(double t, const std::vector<std::size_t>& fired) {
+  bool pass_event(double t, std::vector<std::size_t> fired) {
     const bool at_begin = std::exchange(at_begin_, false);
     if (options_.stop && fired.back() == equations_.guard_count()) {
       out_.stopped = true;
@@ -312,11 +320,48 @@ class Loop {
     }
     ++out_.statistics.events;
     if (options_.extension) options_.extension->before_event(time, y, fired);
-    equations_.fire(time, y, fired, out_.events);
+    if (is_restless(time, fired)) calm(time, fired);
+    const std::size_t known = out_.events.size();
+    if (!fired.empty()) equations_.fire(time, y, fired, out_.events);
+    note_angle(known, y);
     if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
     return true;
+  }
+
+  void note_angle(std::size_t first, std::span<const double> y) {
+    const auto link = static_cast<std::size_t>(equations_.model().reduction_angle);
+    for (std::size_t k = first; k < out_.events.size(); ++k)
+      out_.events[k].angle = equations_.angle_with_turns(link, y);
+  }
+
+  bool is_restless(double time, const std::vector<std::size_t>& fired) {
+    recent_.push_back({time, fired});
+    if (recent_.size() <= restless_events) return false;
+    recent_.pop_front();
+    return (time - recent_.front().time) * equations_.model().speed_scale < restless_angle;
+  }
+
+  // The guards that fired most often in the restless stretch lose their events, those that fire now among them.
+  void calm(double time, std::vector<std::size_t>& fired) {
+    constexpr int most_for_one = static_cast<int>(restless_events / 10);
+    std::map<std::size_t, int> times;
+    for (const Recent& event : recent_)
+      for (const std::size_t guard : event.fired)
+        if (guard < equations_.guard_count()) ++times[guard];
+    std::vector<std::size_t> restless;
+    for (const auto& [guard, count] : times)
+      if (count > most_for_one) restless.push_back(guard);
+    const double span = time - recent_.front().time;
+    recent_.clear();
+    const std::string what = equations_.regularise(restless);
+    if (what.empty()) return;
+    out_.events.push_back({time, what,
+                           fmt::format("{} events within {:.2g} s find no rest: a law without events from here on",
+                                       restless_events, span)});
+    out_.regularised.push_back(what);
+    std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
   }
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
@@ -405,6 +450,11 @@ class Loop {
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
   double explicit_step_ = 0, trial_begin_ = 0;
+  struct Recent {
+    double time;
+    std::vector<std::size_t> fired;
+  };
+  std::deque<Recent> recent_;
   bool at_begin_ = false;
   std::int64_t checks_ = 0;
 };

@@ -89,6 +89,7 @@ struct RunOutcome {
   double t = 0;
   std::vector<double> state;
   std::vector<Event> events;
+  std::vector<std::string> regularised;  // what lost its events because they found no rest
   RunStatistics statistics;
 };
 
