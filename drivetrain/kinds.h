@@ -13,6 +13,7 @@ std::vector<Kind> inertia_kinds();
 std::vector<Kind> clutch_kinds();
 std::vector<Kind> coupling_kinds();
 std::vector<Kind> gearbox_kinds();
+std::vector<Kind> planetary_kinds();
 std::vector<Kind> motor_kinds();
 std::vector<Kind> induction_kinds();
 std::vector<Kind> dc_kinds();

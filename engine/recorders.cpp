@@ -45,6 +45,8 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     } else {
       motion(component + ".in", ports.in);
       motion(component + ".out", ports.out);
+      for (const auto& [name, node] : ports.others)
+        if (node != ports.in && node != ports.out) motion(component + "." + name, node);
     }
     std::vector<std::size_t> own;
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
@@ -73,6 +75,11 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
         {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
     channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
   }
+  for (const GearTorque& torque : model.gear_torques)
+    if (is_wanted(wanted, torque.name.substr(0, torque.name.find('.'))))
+      channels.push_back({"torque." + torque.name, "N*m", [torque](const Snapshot& s) {
+                            return torque.value(s.joint_torque, s.relation_torque, s.relation_loss);
+                          }});
   for (std::size_t k = 0; k < model.own_states.size(); ++k)
     if (is_wanted(wanted, model.own_states[k].component))
       channels.push_back({model.own_states[k].state.name + "." + model.own_states[k].component,
@@ -151,6 +158,14 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
     wanted.push_back(std::move(transmitted));
     wanted.push_back(std::move(spring));
   }
+  for (const GearTorque& torque : model.gear_torques)
+    wanted.push_back(
+        {.name = "peak_torque." + torque.name,
+         .unit = "N*m",
+         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
+         .value =
+             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
+         .rate = {}});
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;

@@ -96,10 +96,12 @@ double angle_turned(const PrescribedSpeed& given, double until) {
   return sum;
 }
 
-int prescribed_node(const Network& net) {
+int prescribed_node(const Model& m) {
+  const Network& net = m.network;
   int found = -1;
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
     if (net.nodes[n].prescribed < 0) continue;
+    if (m.node_ratio[n] == 0 && net.prescribed[at(net.nodes[n].prescribed)].is_nothing()) continue;  // the frame
     if (found >= 0)
       throw std::invalid_argument(
           fmt::format("\"{}\" and \"{}\" both prescribe a speed; a steady cycle is sought for one prescribed speed at "
@@ -123,7 +125,7 @@ Periodicity periodicity_of(const Model& m) {
   }
   result.angle_matters = !angles.empty();
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
-  if (const int node = prescribed_node(m.network); node >= 0) {
+  if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
     const std::string& name = m.network.nodes[at(node)].component;
     const double link_speed = std::abs(given.speed.back() / m.node_ratio[at(node)]);
@@ -151,7 +153,7 @@ ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions option
                               : "an operating sequence does not repeat with the cycle"));
   periodicity_ = periodicity_of(m);
   start_time_ = periodicity_.settled_from;
-  const int node = prescribed_node(m.network);
+  const int node = prescribed_node(m);
   fixed_shaft_ = node >= 0 ? m.shaft_of_node[at(node)] : -1;
   angle_unknown_ = periodicity_.by_time && periodicity_.angle_matters && fixed_shaft_ < 0;
   if (angle_unknown_) scale_.push_back(1);

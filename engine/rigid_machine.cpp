@@ -33,6 +33,11 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
     throw std::invalid_argument(fmt::format(
         "the machine is elastic (effects: {}); one angle and its speed describe it only with elasticity off",
         model->effects.describe()));
+  if (!model->relations.empty())
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" ties shafts only while the machine runs, so one angle does not describe it; simulate it with "
+        "kurbel run, or hold a shaft of a planetary gear (fixed)",
+        model->network.relations.front().component));
   if (model->free_shafts != 1)
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
