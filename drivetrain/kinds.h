@@ -14,6 +14,10 @@ std::vector<Kind> clutch_kinds();
 std::vector<Kind> coupling_kinds();
 std::vector<Kind> gearbox_kinds();
 std::vector<Kind> motor_kinds();
+std::vector<Kind> induction_kinds();
+std::vector<Kind> dc_kinds();
+std::vector<Kind> engine_kinds();
+std::vector<Kind> fluid_motor_kinds();
 std::vector<Kind> source_kinds();
 std::vector<Kind> load_kinds();
 

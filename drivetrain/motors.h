@@ -44,9 +44,21 @@ struct InductionMotor {
     const double sb = breakdown_slip, a = resistance_ratio;
     return 2 * breakdown_torque * (1 + a * sb) * sb * slip / (slip * slip + sb * sb + 2 * a * sb * sb * slip);
   }
+  // One smooth piece, for starters.
+  static constexpr int pieces = 1;
+  template <class T>
+  T torque_in(int, const T& speed) const {
+    return torque(ShaftState<T>{0, T(0.0), speed, 0, 1});
+  }
+  int piece_at(double) const { return 0; }
+  void guard_piece(int, double, double*) const {}
+  int next_piece(int piece, int) const { return piece; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque, synchronous_speed}; }
+
+  // The denominator, s² + 2 a s_b² s + s_b², has no root: a s_b < 1.
+  bool has_no_pole() const { return breakdown_slip > 0 && resistance_ratio * breakdown_slip < 1; }
 
   // Catalogue data: M_n = P_n/ω_n, s_n = (ω_s − ω_n)/ω_s, s_b = s_n (ν + √(ν² − 1)), ν = M_b/M_n (exact for a = 0).
   // With a > 0 the same ν and s_n give s_b from M(s_n) = M_n, a quadratic in s_b.

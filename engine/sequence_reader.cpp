@@ -28,7 +28,10 @@ class StepReader {
   SequenceStep read(const DocumentValue& table, const std::string& what) {
     static const Kind kind{.name = "step", .keys = sequence_step_keys()};
     const Section section = read_section(table, kind, "", what, messages_, {"set"});
-    SequenceStep step{.to = section.number("to"), .over = section.number("over"), .at = table.at};
+    SequenceStep step;
+    step.to = section.number("to");
+    step.over = section.number("over");
+    step.at = table.at;
     read_trigger(section, step, what);
     const DocumentEntry* set = table.find("set");
     if (!set) {

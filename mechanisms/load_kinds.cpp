@@ -93,12 +93,47 @@ bool read_table(const Section& s, const Mechanism& mechanism, const std::string&
   return true;
 }
 
+bool read_compressor(const Section& s, const Mechanism& mechanism, const std::string& what, Messages& messages,
+                     SliderLoad& load) {
+  const double bore = s.number("bore"), suction = s.number("suction_pressure");
+  const CompressorForce law{.end = working_end(s, mechanism),
+                            .stroke = mechanism.stroke(),
+                            .area = 0.25 * std::numbers::pi * bore * bore,
+                            .suction = suction,
+                            .delivery = s.number("delivery_pressure"),
+                            .outside = s.number_or("outside_pressure", suction),
+                            .clearance = s.number("clearance"),
+                            .compression_exponent = s.number("compression_exponent"),
+                            .expansion_exponent = s.number_or("expansion_exponent", s.number("compression_exponent"))};
+  if (law.delivery <= law.suction) {
+    messages.add(s.where("delivery_pressure"),
+                 fmt::format("{}: delivery_pressure = {:g} bar; must be above suction_pressure = {:g} bar", what,
+                             law.delivery * 1e-5, law.suction * 1e-5));
+    return false;
+  }
+  const auto refuse = [&](const char* event, double greatest) {
+    messages.add(s.where("clearance"),
+                 fmt::format("{}: clearance = {:g}; must be < {:.4g}, else the {} at these pressures", what,
+                             law.clearance, greatest, event));
+    return false;
+  };
+  if (law.delivery_opens_at() <= 0)
+    return refuse("delivery valve never opens",
+                  1 / (std::pow(law.delivery / law.suction, 1 / law.compression_exponent) - 1));
+  if (law.volumetric_efficiency() <= 0)
+    return refuse("suction valve never opens",
+                  1 / (std::pow(law.delivery / law.suction, 1 / law.expansion_exponent) - 1));
+  load.law = law;
+  return true;
+}
+
 bool read_load(const Section& s, const Mechanism& mechanism, const std::string& what, Messages& messages,
                SliderLoad& load) {
   const std::string& kind = s.kind->name;
   load.account = account_of(s);
   if (kind == "press") return read_press(s, mechanism, what, messages, load);
   if (kind == "table") return read_table(s, mechanism, what, messages, load);
+  if (kind == "compressor") return read_compressor(s, mechanism, what, messages, load);
   const char* magnitude = mechanism.rocks() ? "torque" : "force";
   if (kind == "constant") load.law = ConstantForce{s.number(magnitude)};
   if (kind == "opposing") load.law = OpposingForce{s.number(magnitude)};
@@ -181,6 +216,31 @@ const std::vector<Kind>& slider_load_kinds() {
                  .choices = {"travel", "angle"}},
                 working_end_key(),
                 work_key("\"useful\"")}},
+      {.name = "compressor",
+       .doc = "gas force of a compressor: compression, delivery, re-expansion of the clearance volume, suction; the "
+              "valves open at located events",
+       .placement = Placement::nested,
+       .keys =
+           {{.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
+            {.name = "suction_pressure", .unit = "Pa", .domain = positive, .doc = "p₁, absolute", .required = true},
+            {.name = "delivery_pressure", .unit = "Pa", .domain = positive, .doc = "p₂, absolute", .required = true},
+            {.name = "outside_pressure",
+             .unit = "Pa",
+             .domain = not_negative,
+             .doc = "on the other face of the piston, absolute; default: suction_pressure"},
+            {.name = "clearance",
+             .domain = positive,
+             .doc = "clearance volume over swept volume, e.g. 0.05",
+             .required = true},
+            {.name = "compression_exponent",
+             .fallback = "1.3",
+             .domain = positive,
+             .doc = "polytropic exponent n: 1 isothermal, 1.4 adiabatic for air"},
+            {.name = "expansion_exponent",
+             .domain = positive,
+             .doc = "polytropic exponent of the re-expansion; default: compression_exponent"},
+            working_end_key(),
+            work_key("\"useful\"")}},
   };
   return kinds;
 }

@@ -16,30 +16,10 @@
 #include "engine/curve.h"
 #include "engine/dual.h"
 #include "engine/element.h"
+#include "mechanisms/compressor_force.h"
+#include "mechanisms/slider_state.h"
 
 namespace kurbel {
-
-// Motion of the slider as its loads see it.
-template <class T>
-struct SliderState {
-  T phi;           // crank angle [rad]
-  T x;             // position of the output [m]
-  T v;             // speed [m/s]
-  int travel = 0;  // sign of v, fixed between events; 0 = crank at standstill
-  int mode = 0;    // piece of the load's law, fixed between events
-};
-
-// Where the working end lies.
-struct WorkingEnd {
-  double position = 0;  // x of that end [m]
-  int side = 1;         // +1 extended, −1 folded
-
-  template <class T>
-  T distance(const T& x) const {
-    return static_cast<double>(side) * (position - x);
-  }
-  bool approached(int travel) const { return travel * side > 0; }
-};
 
 // F = F₀
 struct ConstantForce {
@@ -203,7 +183,8 @@ struct AngleForce {
 };
 
 struct SliderLoad {
-  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce> law;
+  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce>
+      law;
   std::string name;  // "press.load"
   Account account = Account::useful;
 
@@ -212,6 +193,7 @@ struct SliderLoad {
         [](const auto& l) {
           using L = std::decay_t<decltype(l)>;
           if constexpr (std::is_same_v<L, TravelForce>) return !l.retreat.empty();
+          if constexpr (std::is_same_v<L, CompressorForce>) return true;
           return Directional<L>;
         },
         law);
@@ -237,6 +219,7 @@ inline double SliderLoad::greatest_force() const {
     double operator()(const PressForce& l) const { return l.greatest(); }
     double operator()(const TravelForce& l) const { return std::max(l.approach.max_abs(), l.retreat.max_abs()); }
     double operator()(const AngleForce& l) const { return l.curve.max_abs(); }
+    double operator()(const CompressorForce& l) const { return l.greatest(); }
   };
   return std::visit(Greatest{}, law);
 }

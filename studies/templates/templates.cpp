@@ -27,6 +27,12 @@ KURBEL_SCENE(shaper, "shaper.toml")
 KURBEL_SCENE(knuckle, "knuckle_press.toml")
 KURBEL_SCENE(rocker, "four_bar_rocker.toml")
 KURBEL_SCENE(chain, "six_inertia_chain.toml")
+KURBEL_SCENE(fan, "fan_star_delta.toml")
+KURBEL_SCENE(conveyor, "belt_conveyor.toml")
+KURBEL_SCENE(crane, "series_motor_crane.toml")
+KURBEL_SCENE(winch, "hydraulic_winch.toml")
+KURBEL_SCENE(mixer, "air_motor_mixer.toml")
+KURBEL_SCENE(diesel, "six_cylinder_engine.toml")
 
 namespace kurbel {
 
@@ -40,6 +46,12 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"knuckle", "knuckle-joint press: toggle links fall into line at the lower end", knuckle()},
       {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
       {"chain", "six inertias on couplings: start of a fan", chain()},
+      {"fan", "fan started star–delta: cage motor by its catalogue's points", fan()},
+      {"conveyor", "belt conveyor on a frequency converter with a torque limit", conveyor()},
+      {"crane", "crane hoist with a DC series motor", crane()},
+      {"winch", "hydraulic winch: constant flow, relief valve", winch()},
+      {"mixer", "mixer with an air motor", mixer()},
+      {"diesel", "six-cylinder engine by indicator diagram and firing order, with generator", diesel()},
   };
   return templates;
 }

@@ -237,6 +237,21 @@ TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
   EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: stopped at t = "));
 }
 
+// A series motor without a load: an event, a diagnosis, what was computed up to then.
+TEST_F(CommandLine, RunawayEndsWithThreeAnEventAndADiagnosis) {
+  std::ofstream(folder_ / "runaway.toml")
+      << "line = [\"motor\"]\n[motor]\nkind = \"dc series motor\"\nvoltage = \"220 V\"\nresistance = \"1 Ohm\"\n"
+         "constant = \"0.02 N*m/A2\"\nrated_speed = \"500 rpm\"\ninertia = \"1 kg*m2\"\n[run]\nuntil = \"1000 s\"\n";
+  const Ended r = kurbel({"run", "runaway.toml"});
+  EXPECT_EQ(r.code, 3);
+  EXPECT_NE((r.out + r.err).find("ran away: its speed passed max_speed = 2500 rpm"), std::string::npos)
+      << r.out << r.err;
+  const auto summary = nlohmann::json::parse(text_of(folder_ / "results/runaway/summary.json"));
+  EXPECT_FALSE(summary["complete"]);
+  ASSERT_EQ(summary["events"].size(), 1u);
+  EXPECT_EQ(summary["events"][0]["what"], "ran away: passed its max_speed");
+}
+
 TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
   const std::vector<std::string> spent = {"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"};
   EXPECT_NE(on_terminal(spent).find("\033[31mINCOMPLETE\033[0m"), std::string::npos);

@@ -3,9 +3,14 @@
 #include <cmath>
 #include <random>
 
+#include "drivetrain/catalogue_motor.h"
 #include "drivetrain/coupling.h"
+#include "drivetrain/dc_series_motor.h"
+#include "drivetrain/engine_torque.h"
+#include "drivetrain/fluid_motors.h"
 #include "drivetrain/loads.h"
 #include "drivetrain/motors.h"
+#include "drivetrain/started_motor.h"
 #include "drivetrain/torque_source.h"
 #include "engine/element_pool.h"
 #include "tests/support/scenes.h"
@@ -44,10 +49,37 @@ void expect_exact_derivatives(const E& element, double speed) {
   }
 }
 
+CatalogueMotor motor_by_points() {
+  const CataloguePoints points{.starting_torque = 210,
+                               .pull_up = CataloguePoints::Point{40, 160},
+                               .breakdown = {135, 290},
+                               .rated = {153, 98},
+                               .synchronous_speed = 157.08};
+  return {points.curve(), points.synchronous_speed, 98};
+}
+
 TEST(ShaftElements, DerivativesAreExact) {
   expect_exact_derivatives(HarmonicTorque{Account::driving, 3, 2, 5, 0.3}, 100);
   expect_exact_derivatives(DcShuntMotor{60, 40, 0}, 100);
   expect_exact_derivatives(InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0.7, 0.9), 300);
+  expect_exact_derivatives(DcSeriesMotor{220, 0.8, 0.02, 1e3, "motor"}, 100);
+  const CatalogueMotor by_points = motor_by_points();
+  expect_exact_derivatives(by_points, 200);
+  const InductionMotor kloss = InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0, 1);
+  for (const double limit : {100.0, HUGE_VAL}) {
+    expect_exact_derivatives(StartedMotor<InductionMotor, StarDelta>{kloss, {0, 2, 0, 0.5}, limit}, 200);
+    expect_exact_derivatives(StartedMotor<CatalogueMotor, StarDelta>{by_points, {0, -1, 120, 0}, limit}, 200);
+    expect_exact_derivatives(StartedMotor<CatalogueMotor, SoftStart>{by_points, {0, 0.3, 1.5}, limit}, 200);
+    expect_exact_derivatives(
+        StartedMotor<CatalogueMotor, FrequencyConverter>{by_points, {0, 1.5, 300, by_points.synchronous_speed}, limit},
+        200);
+  }
+  const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
+  expect_exact_derivatives(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 300);
+  expect_exact_derivatives(PneumaticMotor{20, 60, 0.4}, 100);
+  const Curve pressure({0, 1, 2.5, 5, 9}, {4e5, 2e6, 3e5, 1e5, 2e5}, Curve::Form::smooth, 4 * M_PI);
+  expect_exact_derivatives(EngineTorque(pressure, {}, {0, 3, 7}), 100);
+  expect_exact_derivatives(EngineTorque(pressure, {0.005, 0.04, 0.14, 1e5}, {0, 3, 7}), 100);
   expect_exact_derivatives(SpeedLoad{Account::useful, 0.3, 0.02}, 100);
   expect_exact_derivatives(OpposingLoad{Account::useful, 5, 0.3, 0.02, 0}, 100);
   expect_exact_derivatives(
@@ -206,6 +238,27 @@ TEST(InductionMotor, PassesThroughItsCataloguePoints) {
       const auto weak = InductionMotor::from_catalogue(power, wn, ws, nu, a, 0.8);
       EXPECT_NEAR(weak.torque(ShaftState<double>{0, 0, 100, 0, 1}) / torque(100), 0.64, 1e-12);
     }
+}
+
+// A motor gives power between standstill and its no-load speed, and takes it outside.
+template <class E>
+void expect_drives_between_standstill_and(const E& motor, double no_load, double highest) {
+  for (int i = 0; i < 200; ++i) {
+    ShaftState<double> x{0, 0, some(-0.3 * highest, highest), 0, 1};
+    if constexpr (Guarded<E>) x.mode = motor.first_mode(x);
+    EXPECT_EQ(motor.torque(x) * x.rate > 0, x.rate > 0 && x.rate < no_load) << x.rate;
+  }
+}
+TEST(Motors, DriveBetweenStandstillAndTheirNoLoadSpeed) {
+  expect_drives_between_standstill_and(DcShuntMotor{60, 40, 0}, 40, 100);
+  expect_drives_between_standstill_and(DcSeriesMotor{220, 0.8, 0.02, 1e3, "motor"}, HUGE_VAL, 60);
+  expect_drives_between_standstill_and(InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0.7, 0.9), 157.08, 400);
+  expect_drives_between_standstill_and(motor_by_points(), 157.08, 400);
+  expect_drives_between_standstill_and(
+      StartedMotor<CatalogueMotor, StarDelta>{motor_by_points(), {0, 2, 0, 0.5}, HUGE_VAL}, 157.08, 400);
+  expect_drives_between_standstill_and(PneumaticMotor{20, 60, 0.4}, 60, 100);
+  const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
+  expect_drives_between_standstill_and(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 100, 300);
 }
 
 TEST(DcShuntMotor, IsTheStraightLineBetweenStallAndNoLoad) {

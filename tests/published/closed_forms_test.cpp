@@ -104,10 +104,39 @@ accuracy = 1e-10
     EXPECT_NEAR(omega[row], w_inf * std::tanh(r.trajectory->time()[row] * std::sqrt(50 * 0.04) / 2), 1e-8);
 }
 
-// A DC series motor, M = c V²/(R + c ω)², by table (the characteristic "given graphically"): a smooth curve through
-// 201 points stands for the law; ω = ((R³ + 3 c² V² t/J)^⅓ − R)/c.
-TEST(MotorStart, SeriesMotorByTableFollowsItsClosedForm) {
+// A DC series motor, M = κ U²/(R + κ ω)², without a load: ω = ((R³ + 3 κ² U² t/J)^⅓ − R)/κ.
+TEST(MotorStart, SeriesMotorFollowsItsClosedForm) {
   const double c = 0.006366197723675813, resistance = 1.06, voltage = 100, j = 0.3;
+  const Result r = run(R"(
+line = ["motor"]
+[motor]
+kind = "dc series motor"
+voltage = "100 V"
+resistance = "1.06 Ohm"
+constant = "0.006366197723675813 N*m/A2"
+inertia = "0.3 kg*m2"
+[run]
+until = "5 s"
+samples = 11
+accuracy = 1e-10
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto omega = test::series(r, "speed.motor");
+  const struct {
+    std::size_t row;
+    double omega;
+  } expected[] = {{1, 65.38985776}, {2, 106.39567097}, {4, 163.78626679}, {10, 269.97566298}};
+  for (const auto& e : expected) {
+    const double t = 0.5 * static_cast<double>(e.row);
+    const double closed = (std::cbrt(std::pow(resistance, 3) + 3 * c * c * voltage * voltage * t / j) - resistance) / c;
+    EXPECT_NEAR(closed, e.omega, 1e-8);
+    EXPECT_NEAR(omega[e.row], closed, 1e-9 * closed);
+  }
+}
+
+// The same motor by table (the characteristic "given graphically"): a smooth curve through 201 points.
+TEST(MotorStart, SeriesMotorByTableFollowsItsLaw) {
+  const double c = 0.006366197723675813, resistance = 1.06, voltage = 100;
   std::string points;
   for (int i = 0; i <= 200; ++i) {
     const double w = 1.5 * i;
@@ -131,12 +160,7 @@ accuracy = 1e-8
     std::size_t row;
     double omega;
   } expected[] = {{1, 65.38985776}, {2, 106.39567097}, {4, 163.78626679}, {10, 269.97566298}};
-  for (const auto& e : expected) {
-    const double t = 0.5 * static_cast<double>(e.row);
-    EXPECT_NEAR((std::cbrt(std::pow(resistance, 3) + 3 * c * c * voltage * voltage * t / j) - resistance) / c, e.omega,
-                1e-7);
-    EXPECT_NEAR(omega[e.row], e.omega, 2e-5);
-  }
+  for (const auto& e : expected) EXPECT_NEAR(omega[e.row], e.omega, 2e-5);
 }
 
 // Dubey, Fundamentals of Electrical Drives, ex. 2.2: reversal. M = −100 − 0.1 N [N·m, rpm] against 0.05 N; J = 10
@@ -158,6 +182,58 @@ accuracy = 1e-10
 )");
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_speed.motor") * 60 / test::two_pi, -0.95 * 666.66666666666667, 1e-6);
+}
+
+// The same drive as two motors with windows of time: M = 100 − 0.1 N for 600 s, M = −100 − 0.1 N from then on. The
+// steady speed is 666.67 rpm, and −95 % of it is reached 25.753 s after the reversal. (The book prints 25.51 s.)
+TEST(MotorStart, ReversalByTwoCharacteristicsTakesTheTimeOfTheClosedForm) {
+  const Result r = run(R"(
+line = ["motor", "load"]
+[motor]
+kind = "motor"
+torque = { over = "speed", unit = ["rpm", "N*m"], points = [[-1000, 200], [1000, 0]] }
+stop = "600 s"
+inertia = "10 kg*m2"
+[reversed]
+kind = "motor"
+on = "motor"
+torque = { over = "speed", unit = ["rpm", "N*m"], points = [[-1000, 0], [1000, -200]] }
+start = "600 s"
+inertia = "0 kg*m2"
+[load]
+kind = "load"
+damping = "0.47746482927568600731 N*m*s/rad"    # 0.05 N·m/rpm
+[run]
+until = "625.75323687 s"
+accuracy = 1e-10
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto omega = test::series(r, "speed.motor");
+  EXPECT_NEAR(*std::max_element(omega.begin(), omega.end()) * 60 / test::two_pi, 666.66666666666667, 1e-6);
+  EXPECT_NEAR(figure(r, "final_speed.motor") * 60 / test::two_pi, -0.95 * 666.66666666666667, 1e-5);
+}
+
+// Dubey ex. 2.3: a flywheel of J = 1947.188 kg·m² lets the motor (500 N·m at 5 % droop from 500 rpm) rise from 200 to
+// just 700 N·m during 10 s of 1000 N·m: M = M_h + (M_0 − M_h) e^{−t k/J}, k = 500 N·m/(25 rpm). (The book prints
+// 1937.2.)
+TEST(MotorStart, FlywheelKeepsAMotorWithDroopAtItsPermittedTorque) {
+  const Result r = run(R"(
+line = ["motor", "mill"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "10 kN*m"
+no_load_speed = "500 rpm"
+inertia = "1947.188373 kg*m2"
+[mill]
+kind = "load"
+torque = "1000 N*m"
+[run]
+start = { speed = "490 rpm" }    # 200 N·m
+until = "10 s"
+accuracy = 1e-10
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_NEAR(10e3 * (1 - figure(r, "final_speed.motor") * 60 / test::two_pi / 500), 700, 1e-7 * 700);
 }
 
 // --- gears ---
@@ -183,6 +259,84 @@ accuracy = 1e-10
   EXPECT_NEAR(figure(r, "final_speed.b"), 6.25 * 2, 1e-11);
   EXPECT_NEAR(figure(r, "final_speed.a"), 25.0 * 2, 1e-11);
   EXPECT_NEAR(figure(r, "final_angle.b"), 0.5 * 6.25 * 4, 1e-11);
+}
+
+// Torque through a pair of gears of ratio z₂/z₁ onto an inertia, from rest: its acceleration [rad/s²].
+double geared_acceleration(int z1, int z2, double torque, double ia, double ib, double load) {
+  const Result r = run(fmt::format(R"(
+line = ["a", "gear", "b"]
+a = {{ kind = "torque source", torque = "{} N*m", inertia = "{} kg*m2" }}
+gear = {{ kind = "gearbox", stages = [{{ teeth = [{}, {}] }}] }}
+b = {{ kind = "load", torque = "{} N*m", acts = "always", inertia = "{} kg*m2" }}
+[run]
+until = "1 s"
+accuracy = 1e-12
+)",
+                                   torque, ia, z1, z2, load, ib));
+  EXPECT_TRUE(r.complete) << r.diagnosis;
+  return figure(r, "final_speed.b");
+}
+
+// The abscissa where the parabola through three points has its vertex.
+double vertex(double x, double h, double below, double at, double above) {
+  return x - h * (above - below) / (2 * (above - 2 * at + below));
+}
+
+// Ex. 3.14: G = √(I_B/I_A) = 4 accelerates the load most.
+TEST(GearedAcceleration, IsGreatestAtKhurmisRatioOfFour) {
+  const auto alpha = [](int z2) { return geared_acceleration(1000, z2, 100, 2, 32, 0); };
+  EXPECT_NEAR(alpha(4000), 6.25, 1e-7 * 6.25);
+  EXPECT_NEAR(vertex(4, 0.02, alpha(3980), alpha(4000), alpha(4020)), 4, 1e-4);
+}
+
+// Ex. 3.17: with a load the best ratio is 13.0617 (the book's 13.235 is wrong).
+TEST(GearedAcceleration, IsGreatestAtTheRatioOfTheClosedForm) {
+  const auto alpha = [](int z2) { return geared_acceleration(1000, z2, 0.95 * 30, 0.95 * 0.6, 45, 100); };
+  EXPECT_NEAR(vertex(13.06, 0.05, alpha(13010), alpha(13060), alpha(13110)), 13.06172168, 2e-4);
+}
+
+// Ex. 3.13: 75 kg on a drum of r = 0.3 m with I_A = 100 drive I_B = 5 at six times the drum's speed:
+// a = g m r²/(m r² + I_A + G² I_B); with η = 0.9 of the gears I_B counts 1/η times.
+TEST(GearedAcceleration, OfAFallingMassMatchesKhurmi) {
+  const auto acceleration = [](double efficiency) {
+    const Result r = run(fmt::format(R"(
+line = ["drum", "gear", "b"]
+drum = {{ kind = "torque source", torque = "220.725 N*m", inertia = "106.75 kg*m2" }}    # m g r; I_A + m r²
+gear = {{ kind = "gearbox", stages = [{{ teeth = [120, 20] }}] }}
+b = {{ kind = "inertia", inertia = "{} kg*m2" }}
+[run]
+until = "1 s"
+accuracy = 1e-10
+)",
+                                     5 / efficiency));
+    return figure(r, "final_speed.drum") * 0.3;
+  };
+  EXPECT_NEAR(acceleration(1), 0.230924150, 1e-7 * 0.23);
+  EXPECT_NEAR(acceleration(0.9), 0.215867970, 1e-7 * 0.21);
+}
+
+// Dubey ex. 2.1: J₀ = 0.2 at 1420 rpm drives J₁ = 10 with 10 N·m at a tenth of the speed (η = 0.9) and hoists 1000 kg
+// at 1.5 m/s (η = 0.85): J = 0.40175 kg·m², M = 117.530 N·m: M = ω₁ M₁/(ω η₁) + m g v/(ω η₂).
+TEST(GearedAcceleration, ReducesAGearedLoadAndAHoistedMassLikeDubey) {
+  const double radius = 1.5 / (0.1 * 1420 * test::two_pi / 60);  // of a drum that turns ten times slower, too
+  const Result r = run(fmt::format(R"(
+line = ["motor", "gear", "load"]
+motor = {{ kind = "torque source", torque = "157.7055809741 N*m", inertia = "0.2 kg*m2" }}
+gear = {{ kind = "gearbox", stages = [{{ teeth = [20, 200] }}] }}
+load = {{ kind = "load", torque = "{0:.17g} N*m", inertia = "10 kg*m2" }}
+drum = {{ kind = "load", torque = "{1:.17g} N*m", acts = "always", inertia = "{2:.17g} kg*m2" }}
+hoist = {{ kind = "gearbox", stages = [{{ teeth = [20, 200] }}] }}
+[[branch]]
+from = "motor"
+line = ["hoist", "drum"]
+[run]
+until = "1 s"
+accuracy = 1e-10
+)",
+                                   10 / 0.9, 1000 * 9.81 * radius / 0.85, 1000 * radius * radius));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  // 40.1753321 N·m above what the loads take: 100 rad/s².
+  EXPECT_NEAR(figure(r, "final_speed.motor"), 100, 1e-7 * 100);
 }
 
 // Ex. 3.17: motor I_A = 0.6, T_A = 30; load I_B = 45, T_B = 100; G = 9, η = 0.95. A steady efficiency lets η of torque

@@ -1,0 +1,107 @@
+// dc_kinds.cpp — DC motors by their static characteristics.
+#include "drivetrain/kinds.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "drivetrain/dc_series_motor.h"
+#include "drivetrain/motors.h"
+#include "drivetrain/shared_keys.h"
+#include "engine/network.h"
+
+namespace kurbel {
+namespace {
+
+void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
+  const int node = single_shaft(s, net);
+  double stall = s.number_or("stall_torque", 0), no_load = s.number_or("no_load_speed", 0);
+  const bool electrical = s.given("voltage") || s.given("resistance") || s.given("constant");
+  if (electrical) {
+    if (!s.given("voltage") || !s.given("resistance") || !s.given("constant") || s.given("stall_torque") ||
+        s.given("no_load_speed")) {
+      messages.add(
+          s.at,
+          fmt::format(
+              "dc shunt motor \"{}\": give either stall_torque and no_load_speed, or voltage, resistance and constant",
+              s.name));
+      return;
+    }
+    stall = s.number("constant") * s.number("voltage") / s.number("resistance");
+    no_load = s.number("voltage") / s.number("constant");
+  } else if (!s.given("stall_torque") || !s.given("no_load_speed")) {
+    const bool one = s.given("stall_torque") || s.given("no_load_speed");
+    messages.add(s.at, one ? fmt::format("dc shunt motor \"{}\": \"{}\" is missing beside \"{}\"", s.name,
+                                         s.given("stall_torque") ? "no_load_speed" : "stall_torque",
+                                         s.given("stall_torque") ? "stall_torque" : "no_load_speed")
+                           : fmt::format("dc shunt motor \"{}\": nothing given; give stall_torque and no_load_speed, "
+                                         "or voltage, resistance and constant",
+                                         s.name));
+    return;
+  }
+  net.put(node, s.name, DcShuntMotor{stall, no_load, s.number_or("rated_torque", 0)}, window_of(s, messages));
+}
+
+void build_dc_series(const Section& s, Network& net, Messages& messages) {
+  const int node = single_shaft(s, net);
+  DcSeriesMotor motor{s.number("voltage"), s.number("resistance"), s.number("constant"), 0, s.name};
+  motor.max_speed = s.number_or("max_speed", 5 * s.number_or("rated_speed", motor.base_speed()));
+  if (s.given("rated_speed") && motor.max_speed <= s.number("rated_speed"))
+    messages.add(
+        s.where("max_speed"),
+        fmt::format("dc series motor \"{}\": max_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm", s.name,
+                    motor.max_speed * 30 / std::numbers::pi, s.number("rated_speed") * 30 / std::numbers::pi));
+  net.put(node, s.name, motor, window_of(s, messages));
+}
+
+}  // namespace
+
+std::vector<Kind> dc_kinds() {
+  return {
+      {.name = "dc shunt motor",
+       .doc = "straight characteristic M = M_stall (1 − ω/ω₀)",
+       .keys = joined(
+           {{.name = "stall_torque", .unit = "N*m", .domain = positive, .doc = "torque at standstill M_stall"},
+            {.name = "no_load_speed", .unit = "rad/s", .domain = positive, .doc = "speed without torque ω₀"},
+            {.name = "voltage",
+             .unit = "V",
+             .domain = positive,
+             .doc = "armature voltage U, with resistance and constant in place of the two above"},
+            {.name = "resistance", .unit = "Ohm", .domain = positive, .doc = "armature resistance R: M_stall = k U/R"},
+            {.name = "constant", .unit = "N*m/A", .domain = positive, .doc = "motor constant k: ω₀ = U/k"},
+            {.name = "rated_torque",
+             .unit = "N*m",
+             .domain = positive,
+             .doc = "scale of errors; default: stall torque"},
+            inertia_key("", "rotor inertia")},
+           window_keys()),
+       .build = build_dc_shunt},
+      {.name = "dc series motor",
+       .doc = "M = κ U²/(R + κ ω)², static; runs away without load, which ends the run",
+       .keys =
+           joined({{.name = "voltage", .unit = "V", .domain = positive, .doc = "supply voltage U", .required = true},
+                   {.name = "resistance",
+                    .unit = "Ohm",
+                    .domain = positive,
+                    .doc = "R of armature and field together",
+                    .required = true},
+                   {.name = "constant",
+                    .unit = "N*m/A2",
+                    .domain = positive,
+                    .doc = "κ: torque over current squared",
+                    .required = true},
+                   {.name = "rated_speed",
+                    .unit = "rad/s",
+                    .domain = positive,
+                    .doc = "for max_speed; default: R/κ, where the torque is a quarter of the stall torque"},
+                   {.name = "max_speed",
+                    .unit = "rad/s",
+                    .domain = positive,
+                    .doc = "beyond it the motor ran away; default: 5 rated_speed"},
+                   inertia_key("", "rotor inertia")},
+                  window_keys()),
+       .build = build_dc_series},
+  };
+}
+
+}  // namespace kurbel
