@@ -14,8 +14,8 @@ struct Grown {
   double per_step, steps, first_speed;
 };
 
-Grown grown(int n, const std::string& method, double tolerance) {
-  const auto model = equal_chain(n, false);
+Grown grown(int n, const std::string& method, double tolerance, double until = 0.2) {
+  const auto model = equal_chain(n, false, until);
   const TimedRun t = timed(n >= 100000 ? 1 : n >= 10000 ? 3 : 5, [&] { return bare_run(model, tolerance, method); });
   const double steps = static_cast<double>(t.outcome.statistics.stepper.steps);
   return {n, t.median_seconds / steps, steps, t.outcome.state[static_cast<std::size_t>(n)]};
@@ -49,12 +49,16 @@ void growth_with_size(BenchBook& book) {
   std::size_t colour = 0;
   for (const char* method : {"dopri5", "verner6", "dop853", "esdirk", "bdf"}) {
     std::vector<Grown> all;
+    const bool implicit = std::string(method) == "esdirk" || std::string(method) == "bdf";
     for (const int n : {100, 1000, 10000, 100000}) {
-      all.push_back(grown(n, method, tolerance));
+      // A step of an implicit method is known after a few hundred of them.
+      const double until = !implicit || n <= 1000 ? 0.2 : 200.0 / n;
+      all.push_back(grown(n, method, tolerance, until));
       const Grown& g = all.back();
-      table.rows.push_back({method, fmt::format("{}", n), fmt::format("{:.0f}", g.steps),
-                            fmt::format("{:.1f}", 1e9 * g.per_step / n), fmt::format("{:.9g}", g.first_speed),
-                            n >= 1000 ? fmt::format("{:.1e}", std::abs(g.first_speed - reference)) : ""});
+      table.rows.push_back(
+          {method, fmt::format("{}", n), fmt::format("{:.0f}", g.steps), fmt::format("{:.1f}", 1e9 * g.per_step / n),
+           fmt::format("{:.9g}", g.first_speed),
+           n >= 1000 && until == 0.2 ? fmt::format("{:.1e}", std::abs(g.first_speed - reference)) : ""});
     }
     Series series{.name = method, .role = further_role(colour++), .x = {}, .y = {}, .points = true};
     for (const Grown& g : all) {
@@ -67,11 +71,12 @@ void growth_with_size(BenchBook& book) {
     if (std::string(method) == "dopri5")
       book.target("E2, N = 1e5, per step and inertia, 7 stages", "≤ 40 ns",
                   fmt::format("{:.0f} ns", 1e9 * all[3].per_step / 1e5), all[3].per_step <= 40e-9 * 1e5);
-    if (std::string(method) == "esdirk" || std::string(method) == "bdf")
+    if (implicit)
       book.target(fmt::format("E2, {}: exponent of the time of a step over N", method), "≤ 1.1",
                   fmt::format("{:.2f}", p), p <= 1.1);
-    book.target(fmt::format("E2, {}: error at N = 1e5 against N = 1e3, tolerance {:.0e}", method, tolerance), "≤ 2 ×",
-                fmt::format("{:.2g} ×", last / first), last <= 2 * first + 1e-12);
+    if (!implicit)
+      book.target(fmt::format("E2, {}: error at N = 1e5 against N = 1e3, tolerance {:.0e}", method, tolerance), "≤ 2 ×",
+                  fmt::format("{:.2g} ×", last / first), last <= 2 * first + 1e-12);
   }
   book.tables.push_back(table);
   book.plots.push_back(plot);

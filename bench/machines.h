@@ -18,7 +18,7 @@ namespace kurbel::bench {
 
 // The E2 chain: N equal inertias of 0.01 kg·m² joined by k = 1e5 N·m/rad, c = 1 N·m·s/rad; 10 N·m on the first (or
 // spread evenly over all), 0.5 N·m·s/rad against the last.
-inline std::shared_ptr<const Model> equal_chain(int n, bool spread) {
+inline std::shared_ptr<const Model> equal_chain(int n, bool spread, double until = 0.2) {
   Network net;
   int before = -1;
   for (int i = 0; i < n; ++i) {
@@ -32,7 +32,7 @@ inline std::shared_ptr<const Model> equal_chain(int n, bool spread) {
     before = node;
   }
   Scene scene;
-  scene.run.until = 0.2;
+  scene.run.until = until;
   return compile_network(std::move(net), scene, Effects{true, {}});
 }
 

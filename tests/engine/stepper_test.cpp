@@ -218,7 +218,8 @@ TEST_P(ExplicitMethod, LocalErrorsOfStepAndDenseOutputShowTheirOrders) {
   const LocalErrors coarse = local_errors(GetParam(), system, exact, 0.5, h);
   const LocalErrors fine = local_errors(GetParam(), system, exact, 0.5, h / 2);
   EXPECT_NEAR(std::log2(coarse.end / fine.end), order + 1, 0.6);
-  EXPECT_NEAR(std::log2(coarse.middle / fine.middle), order, 0.6);
+  // The dense output is an order below the step's, but for Verner's.
+  EXPECT_NEAR(std::log2(coarse.middle / fine.middle), GetParam() == Method::verner_65 ? order + 1 : order, 0.6);
 }
 
 // y″ = −y + sin 3t: linear, so Newton's iteration is exact at any tolerance. The dense output is a cubic.

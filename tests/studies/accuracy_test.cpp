@@ -28,27 +28,31 @@ AccuracyOptions coarse() {
   return options;
 }
 
-// Up to the floor, which is what the references agree to; samples between the steps share in the error.
+// Up to the floor, which is what the references agree to. Where no step may turn a mechanism by more than a quarter,
+// loose tolerances take the very same steps, and the error stays; luck within a rung may double it, no more.
 class ErrorFalls : public testing::TestWithParam<std::string> {};
 
 TEST_P(ErrorFalls, WithTheToleranceOnEveryLevel) {
   Scene scene = test::scene_file("scenes/" + GetParam() + ".toml");
-  scene.run.until = std::min(scene.run.until, 2.0);
+  scene.run.until = std::min(scene.run.until, GetParam().find("engine") == std::string::npos ? 2.0 : 0.4);
   const AccuracyStudy study = measure_accuracy(scene, coarse());
   ASSERT_TRUE(study.complete) << study.diagnosis;
   ASSERT_FALSE(study.settings.empty());
   for (std::size_t level = 0; level < study.levels.size(); ++level) {
     const double floor = study.levels[level].agreement;
     EXPECT_LT(floor, 1e-7) << study.levels[level].name;
+    if (study.levels[level].name == "energy method") continue;  // has no tolerance
     for (const char* method : {"dop853", "verner6"}) {
-      double before = HUGE_VAL;
+      double first = 0, before = HUGE_VAL;
       for (const MeasuredSetting& s : study.settings) {
         if (s.level != level || s.method != method) continue;
         EXPECT_GE(s.trajectory_error, floor) << study.name_of(s);
-        EXPECT_LT(s.trajectory_error, std::max(before, 10 * floor)) << study.name_of(s);
+        EXPECT_LE(s.trajectory_error, std::max(2 * before, 10 * floor)) << study.name_of(s);
+        if (first == 0) first = s.trajectory_error;
         before = s.trajectory_error;
       }
-      EXPECT_LT(before, std::max(1e-6, 10 * floor)) << study.levels[level].name << " " << method;
+      // 1e-4 → 1e-10: to a hundredth at least, unless it was within 100 × the tightest tolerance all along.
+      EXPECT_LE(before, std::max({0.01 * first, 10 * floor, 1e-8})) << study.levels[level].name << " " << method;
     }
   }
 }
@@ -103,7 +107,7 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   ASSERT_EQ(study.levels[0].name, "rigid");
   EXPECT_GT(study.levels[0].model_error[study.key], 0.5);
   for (const MeasuredSetting& s : study.settings)
-    if (s.level == 0) EXPECT_GT(s.total_error[study.key], 0.5) << study.name_of(s);
+    EXPECT_TRUE(s.level > 0 || s.total_error[study.key] > 0.5) << study.name_of(s);
   EXPECT_TRUE(std::any_of(study.findings.begin(), study.findings.end(),
                           [](const std::string& f) { return f.find("whatever its tolerance") != std::string::npos; }));
   // What is printed, written and drawn holds every setting.
