@@ -12,8 +12,11 @@ std::vector<Kind> drivetrain_kinds();  // all of these:
 std::vector<Kind> inertia_kinds();
 std::vector<Kind> clutch_kinds();
 std::vector<Kind> coupling_kinds();
+std::vector<Kind> flexible_kinds();
+std::vector<Kind> belt_kinds();
 std::vector<Kind> gearbox_kinds();
 std::vector<Kind> planetary_kinds();
+std::vector<Kind> gear_mesh_kinds();
 std::vector<Kind> motor_kinds();
 std::vector<Kind> induction_kinds();
 std::vector<Kind> dc_kinds();
