@@ -6,21 +6,26 @@
 
 #include "bench/benches.h"
 #include "bench/machines.h"
+#include "studies/effect_units.h"
 
 namespace kurbel::bench {
 namespace {
 
 std::string folder() { return std::string(KURBEL_SOURCE_DIR) + "/scenes/"; }
 
-// One scene with sets of effects, against none. Further effects get a line here as they come.
+// The press that has parameters for every effect: each alone, against none.
 void switched(BenchBook& book) {
-  Table table{.title = "Effects of the press, tolerance 1e-7, bare runs",
+  Table table{.title = "The press with each effect alone, tolerance 1e-7, bare runs",
               .columns = {"effects", "coordinates", "steps", "time [ms]", "of the rigid one"},
               .rows = {}};
-  const Scene press = read_scene(folder() + "crank_press.toml", all_kinds());
+  const Scene press =
+      read_scene(std::string(KURBEL_SOURCE_DIR) + "/bench/scenes/press_with_everything.toml", all_kinds());
+  std::vector<std::string> sets = {"none"};
+  for (const EffectUnit& unit : effect_units(press))
+    if (unit.name != "gravity" && unit.name != "variable_inertia") sets.push_back(unit.name);
+  sets.insert(sets.end(), {"elasticity", "elasticity+backlash", "elasticity+relaxation"});
   double rigid = 0;
-  for (const char* effects : {"none", "elasticity:motor_coupling", "elasticity:main_coupling", "elasticity",
-                              "joint_friction", "elasticity+joint_friction"}) {
+  for (const std::string& effects : sets) {
     try {
       const auto model = compile(press, parse_effects(effects, press));
       const TimedRun t = timed(9, [&] { return bare_run(model, 1e-7); });

@@ -40,6 +40,28 @@ const ElementCase cases[] = {
      "kind = \"induction motor\", rated_power = \"1 kW\", rated_speed = \"1440 rpm\", synchronous_speed = \"1500 "
      "rpm\", "
      "breakdown_ratio = 2.5, inertia = \"0 kg*m2\""},
+    {"dc shunt motor with its circuit",
+     "kind = \"dc shunt motor\", voltage = \"220 V\", resistance = \"0.5 Ohm\", constant = \"1.4 N*m/A\", inductance = "
+     "\"10 "
+     "mH\", inertia = \"0 kg*m2\""},
+    {"induction motor, two axes",
+     "kind = \"induction motor\", rated_power = \"1 kW\", rated_speed = \"1440 rpm\", synchronous_speed = \"1500 "
+     "rpm\", "
+     "breakdown_ratio = 2.5, frequency = \"50 Hz\", inertia = \"0 kg*m2\""},
+    {"bearing, exact",
+     "kind = \"bearing\", torque = \"2 N*m\", static_torque = \"3 N*m\", stribeck_speed = \"1 rad/s\""},
+    {"bearing, LuGre",
+     "kind = \"bearing\", torque = \"2 N*m\", static_torque = \"3 N*m\", stribeck_speed = \"1 rad/s\", model = "
+     "\"LuGre\", "
+     "bristle_stiffness = \"1 kN*m/rad\""},
+    {"rubber coupling, one branch",
+     "kind = \"rubber coupling\", stiffness = \"4 kN*m/rad\", damping = \"2 N*m*s/rad\", branches = [{ stiffness = \"1 "
+     "kN*m/rad\", relaxation_time = \"5 ms\" }]",
+     true},
+    {"gear stage with losses",
+     "kind = \"gearbox\", efficiency = 0.97, stages = [{ teeth = [20, 30], inertia = [\"0.01 kg*m2\", \"0.02 kg*m2\"] "
+     "}]",
+     true},
     {"torque source, sine", "kind = \"torque source\", amplitude = \"3 N*m\", frequency = \"5 Hz\""},
 };
 
