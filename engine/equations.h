@@ -176,6 +176,8 @@ class Equations final : public OdeSystem {
   void switch_elements();
 
   std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
+  void rest_twists(const StartSettings& start, std::vector<double>& twists, std::vector<double>& angles) const;
+  std::vector<double> unloaded_speeds(const std::vector<double>& angles) const;
   void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;

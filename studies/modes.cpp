@@ -30,6 +30,10 @@ class Study {
       found_.notes.push_back(
           "friction in the mechanisms' joints is no linear effect: left out of modes and forced "
           "response, counted in the simulated torque");
+    if (effects.relaxation || effects.mesh_variation)
+      found_.notes.push_back(
+          "rubber counts with its static stiffness and equivalent damping, gear meshes with their mean stiffness; "
+          "relaxation and mesh variation are in the simulated torque alone");
     found_.title = scene.title;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
@@ -38,6 +42,7 @@ class Study {
 
   static Effects linear(Effects effects) {
     effects.joint_friction = false;
+    effects.relaxation = effects.mesh_variation = false;  // static stiffness with its damping, mean of the mesh
     return effects;
   }
 
