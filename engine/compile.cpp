@@ -171,7 +171,7 @@ class Compiler {
 
   void switch_effects() {
     for (Network::Joint& joint : net().joints) {
-      if (joint.element && joint.element->slips()) {
+      if (joint.element && (joint.element->slips() || joint.element->springless())) {
         joint.elastic = !model_.effects.locked;
         if (!joint.elastic)
           model_.merged.push_back(
@@ -283,7 +283,8 @@ class Compiler {
       if (!joint.elastic) continue;
       model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)],
                                 model_.shaft_of_node[at(joint.b)], model_.gain_of_node[at(joint.a)],
-                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips()});
+                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips(),
+                                joint.element->springless()});
     }
   }
 
@@ -365,7 +366,7 @@ class Compiler {
     for (ElasticJoint& e : model_.elastic) {
       const Network::Joint& joint = net().joints[at(e.joint)];
       const double stiffness = joint.element->stiffness();
-      if (e.slips) e.twist_scale = 1;
+      if (e.slips || e.springless) e.twist_scale = 1;
       if (stiffness > 0) e.twist_scale = torque / model_.scale_ratio[at(joint.a)] / stiffness;
     }
   }
@@ -568,6 +569,8 @@ std::string Model::explain() const {
     if (elastic[i].slips) {
       text += fmt::format("  slip of {}: carries {} before it slips\n", joint.component,
                           with_unit(joint.element->capacity(), "N*m"));
+    } else if (elastic[i].springless) {
+      text += fmt::format("  slip of {}\n", joint.component);
     } else {
       text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
                           with_unit(joint.element->stiffness(), "N*m/rad"),
