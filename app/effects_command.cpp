@@ -13,7 +13,9 @@ int list_effects() {
   fmt::print("elasticity — couplings and shafts twist; needs: a stiffness; unless mentioned: off\n");
   for (const EffectFlag& effect : effect_flags())
     fmt::print("{} — {}; needs: {}; unless mentioned: {}\n", effect.name, effect.adds, effect.parameters,
-               effect.where_given ? "on where the scene gives that" : "off");
+               effect.unsaid == EffectFlag::Unsaid::off           ? "off"
+               : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
+                                                                  : "on, even in the rigid machine");
   return exit_done;
 }
 

@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
   add_steady_command(app, code);
   add_effects_command(app, code);
   add_advise_command(app, code);
+  add_accuracy_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();
   try {

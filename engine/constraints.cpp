@@ -40,9 +40,12 @@ void Constraints::factorise(std::span<const double> inertia, bool symmetric) {
   // Rows and columns of like size, so that a rank can be told.
   root_capacity_.resize(ix(m));
   for (std::size_t k = 0; k < m; ++k) root_capacity_[ix(k)] = std::sqrt(rows_[k].capacity);
-  Eigen::VectorXd size(ix(m));
-  for (std::size_t k = 0; k < m; ++k) size[ix(k)] = std::sqrt(std::max(std::abs(schur_(ix(k), ix(k))), 1e-300));
-  const Eigen::MatrixXd scaled = size.cwiseInverse().asDiagonal() * schur_ * size.cwiseInverse().asDiagonal();
+  const auto inverse = [](const Eigen::VectorXd& norm) {
+    return Eigen::VectorXd(norm.unaryExpr([](double x) { return x > 0 ? 1 / x : 1.0; }));
+  };
+  const Eigen::VectorXd of_row = inverse(schur_.rowwise().norm());
+  const Eigen::MatrixXd rows_scaled = of_row.asDiagonal() * schur_;
+  const Eigen::MatrixXd scaled = rows_scaled * inverse(rows_scaled.colwise().norm().transpose()).asDiagonal();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rank;
   rank.setThreshold(dependent);
   rank.compute(scaled);
@@ -52,8 +55,8 @@ void Constraints::factorise(std::span<const double> inertia, bool symmetric) {
     return;
   }
   least_.setThreshold(dependent);
-  least_.compute(size.cwiseInverse().asDiagonal() * schur_ * root_capacity_.asDiagonal());
-  right_ = size.cwiseInverse();
+  least_.compute(rows_scaled * root_capacity_.asDiagonal());
+  right_ = of_row;
 }
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& right) const {

@@ -17,9 +17,10 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double nothing = 1e-12;        // of a scale: a torque or speed within round-off
-constexpr double creep = 1e-4;           // of the speed scale: where a regularised contact reaches three quarters
-constexpr std::size_t few_contacts = 7;  // so many are enumerated
+constexpr double nothing = 1e-12;  // of a scale: a torque or speed within round-off
+constexpr double creep = 1e-4;     // of the speed scale: where a regularised contact reaches three quarters
+constexpr double least_capacity = 1e-6, most_capacity = 1e3;  // of the torque scale, for sharing
+constexpr std::size_t few_contacts = 7;                       // so many are enumerated
 constexpr int most_changes = 200;
 
 double sum_over(const std::vector<ShaftGain>& row, const double* per_shaft) {
@@ -147,7 +148,7 @@ void Equations::tie_stuck_contacts() {
   std::vector<ConstraintRow> rows;
   for (std::size_t r = 0; r < m.relations.size(); ++r) {
     const ShaftRelation& relation = m.relations[r];
-    ConstraintRow row{relation.motion, minus(relation.motion), 1e6 * m.torque_scale};
+    ConstraintRow row{relation.motion, minus(relation.motion), most_capacity * m.torque_scale};
     if (!relation.loss.empty() && loss_direction_[r] != 0) {
       const GearLoss::Line& line = relation.in_motion.line(loss_direction_[r], loss_sign_[r]);
       for (const ShaftGain& g : relation.loss) row.torque.push_back({g.shaft, line.slope * g.gain});
@@ -162,8 +163,9 @@ void Equations::tie_stuck_contacts() {
     const Contact& contact = contacts_[c];
     if (sense(c) != 0 || contact.regularised || is_prescribed(contact)) continue;
     const Hold hold = limits(c);
-    const double capacity = std::min({hold.high, -hold.low, 1e6 * contact.torque_scale});
-    rows.push_back({contact.motion, contact.torque, std::max(capacity, nothing * contact.torque_scale)});
+    const double capacity = std::clamp(std::min(hold.high, -hold.low), least_capacity * contact.torque_scale,
+                                       most_capacity * contact.torque_scale);
+    rows.push_back({contact.motion, contact.torque, capacity});
     row_contact_.push_back(c);
     tied_ = tied_ || contact.kind != Contact::Kind::frame;
   }

@@ -142,7 +142,16 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
               elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
           return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
         };
+      transmitted.slope = transmitted.rate;
       spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+      // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
+      const ConnectionMaker& element = *model.network.joints[at(j)].element;
+      if (known && element.stiffness() > 0 && !element.has_modes())
+        spring.slope = [shared, e, j](const Snapshot& s) {
+          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);
+        };
+      else
+        transmitted.slope = {};
       // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
       if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
     }
@@ -166,10 +175,20 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
                   .which = ExtremeOf::Which::maximum,
                   .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
+  speed.slope = speed.rate;
   wanted.push_back(speed);
   speed.name = "min_speed." + link;
   speed.which = ExtremeOf::Which::minimum;
   wanted.push_back(std::move(speed));
+  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
+    const auto& [component, state] = model.own_states[k];
+    if (state.peak)
+      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
+                        .unit = state.unit,
+                        .scale = state.scale,
+                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
+                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
+  }
   for (const Channel& channel : model.pool_channels) {
     const std::string quantity = channel.name.substr(0, channel.name.find('.'));
     if (quantity == "position") continue;
@@ -200,9 +219,11 @@ void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) co
   out.t = t;
   out.value.resize(wanted_.size());
   out.rate.resize(wanted_.size());
+  out.slope.resize(wanted_.size());
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     out.value[i] = wanted_[i].value(snapshot);
     out.rate[i] = wanted_[i].rate ? wanted_[i].rate(snapshot) : 0;
+    out.slope[i] = wanted_[i].slope ? wanted_[i].slope(snapshot) : HUGE_VAL;
   }
 }
 
@@ -213,14 +234,28 @@ void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equa
 
 void ExtremeRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
-  sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
-  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  if (view.begins_anew() || last_.t != t0)
+    sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
+  else
+    std::swap(first_, last_);
   sample(view.snapshot(t1), t1, last_);
+  bool any = false;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
-    search(view, i);
+    any = any || may_be_beaten(i);
   }
+  if (!any) return;
+  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i)
+    if (may_be_beaten(i)) search(view, i);
+}
+
+// A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far
+// lies half a turn of a sine between two of its zeros.
+bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
+  const double reach = (last_.t - first_.t) * (std::abs(first_.slope[i]) + std::abs(last_.slope[i]));
+  return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 
 // Looks for an extreme within the step, but only where it could beat what is known already.

@@ -42,10 +42,11 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
   if (!model->own_states.empty())
-    throw std::invalid_argument(
-        fmt::format("\"{}\" has a state of its own ({}), so that angle and speed do not describe the machine; simulate "
-                    "with kurbel run",
-                    model->own_states.front().component, model->own_states.front().state.name));
+    throw std::invalid_argument(fmt::format(
+        "the {} of \"{}\" is a state besides angle and speed, which this question leaves out; replace \"{}\" "
+        "by a motor or a load, or switch its effect off",
+        model->own_states.front().state.name, model->own_states.front().component,
+        model->own_states.front().component));
   return model;
 }
 

@@ -25,17 +25,6 @@ double cpu_now() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Method method_named(const std::string& name) {
-  if (name == "auto" || name == "dop853") return Method::dormand_prince_853;
-  if (name == "dopri5") return Method::dormand_prince_54;
-  if (name == "esdirk") return Method::esdirk_43;
-  if (name == "bdf") return Method::bdf;
-  if (name == "adams") return Method::adams;
-  if (name == "work") return Method::work_equation;
-  throw std::invalid_argument(fmt::format(
-      "method \"{}\" integrates no reduced model; allowed: auto, work, dopri5, dop853, esdirk, bdf, adams", name));
-}
-
 // Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
 // run they count as zero.
 class FlushDenormals {
@@ -109,15 +98,29 @@ class Loop {
       if (method_ == Method::work_equation)
         if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty())
           throw std::invalid_argument("method \"work\": " + why);
+      if (method_ == Method::fehlberg_87)
+        if (const std::string why = rates_of_time_alone(); !why.empty())
+          throw std::invalid_argument("method \"fehlberg8\": " + why);
     } else if (work_equation_pays()) {
       method_ = Method::work_equation;
       reason = "rigid, torques of angle and speed: load edges lie at known angles";
-    } else if (equations_.model().elastic.empty()) {
+    } else if (equations_.model().elastic.empty() && equations_.model().own_states.empty()) {
       reason = "rigid: nothing is stiff, and a high order takes the longest steps";
     } else {
       reason = "explicit while its steps are held by accuracy, not by stability";
     }
     out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
+  std::string rates_of_time_alone() const {
+    const Model& m = equations_.model();
+    const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
+    if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
+    for (const Network::ShaftElement& e : m.network.elements)
+      if (e.element->uses_time())
+        return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
+    return {};
   }
 
   // Where inertia or torques vary with the angle, over more than a few turns.
@@ -154,6 +157,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
+    view_.set_anew(true);
     find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
@@ -165,8 +169,10 @@ class Loop {
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
-    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
+      view_.set_anew(false);
+    }
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
     if (t >= edge_) {
@@ -366,7 +372,9 @@ class Loop {
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
   void watch_stiffness() {
-    if (options_.method != "auto" || equations_.model().elastic.empty() || method_ == Method::work_equation) return;
+    const Model& m = equations_.model();
+    if (options_.method != "auto" || (m.elastic.empty() && m.own_states.empty()) || method_ == Method::work_equation)
+      return;
     const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
     const double t = stepper_->t();
     if (method_ == Method::dormand_prince_853) {

@@ -418,11 +418,14 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
                        model->network.relations.front().component);
   if (model->free_shafts != 1)
     return "a prescribed speed leaves no coordinate free; replace it by a motor or choose another method";
-  if (!model->scene.sequence.steps.empty())
-    return "an operating sequence switches at times that nobody knows over the angle; choose another method";
   if (!model->own_states.empty())
-    return fmt::format("\"{}\" has a state of its own ({}); choose another method", model->own_states.front().component,
-                       model->own_states.front().state.name);
+    return fmt::format(
+        "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another "
+        "method",
+        model->own_states.front().state.name, model->own_states.front().component);
+  if (!model->scene.sequence.steps.empty())
+    return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
+           "another method";
   const RigidMachine machine(model);
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop)

@@ -287,7 +287,7 @@ class Adviser {
         Scene scene = scene_;
         const std::string changed = scale(scene, 1 + step);
         if (changed.empty()) break;
-        HeldOut h{.what = fmt::format("{} {:+.0f} %", name, 100 * step)};
+        HeldOut h{.what = fmt::format("{} {:+.0f} % ({})", name, 100 * step, changed)};
         say(h.what, progress());
         try {
           const Result full =

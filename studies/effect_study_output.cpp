@@ -120,7 +120,7 @@ std::string json_of(const EffectStudy& s) {
 // Change against cost: what lies on the left above costs little and matters.
 Plot plane(const EffectStudy& s) {
   Plot plot{.title = "What each effect changes, and what it costs",
-            .x = {"processor time of the full model over that without the effect", "×"},
+            .x = {"time with the effect over time without", "×"},
             .y = {"greatest change of a figure without it", "%", true},
             .series = {}};
   std::size_t k = 0;

@@ -50,13 +50,10 @@ std::vector<EffectUnit> effect_units(const Scene& scene) {
 Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const EffectSet& on) {
   Effects effects;
   for (std::size_t k = 0; k < units.size(); ++k) {
-    if (!on[k]) continue;
-    if (units[k].name.starts_with(elasticity)) {
+    if (on[k] && units[k].name.starts_with(elasticity))
       effects.elastic.push_back(units[k].name.substr(elasticity.size()));
-      continue;
-    }
     for (const EffectFlag& effect : effect_flags())
-      if (units[k].name == effect.name) effects.*(effect.flag) = true;
+      if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
   }
   return effects;
 }

@@ -173,6 +173,22 @@ const std::vector<Kind>& all_kinds() {
   return kinds;
 }
 
+namespace {
+
+const char* unsaid_text(const EffectFlag& effect) {
+  switch (effect.unsaid) {
+    case EffectFlag::Unsaid::off:
+      return "off";
+    case EffectFlag::Unsaid::where_given:
+      return "on where the scene gives that";
+    case EffectFlag::Unsaid::part_of_machine:
+      break;
+  }
+  return "on, even in the rigid machine; off by name alone";
+}
+
+}  // namespace
+
 std::string keys_in_markdown() {
   std::string text =
       "# Keys of a scene\n\n"
@@ -195,8 +211,7 @@ std::string keys_in_markdown() {
       "| effect | what it adds | needs | unless mentioned |\n|---|---|---|---|\n"
       "| `elasticity` | couplings and shafts twist | a stiffness | off |\n";
   for (const EffectFlag& effect : effect_flags())
-    text += fmt::format("| `{}` | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters,
-                        effect.where_given ? "on where the scene gives that" : "off");
+    text += fmt::format("| `{}` | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters, unsaid_text(effect));
   text +=
       "\n## Steps of `[sequence]`\n\n"
       "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "

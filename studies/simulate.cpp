@@ -178,6 +178,7 @@ class Simulation {
     if (options.accuracy) settings_.accuracy = *options.accuracy;
     if (options.until) settings_.until = *options.until;
     if (options.method) settings_.method = *options.method;
+    if (options.budget) settings_.budget = std::min(settings_.budget, *options.budget);
     result_.label = label;
   }
 

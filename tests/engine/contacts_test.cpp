@@ -204,6 +204,28 @@ TEST(Brakes, ShareInProportionToCapacity) {
   EXPECT_EQ(r.events[1].what, "is held in proportion to capacity: brake1 75 %, brake2 25 %");
 }
 
+// A gear with losses and a dry load, both at rest on one coordinate (rows that say the same): pushed beyond what both
+// hold they move with α = (i η M − F)/(J_b + η i² J_a), else they stay.
+TEST(Contacts, AGearWithLossesAndADryLoadBreakAwayTogether) {
+  const auto end = [](double torque) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["a", "gear", "b"]
+      a = {{ kind = "inertia", inertia = "0.1 kg*m2" }}
+      drive = {{ kind = "torque source", on = "a", torque = "{} N*m" }}
+      gear = {{ kind = "gearbox", efficiency = 0.95, stages = [{{ teeth = [19, 95], inertia = ["0.004 kg*m2", "0.35 kg*m2"] }}] }}
+      b = {{ kind = "inertia", inertia = "4 kg*m2" }}
+      dry = {{ kind = "load", on = "b", torque = "20 N*m" }}
+      run = {{ until = "1 s", accuracy = 1e-9 }}
+    )",
+                                           torque));
+    return figure(r, "final_speed.b");
+  };
+  EXPECT_NEAR(end(50), (5 * 0.95 * 50 - 20) / (4.35 + 0.95 * 25 * 0.104), 1e-9);
+  EXPECT_NEAR(end(4.22), (5 * 0.95 * 4.22 - 20) / (4.35 + 0.95 * 25 * 0.104), 1e-9);  // 20/(i η) = 4.2105
+  EXPECT_EQ(end(4.2), 0.0);
+  EXPECT_EQ(end(3), 0.0);
+}
+
 // Four contacts stop in one instant, by symmetry; a set of modes is found at once and the run goes on.
 TEST(Contacts, StopsAtOneInstantAreOneEvent) {
   const Result r = test::run(R"(

@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OfExample, testing::ValuesIn(example_scenes()),
 TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
   const Scene scene = example(GetParam());
   for (const EffectFlag& flag : effect_flags()) {
-    if (!flag.where_given || !has_parameters(scene, flag)) continue;
+    if (flag.unsaid != EffectFlag::Unsaid::where_given || !has_parameters(scene, flag)) continue;
     Scene never = scene;
     for (Section& section : never.components) erase_keys(section, flag.name);
     if (has_parameters(never, flag)) continue;  // a component that is nothing but the effect
