@@ -215,7 +215,7 @@ TEST(GearLosses, OffLeaveNoTrace) {
 TEST(GearLosses, JacobianEqualsDifferencesInEveryMode) {
   const std::string scene = R"(
 line = ["motor", "gear", "coupling", "pump"]
-motor = { kind = "load", damping = "0.3 N*m*s/rad", quadratic = "0.02 N*m*s2/rad2", inertia = "0.02 kg*m2" }
+motor = { kind = "load", damping = "0.3 N*m*s/rad", inertia = "0.02 kg*m2" }
 drive = { kind = "torque source", torque = "FIRST N*m", on = "motor" }
 gear = { kind = "gearbox", stages = [{ teeth = [10, 25], inertia = ["0.001 kg*m2", "0.01 kg*m2"] }], efficiency_forwards = 0.8, efficiency_backwards = BACK, bearing_torque = "0.1 N*m" }
 coupling = { kind = "coupling", stiffness = "500 N*m/rad", damping = "2 N*m*s/rad" }
@@ -244,7 +244,7 @@ TEST(GearLosses, EfficienciesOfStagesMultiply) {
   const Result r = run(R"(
 line = ["first", "gear", "second"]
 first = { kind = "torque source", torque = "8 N*m", inertia = "0.02 kg*m2" }
-gear = { kind = "gearbox", stages = [{ teeth = [10, 20], efficiency = 0.9, inertia = ["0 kg*m2", "0.001 kg*m2"] }, { teeth = [10, 30], efficiency = 0.8 }] }
+gear = { kind = "gearbox", stages = [{ teeth = [10, 20], efficiency = 0.9, inertia = ["0 kg*m2", "1e-5 kg*m2"] }, { teeth = [10, 30], efficiency = 0.8 }] }
 second = { kind = "load", torque = "10 N*m", inertia = "20000 kg*m2" }
 run = { start = { speed = "60 rad/s" }, until = "0.01 s", samples = 3 }
 )",
