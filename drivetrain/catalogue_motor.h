@@ -10,6 +10,7 @@
 //     +------------------O---- ω      O  synchronous   (ω_s, 0)
 //
 // Between the points a monotone cubic (Fritsch & Carlson 1980): no extreme but at P and B, the slope is continuous.
+// Command c of an operating sequence: M = sgn c · c² M(ω sgn c); 0 is off.
 // Generating, ω > ω_s: odd about O, M(2 ω_s − ω) = −M(ω). Plugging, ω < 0, and beyond 2 ω_s: M_st is held.
 #pragma once
 
@@ -55,6 +56,8 @@ inline Curve CataloguePoints::curve() const {
 
 struct CatalogueMotor {
   static constexpr Account account = Account::driving;
+  static constexpr bool commanded = true;
+  static constexpr bool reversible = true;
   static constexpr int guards = 2;
   static constexpr int pieces = 16;  // numbers that a mode needs for them, at most
   Curve curve;                       // [rad/s] → [N·m]
@@ -73,15 +76,22 @@ struct CatalogueMotor {
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    return torque_in(x.mode, x.rate);
+    return sense(x) * x.command * x.command * torque_in(x.mode, sense(x) * x.rate);
   }
+  bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque, synchronous_speed}; }
-  void guard(const ShaftState<double>& x, double* g) const { guard_piece(x.mode, x.rate, g); }
-  int first_mode(const ShaftState<double>& x) const { return piece_at(x.rate); }
+  void guard(const ShaftState<double>& x, double* g) const { guard_piece(x.mode, sense(x) * x.rate, g); }
+  int first_mode(const ShaftState<double>& x) const { return piece_at(sense(x) * x.rate); }
   int next_mode(const ShaftState<double>& x, int which) const { return next_piece(x.mode, which); }
   std::string mode_name(int) const { return {}; }  // a table's points are no events worth telling
+
+ private:
+  template <class T>
+  static double sense(const ShaftState<T>& x) {
+    return x.command < 0 ? -1 : 1;
+  }
 };
 
 }  // namespace kurbel

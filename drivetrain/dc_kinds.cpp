@@ -1,10 +1,11 @@
-// dc_kinds.cpp — DC motors by their static characteristics.
+// dc_kinds.cpp — DC motors by their static characteristics, or with their circuits.
 #include "drivetrain/kinds.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
+#include "drivetrain/dc_circuits.h"
 #include "drivetrain/dc_series_motor.h"
 #include "drivetrain/motors.h"
 #include "drivetrain/shared_keys.h"
@@ -12,6 +13,15 @@
 
 namespace kurbel {
 namespace {
+
+std::optional<double> initial_current_of(const Section& s, Messages& messages) {
+  if (!s.given("initial_current")) return {};
+  if (!s.given("inductance"))
+    messages.add(s.where("initial_current"), fmt::format("{} \"{}\": \"initial_current\" belongs to \"inductance\", "
+                                                         "which is not given; drop it",
+                                                         s.kind->name, s.name));
+  return s.number("initial_current");
+}
 
 void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
   const int node = single_shaft(s, net);
@@ -39,7 +49,26 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
                                          s.name));
     return;
   }
-  net.put(node, s.name, DcShuntMotor{stall, no_load, s.number_or("rated_torque", 0)}, window_of(s, messages));
+  const auto initial = initial_current_of(s, messages);
+  const double rated = s.number_or("rated_torque", 0);
+  const Window window = window_of(s, messages);
+  if (!electrical) {
+    for (const char* key : {"inductance", "braking_resistance"})
+      if (s.given(key))
+        messages.add(s.where(key), fmt::format("dc shunt motor \"{}\": \"{}\" needs the circuit; give voltage, "
+                                               "resistance and constant in place of stall_torque and no_load_speed",
+                                               s.name, key));
+    net.put(node, s.name, DcShuntMotor{stall, no_load, rated}, window);
+    return;
+  }
+  const BrakedShuntMotor line{
+      s.number("voltage"), s.number("resistance"), s.number("constant"), rated, {s.number_or("braking_resistance", 0)}};
+  if (s.given("inductance"))
+    net.put(node, s.name, DcShuntCircuit{line, s.number("inductance"), initial}, window);
+  else if (line.brake.resistance > 0)
+    net.put(node, s.name, line, window);
+  else
+    net.put(node, s.name, DcShuntMotor{stall, no_load, rated}, window);
 }
 
 void build_dc_series(const Section& s, Network& net, Messages& messages) {
@@ -51,7 +80,19 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
         s.where("max_speed"),
         fmt::format("dc series motor \"{}\": max_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm", s.name,
                     motor.max_speed * 30 / std::numbers::pi, s.number("rated_speed") * 30 / std::numbers::pi));
-  net.put(node, s.name, motor, window_of(s, messages));
+  const auto initial = initial_current_of(s, messages);
+  const Window window = window_of(s, messages);
+  if (s.given("inductance"))
+    net.put(node, s.name, DcSeriesCircuit{motor, s.number("inductance"), initial}, window);
+  else
+    net.put(node, s.name, motor, window);
+}
+
+std::vector<Key> circuit_keys(const char* of) {
+  return {{.name = "inductance", .unit = "H", .domain = positive, .doc = of, .effect = "transients"},
+          {.name = "initial_current",
+           .unit = "A",
+           .doc = "at the start; default: 0 at rest, else that of the static line"}};
 }
 
 }  // namespace
@@ -59,26 +100,37 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
 std::vector<Kind> dc_kinds() {
   return {
       {.name = "dc shunt motor",
-       .doc = "straight characteristic M = M_stall (1 − ω/ω₀)",
+       .doc = "straight characteristic M = M_stall (1 − ω/ω₀); with its inductance the armature current is a state",
        .keys = joined(
-           {{.name = "stall_torque", .unit = "N*m", .domain = positive, .doc = "torque at standstill M_stall"},
-            {.name = "no_load_speed", .unit = "rad/s", .domain = positive, .doc = "speed without torque ω₀"},
-            {.name = "voltage",
-             .unit = "V",
-             .domain = positive,
-             .doc = "armature voltage U, with resistance and constant in place of the two above"},
-            {.name = "resistance", .unit = "Ohm", .domain = positive, .doc = "armature resistance R: M_stall = k U/R"},
-            {.name = "constant", .unit = "N*m/A", .domain = positive, .doc = "motor constant k: ω₀ = U/k"},
-            {.name = "rated_torque",
-             .unit = "N*m",
-             .domain = positive,
-             .doc = "scale of errors; default: stall torque"},
-            inertia_key("", "rotor inertia")},
+           joined(
+               {{.name = "stall_torque", .unit = "N*m", .domain = positive, .doc = "torque at standstill M_stall"},
+                {.name = "no_load_speed", .unit = "rad/s", .domain = positive, .doc = "speed without torque ω₀"},
+                {.name = "voltage",
+                 .unit = "V",
+                 .domain = positive,
+                 .doc = "armature voltage U, with resistance and constant in place of the two above"},
+                {.name = "resistance",
+                 .unit = "Ohm",
+                 .domain = positive,
+                 .doc = "armature resistance R: M_stall = k U/R"},
+                {.name = "constant", .unit = "N*m/A", .domain = positive, .doc = "motor constant k: ω₀ = U/k"},
+                {.name = "rated_torque",
+                 .unit = "N*m",
+                 .domain = positive,
+                 .doc = "scale of errors; default: stall torque"},
+                {.name = "braking_resistance",
+                 .unit = "Ohm",
+                 .domain = positive,
+                 .doc = "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
+                        "default: 0 opens the circuit"},
+                inertia_key("", "rotor inertia")},
+               circuit_keys("L of the armature circuit")),
            window_keys()),
        .build = build_dc_shunt},
       {.name = "dc series motor",
-       .doc = "M = κ U²/(R + κ ω)², static; runs away without load, which ends the run",
-       .keys =
+       .doc = "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away without "
+              "load, which ends the run",
+       .keys = joined(
            joined({{.name = "voltage", .unit = "V", .domain = positive, .doc = "supply voltage U", .required = true},
                    {.name = "resistance",
                     .unit = "Ohm",
@@ -99,7 +151,8 @@ std::vector<Kind> dc_kinds() {
                     .domain = positive,
                     .doc = "beyond it the motor ran away; default: 5 rated_speed"},
                    inertia_key("", "rotor inertia")},
-                  window_keys()),
+                  circuit_keys("L of armature and field together")),
+           window_keys()),
        .build = build_dc_series},
   };
 }

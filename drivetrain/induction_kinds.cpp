@@ -1,13 +1,16 @@
-// induction_kinds.cpp — induction motors from catalogue data, and how they are started.
+// induction_kinds.cpp — induction motors from catalogue data or by their circuit, and how they are started.
 #include "drivetrain/kinds.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
 #include "drivetrain/catalogue_motor.h"
+#include "drivetrain/induction_circuit.h"
 #include "drivetrain/motors.h"
 #include "drivetrain/shared_keys.h"
 #include "drivetrain/started_motor.h"
@@ -136,10 +139,72 @@ void put_started(const Section& s, const Motor& motor, Network& net, int node, W
   }
 }
 
+constexpr const char* catalogue_keys[] = {"rated_power", "rated_speed", "synchronous_speed", "breakdown_ratio"};
+constexpr const char* circuit_keys[] = {
+    "voltage",          "pole_pairs",      "stator_resistance",    "rotor_resistance",
+    "stator_reactance", "rotor_reactance", "magnetising_reactance"};
+
+// The motor by its equivalent circuit.
+void build_circuit(const Section& s, Network& net, int node, Window window, Faults& faults) {
+  for (const char* key : circuit_keys)
+    if (!s.given(key)) faults.add(nullptr, fmt::format("\"{}\" is missing beside the rest of its circuit", key));
+  if (!s.given("frequency")) faults.add(nullptr, "\"frequency\" is missing beside the rest of its circuit");
+  for (const char* key : {"rated_power", "rated_speed", "synchronous_speed", "breakdown_ratio", "resistance_ratio",
+                          "starting_ratio", "magnetising_ratio"})
+    if (s.given(key))
+      faults.add(key, fmt::format("\"{}\" is catalogue data, but its circuit is given too; keep one", key));
+  if (s.text("starting") != "direct")
+    faults.add("starting", fmt::format("starting = \"{}\" needs catalogue data; with the circuit let an operating "
+                                       "sequence set the voltage",
+                                       s.text("starting")));
+  check_start(s, faults);
+  if (faults.any) return;
+  const EquivalentCircuit circuit{.voltage = s.number("voltage") * s.number("voltage_factor"),
+                                  .frequency = s.number("frequency"),
+                                  .pole_pairs = static_cast<int>(s.number("pole_pairs")),
+                                  .stator_resistance = s.number("stator_resistance"),
+                                  .rotor_resistance = s.number("rotor_resistance"),
+                                  .stator_leakage = s.number("stator_reactance"),
+                                  .rotor_leakage = s.number("rotor_reactance"),
+                                  .magnetising = s.number("magnetising_reactance")};
+  net.put(node, s.name, TwoAxisMotor{circuit, circuit.characteristic()}, window);
+}
+
+// The circuit that has the catalogue's characteristic.
+void put_two_axis(const Section& s, const InductionMotor& kloss, Network& net, int node, Window window,
+                  Faults& faults) {
+  if (s.given("starting_ratio"))
+    faults.add("frequency",
+               "\"frequency\" asks for the two-axis model, whose characteristic is Kloss'; drop it, or "
+               "\"starting_ratio\"");
+  if (s.text("starting") != "direct")
+    faults.add("frequency", fmt::format("\"frequency\" asks for the two-axis model, which starting = \"{}\" does not "
+                                        "know; drop one of them",
+                                        s.text("starting")));
+  const double pairs = 2 * std::numbers::pi * s.number("frequency") / kloss.synchronous_speed;
+  if (std::lround(pairs) < 1 || std::abs(pairs - static_cast<double>(std::lround(pairs))) > 1e-6 * pairs)
+    faults.add("frequency", fmt::format("frequency = {:g} Hz at {:.6g} rpm makes {:.6g} pole pairs; must be a whole "
+                                        "number: frequency = pole pairs · synchronous_speed",
+                                        s.number("frequency"), in_rpm(kloss.synchronous_speed), pairs));
+  if (faults.any) return;
+  const auto circuit = EquivalentCircuit::of(kloss, s.number("frequency"), s.number("magnetising_ratio"));
+  net.put(node, s.name, TwoAxisMotor{circuit, kloss}, window);
+}
+
 void build_induction(const Section& s, Network& net, Messages& messages) {
   const int node = single_shaft(s, net);
-  const double rated = s.number("rated_speed"), synchronous = s.number("synchronous_speed");
   Faults faults{s, messages};
+  const Window window = window_of(s, messages);
+  const auto given = [&](const char* key) { return s.given(key); };
+  if (std::any_of(std::begin(circuit_keys), std::end(circuit_keys), given))
+    return build_circuit(s, net, node, window, faults);
+  for (const char* key : catalogue_keys)
+    if (!s.given(key))
+      faults.add(nullptr, fmt::format("\"{}\" is missing; give rated_power, rated_speed, synchronous_speed and "
+                                      "breakdown_ratio from the catalogue, or the motor's circuit",
+                                      key));
+  if (faults.any) return;
+  const double rated = s.number("rated_speed"), synchronous = s.number("synchronous_speed");
   if (synchronous <= rated) {
     faults.add("synchronous_speed",
                fmt::format("synchronous_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm",
@@ -152,11 +217,12 @@ void build_induction(const Section& s, Network& net, Messages& messages) {
   if (!kloss.has_no_pole())
     faults.add("resistance_ratio", fmt::format("no Kloss curve passes through these data; lower resistance_ratio = {}",
                                                s.number("resistance_ratio")));
-  const Window window = window_of(s, messages);
   const CatalogueMotor points = by_points(s, kloss, faults);
   check_start(s, faults);
   if (faults.any) return;
-  if (s.given("starting_ratio")) {
+  if (s.given("frequency")) {
+    put_two_axis(s, kloss, net, node, window, faults);
+  } else if (s.given("starting_ratio")) {
     put_started(s, points, net, node, window);
   } else {
     put_started(s, kloss, net, node, window);
@@ -165,13 +231,10 @@ void build_induction(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Key> induction_keys() {
   return {
-      {.name = "rated_power", .unit = "W", .domain = positive, .doc = "shaft power P_n", .required = true},
-      {.name = "rated_speed", .unit = "rad/s", .domain = positive, .doc = "speed ω_n at rated power", .required = true},
-      {.name = "synchronous_speed", .unit = "rad/s", .domain = positive, .doc = "ω_s, e.g. 1500 rpm", .required = true},
-      {.name = "breakdown_ratio",
-       .domain = {.low = 1, .low_open = true},
-       .doc = "breakdown over rated torque ν",
-       .required = true},
+      {.name = "rated_power", .unit = "W", .domain = positive, .doc = "shaft power P_n"},
+      {.name = "rated_speed", .unit = "rad/s", .domain = positive, .doc = "speed ω_n at rated power"},
+      {.name = "synchronous_speed", .unit = "rad/s", .domain = positive, .doc = "ω_s, e.g. 1500 rpm"},
+      {.name = "breakdown_ratio", .domain = {.low = 1, .low_open = true}, .doc = "breakdown over rated torque ν"},
       {.name = "resistance_ratio", .fallback = "0.0", .domain = not_negative, .doc = "a = R_s/R_r′ in Kloss' formula"},
       {.name = "voltage_factor",
        .fallback = "1.0",
@@ -187,6 +250,31 @@ std::vector<Key> induction_keys() {
        .domain = positive,
        .doc = "speed of the breakdown torque, with starting_ratio; default: that of Kloss"},
   };
+}
+
+std::vector<Key> two_axis_keys() {
+  const auto ohms = [](const char* name, const char* doc) {
+    return Key{.name = name, .unit = "Ohm", .domain = positive, .doc = doc};
+  };
+  return {{.name = "frequency",
+           .unit = "Hz",
+           .domain = positive,
+           .doc = "of the mains; with it the motor is its two-axis circuit, currents as states",
+           .effect = "transients"},
+          {.name = "magnetising_ratio",
+           .fallback = "30",
+           .domain = {.low = 3, .high = 1000},
+           .doc = "X_m over X_s = X_r of the circuit that stands for catalogue data"},
+          {.name = "voltage",
+           .unit = "V",
+           .domain = positive,
+           .doc = "line to line; with frequency and the following in place of catalogue data"},
+          {.name = "pole_pairs", .type = KeyType::integer, .domain = {.low = 1, .high = 100}, .doc = "p"},
+          {.name = "stator_resistance", .unit = "Ohm", .domain = not_negative, .doc = "R_s of one phase"},
+          ohms("rotor_resistance", "R_r, referred to the stator"),
+          ohms("stator_reactance", "leakage X_s at the frequency"),
+          ohms("rotor_reactance", "leakage X_r, referred to the stator"),
+          ohms("magnetising_reactance", "X_m")};
 }
 
 std::vector<Key> starting_keys() {
@@ -230,9 +318,10 @@ std::vector<Kind> induction_kinds() {
       {.name = "induction motor",
        .doc =
            "induction motor from catalogue data: after Kloss (THEORY 4.1), or through its starting, pull-up, breakdown "
-           "and rated points",
-       .keys =
-           joined(joined(joined(induction_keys(), starting_keys()), {inertia_key("", "rotor inertia")}), window_keys()),
+           "and rated points; with its frequency or its circuit also by the two-axis model",
+       .keys = joined(joined(joined(joined(induction_keys(), two_axis_keys()), starting_keys()),
+                             {inertia_key("", "rotor inertia")}),
+                      window_keys()),
        .build = build_induction},
   };
 }

@@ -11,6 +11,7 @@ std::vector<Kind> drivetrain_kinds();  // all of these:
 
 std::vector<Kind> inertia_kinds();
 std::vector<Kind> clutch_kinds();
+std::vector<Kind> bearing_kinds();
 std::vector<Kind> coupling_kinds();
 std::vector<Kind> gearbox_kinds();
 std::vector<Kind> motor_kinds();
@@ -18,6 +19,7 @@ std::vector<Kind> induction_kinds();
 std::vector<Kind> dc_kinds();
 std::vector<Kind> engine_kinds();
 std::vector<Kind> fluid_motor_kinds();
+std::vector<Kind> governor_kinds();
 std::vector<Kind> source_kinds();
 std::vector<Kind> load_kinds();
 

@@ -9,18 +9,22 @@
 
 namespace kurbel {
 
-// DC shunt (separately excited) motor, static line: M = M_stall (1 − ω/ω₀).
+// DC shunt (separately excited) motor, static line: M = M_stall (c − ω/ω₀), c the voltage over the rated one: 1 unless
+// the operating sequence says otherwise; −1 reversed (plugging); 0 off, the circuit is open.
 struct DcShuntMotor {
   static constexpr std::string_view kind = "dc shunt motor";
   static constexpr Account account = Account::driving;
+  static constexpr bool commanded = true;
+  static constexpr bool reversible = true;
   double stall_torque = 0;   // M_stall [N·m], > 0
   double no_load_speed = 0;  // ω₀ [rad/s], > 0
   double rated_torque = 0;   // for error scales; 0: the stall torque
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    return stall_torque * (1.0 - x.rate / no_load_speed);
+    return stall_torque * (x.command - x.rate / no_load_speed);
   }
+  bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque > 0 ? rated_torque : stall_torque, no_load_speed}; }
@@ -28,10 +32,13 @@ struct DcShuntMotor {
 
 // Induction motor after Kloss, written without dividing by the slip:
 //   M = 2 M_b (1 + a s_b) s s_b/(s² + s_b² + 2 a s_b² s),   s = (ω_s − ω)/ω_s              (THEORY 4.1)
-// M_b scales with the square of the voltage factor.
+// M_b scales with the square of the voltage factor, and with that of the command of an operating sequence; a negative
+// one turns the field round: M = sgn c · c² M(ω sgn c). 0 is off.
 struct InductionMotor {
   static constexpr std::string_view kind = "induction motor";
   static constexpr Account account = Account::driving;
+  static constexpr bool commanded = true;
+  static constexpr bool reversible = true;
   double breakdown_torque = 0;   // M_b [N·m], > 0
   double synchronous_speed = 0;  // ω_s [rad/s], > 0
   double breakdown_slip = 0;     // s_b [1], > 0
@@ -40,15 +47,17 @@ struct InductionMotor {
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    const T slip = (synchronous_speed - x.rate) / synchronous_speed;
-    const double sb = breakdown_slip, a = resistance_ratio;
-    return 2 * breakdown_torque * (1 + a * sb) * sb * slip / (slip * slip + sb * sb + 2 * a * sb * sb * slip);
+    const double sense = x.command < 0 ? -1 : 1;
+    return sense * x.command * x.command * torque_in(0, sense * x.rate);
   }
+  bool opens_at_zero() const { return true; }
   // One smooth piece, for starters.
   static constexpr int pieces = 1;
   template <class T>
   T torque_in(int, const T& speed) const {
-    return torque(ShaftState<T>{0, T(0.0), speed, 0, 1});
+    const T slip = (synchronous_speed - speed) / synchronous_speed;
+    const double sb = breakdown_slip, a = resistance_ratio;
+    return 2 * breakdown_torque * (1 + a * sb) * sb * slip / (slip * slip + sb * sb + 2 * a * sb * sb * slip);
   }
   int piece_at(double) const { return 0; }
   void guard_piece(int, double, double*) const {}

@@ -395,7 +395,7 @@ class Compiler {
   void list_commands() {
     for (const SequenceStep& step : model_.scene.sequence.steps)
       for (const std::string& component : step.set)
-        if (command_of(component) < 0) model_.commands.push_back({component, {}});
+        if (command_of(component) < 0) model_.commands.push_back({component, {}, {}});
   }
   int own_places(const std::string& component, const std::vector<OwnState>& states) {
     const int first = static_cast<int>(model_.own_states.size());
@@ -444,14 +444,38 @@ class Compiler {
       ports.command = command_of(e.component);
       if (ports.command >= 0 && !e.element->commanded())
         model_.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
+      if (ports.command >= 0 && e.element->opens_at_zero())
+        model_.commands[at(ports.command)].opened.push_back(static_cast<int>(i));
       ports.account = e.account = account(e.component, e.element->account());
       for (const auto& [name, kind] : e.element->further_accounts()) account(name, kind);
       e.element->place(pools, ports, {e.window, e.component});
     }
     for (const Network::Node& node : net().nodes)
       if (node.prescribed >= 0) account(node.component, Account::driving);
+    check_sequence();
     model_.pools = pools.release();
     for (const auto& pool : model_.pools) pool->add_channels(model_.pool_channels);
+  }
+
+  // What a component does not understand it must not be told.
+  void check_sequence() {
+    for (const SequenceStep& step : model_.scene.sequence.steps)
+      for (const std::string& component : step.set) {
+        bool any = false, reversible = true;
+        for (const Network::ShaftElement& e : net().elements)
+          if (e.component == component) any = true, reversible = reversible && e.element->reversible();
+        for (const Network::Joint& joint : net().joints)
+          if (joint.component == component && joint.element && joint.element->commanded())
+            any = true, reversible = false;
+        if (!any)
+          messages_.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
+                                             "clutch or a brake",
+                                             component));
+        else if (step.to < 0 && !reversible)
+          messages_.add(step.at, fmt::format("[sequence]: \"{}\" cannot be reversed, to = {:g}; must be ≥ 0 (only "
+                                             "electric motors without a starter can)",
+                                             component, step.to));
+      }
   }
 
   void list_torque_joints() {

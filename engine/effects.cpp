@@ -80,7 +80,7 @@ std::span<const EffectFlag> effect_flags() {
       {"mesh_variation", &Effects::mesh_variation, "mesh variation", true,
        "tooth stiffness that varies at the frequency of mesh", "mesh_variation of a gear mesh"},
       {"transients", &Effects::transients, "electrical transients", true, "currents and fluxes of motors as states",
-       "the inductance of a motor"},
+       "the inductance of a DC motor or the frequency of an induction motor"},
       {"relaxation", &Effects::relaxation, "relaxation", true, "Maxwell branches of rubber couplings as states",
        "the branches of a rubber coupling"},
       {"bearing_friction", &Effects::bearing_friction, "bearing friction", true,

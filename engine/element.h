@@ -36,10 +36,15 @@
 //     OwnState state(int k) const;                             its name, unit and order of magnitude
 //     double stored(const double* own) const;                  optional: energy in them [J]
 //   double loss_power(x) const;                              of a connection with states: τ θ̇ − dE/dt; and its
-//                                                            spring_torque and energy take x in place of the twist
+//                                                            spring_torque and energy take x in place of the twist.
+//                                                            Of a shaft element that stores: −M ω − dE/dt
+//   void switched(x, double* own) const;                     of a shaft element with states: it went on or off (x.on)
 //   template <class T> T turning_torque(x) const;            of a connection with uses_angle: further torque on a,
 //                                                            −∂E/∂φ_a
 //   static constexpr bool commanded = true;                  an operating sequence sets x.command (1 unless told)
+//     static constexpr bool reversible = true;                 of a shaft element: it may be told less than 0
+//     bool opens_at_zero() const;                              of a shaft element: told 0 it is off, as outside its
+//                                                              window; on the way through 0 it is not
 #pragma once
 
 #include <string>
@@ -67,13 +72,15 @@ struct ShaftState {
   int direction = 1;       // sign of ω, fixed between events; 0 = at standstill
   double command = 1;      // what an operating sequence says
   const T* own = nullptr;  // states of the element
+  bool on = true;          // within its window of time, and not switched off; else its torque counts as nothing
 };
 
 // A state of its own that an element brings.
 struct OwnState {
-  std::string name;  // "current"
-  std::string unit;  // SI
-  double scale = 1;  // order of magnitude, for error control
+  std::string name;   // "current"
+  std::string unit;   // SI
+  double scale = 1;   // order of magnitude, for error control
+  bool peak = false;  // its extreme is a figure of every run
 };
 
 // Lines of the energy balance. Useful work goes into the process; harmful work is friction and damping.
@@ -131,6 +138,10 @@ concept HasStates = requires {
 template <class E>
 concept Commanded = requires {
   requires E::commanded;
+};
+template <class E>
+concept Reversible = requires {
+  requires E::reversible;
 };
 template <class E>
 concept Regularisable = requires {

@@ -103,6 +103,8 @@ class ElementPool {
   // Gives the element of this guard its law without events; false where it has none.
   virtual bool regularise(int /*guard*/, int* /*mode*/) const { return false; }
   virtual void first_states(const Instant&, double* /*own*/) const {}
+  // States of the elements whose `active` is no longer what it was before.
+  virtual void switched(const Instant&, const char* /*before*/, double* /*own*/) const {}
   // Torques at standstill: what the opposing elements of each shaft can hold.
   virtual void add_holds(const Instant&, Hold* /*per shaft*/, Hold* /*per element*/) const {}
   // What the slipping connections can carry without slipping, and what they carry while they slip.

@@ -134,9 +134,12 @@ double Equations::prescribed_acceleration(std::size_t shaft, double t) const {
 // Everything that changes at known times.
 void Equations::set_timed_modes(double t) {
   for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
-  for (std::size_t c = 0; c < command_.size(); ++c)
+  for (std::size_t c = 0; c < command_.size(); ++c) {
     for (const int e : model_->commands[c].switched)
       if (command_[c].value + command_[c].rate * (t - command_[c].from) <= 0.5) active_[at(e)] = 0;
+    if (command_[c].value == 0 && command_[c].rate == 0)
+      for (const int e : model_->commands[c].opened) active_[at(e)] = 0;
+  }
   for (std::size_t p = 0; p < prescribed_piece_.size(); ++p)
     prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
 }

@@ -171,9 +171,9 @@ class Equations final : public OdeSystem {
   // the operating sequence (equations_sequence.cpp)
   void begin_sequence(double t, std::span<double> y, std::vector<Event>* log);
   void arm_step(double t, std::span<const double> y);
-  void take_steps(double t, std::span<const double> y, std::vector<Event>* log);
+  void take_steps(double t, std::span<double> y, std::vector<Event>* log);
   double sequence_guard(std::span<const double> y) const;
-  void switch_elements();
+  void tell_switched(double t, std::span<double> y, const std::vector<char>& before);
 
   std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
   void settle_modes(double t, std::span<double> y, bool equilibrium);

@@ -64,10 +64,11 @@ void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log
   for (Command& command : command_)
     if (command.rate != 0 && command.until <= t) command = {.value = command.to, .to = command.to};
   set_timed_modes(t);
-  if (armed_time_ <= t) take_steps(t, y, &log);
   for (std::size_t e = 0; e < active_.size(); ++e)
     if (active_[e] != before[e])
       log.push_back({t, model_->network.elements[e].component, active_[e] ? "on" : "off", before[e] ? "on" : "off"});
+  tell_switched(t, y, before);
+  if (armed_time_ <= t) take_steps(t, y, &log);
   settle_contacts(t, y, {}, {}, &log);
 }
 

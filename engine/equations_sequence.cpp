@@ -28,7 +28,6 @@ void Equations::begin_sequence(double t, std::span<double> y, std::vector<Event>
   if (model_->scene.sequence.steps.empty()) return;
   arm_step(t, y);
   if (armed_time_ <= t) take_steps(t, y, log);
-  switch_elements();
 }
 
 void Equations::arm_step(double t, std::span<const double> y) {
@@ -46,7 +45,8 @@ void Equations::arm_step(double t, std::span<const double> y) {
 }
 
 // The step that is due, and those that follow it at once.
-void Equations::take_steps(double t, std::span<const double> y, std::vector<Event>* log) {
+void Equations::take_steps(double t, std::span<double> y, std::vector<Event>* log) {
+  const std::vector<char> before = active_;
   const Sequence& sequence = model_->scene.sequence;
   for (std::size_t taken = 0; taken <= sequence.steps.size() && next_step_ < sequence.steps.size(); ++taken) {
     const SequenceStep& step = sequence.steps[next_step_];
@@ -71,11 +71,15 @@ void Equations::take_steps(double t, std::span<const double> y, std::vector<Even
     arm_step(t, y);
     if (armed_time_ > t) break;
   }
-  switch_elements();
+  set_timed_modes(t);
+  tell_switched(t, y, before);
 }
 
-// Elements that know no command are on while it is above one half.
-void Equations::switch_elements() { set_timed_modes(last_step_time_); }
+// A circuit that opens or closes changes its currents at once.
+void Equations::tell_switched(double t, std::span<double> y, const std::vector<char>& before) {
+  if (active_ == before) return;
+  for (const auto& pool : model_->pools) pool->switched(instant(t, y), before.data(), y.data() + own_begin());
+}
 
 double Equations::sequence_guard(std::span<const double> y) const {
   const Sequence& sequence = model_->scene.sequence;

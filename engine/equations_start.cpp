@@ -116,6 +116,7 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
     if (sense(c) == 0 && !is_prescribed(contacts_[c])) still.push_back(c);
   }
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   if (equilibrium) balance_twists(y, t);
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   settle_contacts(t, y, still, {}, nullptr);

@@ -60,6 +60,7 @@ struct OwnStatePlace {
 struct CommandTarget {
   std::string component;
   std::vector<int> switched;  // shaft elements that are merely on or off
+  std::vector<int> opened;    // shaft elements that are off while it is 0
 };
 
 // An angle that something depends on: turns are kept apart from the remainder.

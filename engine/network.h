@@ -183,6 +183,8 @@ class ShaftElementMaker {
   virtual double settled_from() const { return -HUGE_VAL; }
   virtual int mode_count() const { return 1; }
   virtual bool commanded() const { return false; }
+  virtual bool opens_at_zero() const { return false; }  // told 0 it is off
+  virtual bool reversible() const { return false; }     // may be told less than 0
   virtual std::vector<OwnState> own_states() const { return {}; }
   // The element with these effects on; null where they change nothing.
   virtual std::shared_ptr<ShaftElementMaker> with(const Effects&) const { return nullptr; }
@@ -222,6 +224,11 @@ class ShaftElementMakerOf final : public ShaftElementMaker {
     return -HUGE_VAL;
   }
   bool commanded() const override { return Commanded<E>; }
+  bool opens_at_zero() const override {
+    if constexpr (requires { element_.opens_at_zero(); }) return element_.opens_at_zero();
+    return false;
+  }
+  bool reversible() const override { return Reversible<E>; }
   std::vector<OwnState> own_states() const override { return own_states_of(element_); }
   std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const override {
     if constexpr (requires { element_.with(effects); })

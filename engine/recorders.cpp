@@ -155,6 +155,15 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   speed.name = "min_speed." + link;
   speed.which = ExtremeOf::Which::minimum;
   wanted.push_back(std::move(speed));
+  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
+    const auto& [component, state] = model.own_states[k];
+    if (state.peak)
+      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
+                        .unit = state.unit,
+                        .scale = state.scale,
+                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
+                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
+  }
   for (const Channel& channel : model.pool_channels) {
     const std::string quantity = channel.name.substr(0, channel.name.find('.'));
     if (quantity == "position") continue;

@@ -36,6 +36,12 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   if (model->free_shafts != 1)
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
+  if (!model->own_states.empty())
+    throw std::invalid_argument(fmt::format(
+        "the {} of \"{}\" is a state besides angle and speed, which this question leaves out; replace \"{}\" "
+        "by a motor or a load, or switch its effect off",
+        model->own_states.front().state.name, model->own_states.front().component,
+        model->own_states.front().component));
   return model;
 }
 

@@ -106,7 +106,7 @@ class Loop {
     } else if (work_equation_pays()) {
       method_ = Method::work_equation;
       reason = "rigid, torques of angle and speed: load edges lie at known angles";
-    } else if (equations_.model().elastic.empty()) {
+    } else if (equations_.model().elastic.empty() && equations_.model().own_states.empty()) {
       reason = "rigid: nothing is stiff, and a high order takes the longest steps";
     } else {
       reason = "explicit while its steps are held by accuracy, not by stability";
@@ -321,7 +321,9 @@ class Loop {
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
   void watch_stiffness() {
-    if (options_.method != "auto" || equations_.model().elastic.empty() || method_ == Method::work_equation) return;
+    const Model& m = equations_.model();
+    if (options_.method != "auto" || (m.elastic.empty() && m.own_states.empty()) || method_ == Method::work_equation)
+      return;
     const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
     const double t = stepper_->t();
     if (method_ == Method::dormand_prince_853) {

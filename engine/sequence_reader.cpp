@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/section_reader.h"
 
 namespace kurbel {
@@ -146,6 +148,13 @@ Sequence read_sequence(const DocumentValue& table, const std::vector<std::string
                                          in_quotes(entry.key), suggestion(entry.key, {"steps", "repeat"})));
     }
   }
+  const auto waits = [](const SequenceStep& step) {
+    return step.when != SequenceStep::When::at && !(step.when == SequenceStep::When::after && step.value == 0);
+  };
+  if (sequence.repeat && !sequence.steps.empty() && std::none_of(sequence.steps.begin(), sequence.steps.end(), waits))
+    messages.add(table.at,
+                 "[sequence]: repeat = true, but no step waits for anything when its turn comes again; give "
+                 "one an \"after\" > 0 s, an angle or a speed");
   if (!any) messages.add(table.at, "[sequence]: \"steps\" is missing");
   return sequence;
 }

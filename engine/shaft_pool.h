@@ -35,6 +35,7 @@ struct ShaftElementLabel {
 template <class E>
 class ShaftPool final : public ElementPool {
   static constexpr int own_states = states_of<E>();
+  static constexpr bool stores = requires(const E& e) { e.stored(static_cast<const double*>(nullptr)); };
   // Columns of its derivatives: ω, own states, the angle.
   static constexpr std::size_t inputs = 1 + own_states + (UsesAngle<E> ? 1 : 0);
 
@@ -57,7 +58,12 @@ class ShaftPool final : public ElementPool {
       sums.element_torque[p.at.id] = torque;
       sums.torque[p.at.shaft] += p.at.gain * torque;
       if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.at.own);
-      if (sums.work_rate) sums.work_rate[p.at.account] += torque * x.rate;
+      if (sums.work_rate) {
+        if constexpr (stores)
+          sums.work_rate[p.at.account] -= now.active[p.at.id] ? p.element.loss_power(x) : 0;
+        else
+          sums.work_rate[p.at.account] += torque * x.rate;
+      }
     }
   }
 
@@ -82,7 +88,7 @@ class ShaftPool final : public ElementPool {
       const ShaftState<double> x = state(p, now);
       std::array<Number, own_states + 1> own;
       for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 1 + k);
-      ShaftState<Number> dual{x.t, {}, Number::input(x.rate, 0), x.mode, x.direction, x.command, own.data()};
+      ShaftState<Number> dual{x.t, {}, Number::input(x.rate, 0), x.mode, x.direction, x.command, own.data(), x.on};
       if constexpr (UsesAngle<E>) dual.angle = Number::input(x.angle, static_cast<int>(inputs) - 1);
       const auto scatter = [&](const Number& value, double gain, const std::array<int, inputs>& to) {
         slots[to[0]] += gain * value.d[0] * p.at.gain;
@@ -151,6 +157,11 @@ class ShaftPool final : public ElementPool {
     if constexpr (HasStates<E>)
       for (const Placed& p : placed_) p.element.first_states(state(p, now), own + p.at.own);
   }
+  void switched(const Instant& now, const char* before, double* own) const override {
+    if constexpr (requires(const E& e, const ShaftState<double>& x) { e.switched(x, own); })
+      for (const Placed& p : placed_)
+        if (now.active[p.at.id] != before[p.at.id]) p.element.switched(state(p, now), own + p.at.own);
+  }
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override {
     if constexpr (Directional<E>)
       for (const Placed& p : placed_) {
@@ -180,7 +191,7 @@ class ShaftPool final : public ElementPool {
 
   double energy(const Instant& now) const override {
     double sum = 0;
-    if constexpr (requires(const E& e) { e.stored(static_cast<const double*>(nullptr)); })
+    if constexpr (stores)
       for (const Placed& p : placed_) sum += p.element.stored(now.own + p.at.own);
     return sum;
   }
@@ -196,6 +207,7 @@ class ShaftPool final : public ElementPool {
     ShaftState<double> x{now.t, angle, p.at.gain * now.speed[p.at.shaft], now.mode[p.at.mode],
                          now.direction[p.at.shaft]};
     if constexpr (HasStates<E>) x.own = now.own + p.at.own;
+    x.on = now.active[p.at.id] != 0;
     if constexpr (Commanded<E>)
       if (p.at.command >= 0) x.command = now.command[p.at.command];
     return x;

@@ -415,6 +415,14 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
         model->free_shafts + model->twist_count(), model->effects.describe());
   if (model->free_shafts != 1)
     return "a prescribed speed leaves no coordinate free; replace it by a motor or choose another method";
+  if (!model->own_states.empty())
+    return fmt::format(
+        "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another "
+        "method",
+        model->own_states.front().state.name, model->own_states.front().component);
+  if (!model->scene.sequence.steps.empty())
+    return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
+           "another method";
   const RigidMachine machine(model);
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop)

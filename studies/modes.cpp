@@ -30,6 +30,10 @@ class Study {
       found_.notes.push_back(
           "friction in the mechanisms' joints is no linear effect: left out of modes and forced "
           "response, counted in the simulated torque");
+    if (effects.bearing_friction)
+      found_.notes.push_back("bearing friction is no linear effect: left out of modes and forced response");
+    if (effects.transients)
+      found_.notes.push_back("motors count by their static characteristics in modes and forced response");
     found_.title = scene.title;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
@@ -37,7 +41,7 @@ class Study {
   }
 
   static Effects linear(Effects effects) {
-    effects.joint_friction = false;
+    effects.joint_friction = effects.bearing_friction = effects.transients = false;
     return effects;
   }
 

@@ -16,8 +16,12 @@ std::optional<double> last_switch_off(const Model& model, const RunOutcome& outc
   for (const Network::ShaftElement& e : model.network.elements) {
     if (e.element->account() != Account::driving) continue;
     any = true;
-    if (e.window.stop >= outcome.t) return {};
-    last = std::max(last, e.window.stop);
+    double off = e.window.stop;
+    for (const Event& event : outcome.events)  // by the operating sequence
+      if (event.component == e.component && event.what.starts_with("is set "))
+        off = event.what == "is set off" ? std::min(event.t, e.window.stop) : e.window.stop;
+    if (off >= outcome.t) return {};
+    last = std::max(last, off);
   }
   for (const Network::Node& node : model.network.nodes)
     if (node.prescribed >= 0) return {};

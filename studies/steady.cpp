@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/units.h"
 #include "studies/report/report.h"
@@ -345,6 +346,11 @@ class Search {
   }
 
   void prepare(std::shared_ptr<const Model> model) {
+    if (!model->own_states.empty())
+      throw std::invalid_argument(
+          fmt::format("the {} of \"{}\" is a state that the steady cycle does not look for; switch its effect off, or "
+                      "simulate long enough with kurbel run",
+                      model->own_states.front().state.name, model->own_states.front().component));
     map_ = std::make_unique<ReturnMap>(model, map_options(map_tolerance));
     out_.model = std::move(model);
     out_.label = out_.model->elastic.empty() ? "rigid" : "elastic";
@@ -590,7 +596,16 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
 class Study {
  public:
   Study(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options)
-      : scene_(scene), effects_(effects), options_(options) {}
+      : scene_(scene), effects_(effects), options_(options) {
+    bool transients = false;
+    for (Effects& e : effects_) transients = std::exchange(e.transients, false) || transients;
+    if (!scene_.sequence.steps.empty()) {
+      scene_.sequence = {};
+      out_.notes.push_back("the operating sequence is left out: steady motion knows no switching");
+    }
+    if (transients)
+      out_.notes.push_back("motors count by their static characteristics: their currents are no unknowns here");
+  }
 
   SteadyStudy run() {
     rigid_ = compile_network(always_on(scene_, switched_), scene_, Effects{});
@@ -733,8 +748,8 @@ class Study {
     return error ? std::optional(*error * 30 / std::numbers::pi) : std::nullopt;
   }
 
-  const Scene& scene_;
-  const std::vector<Effects>& effects_;
+  Scene scene_;  // without its operating sequence
+  std::vector<Effects> effects_;
   const SteadyOptions& options_;
   std::vector<std::string> switched_;
   std::shared_ptr<const Model> rigid_;
