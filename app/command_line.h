@@ -57,13 +57,16 @@ double quantity_of(const std::string& option, const std::string& text, const std
 int present(const StudyOutput& output, const StudyOptions& options);
 
 // Each registers its commands; an action leaves its exit code in `code`.
-void add_forces_command(CLI::App& app, int& code);  // forces
-void add_gears_command(CLI::App& app, int& code);   // gears
-void add_modes_command(CLI::App& app, int& code);   // modes
-void add_run_commands(CLI::App& app, int& code);    // run, compare
-void add_reduce_command(CLI::App& app, int& code);  // reduce
-void add_size_command(CLI::App& app, int& code);    // size
-void add_scene_commands(CLI::App& app, int& code);  // check, figures, new, keys, schema
-void add_steady_command(CLI::App& app, int& code);  // steady
+void add_advise_command(CLI::App& app, int& code);    // advise
+void add_effects_command(CLI::App& app, int& code);   // effects
+void add_accuracy_command(CLI::App& app, int& code);  // accuracy
+void add_forces_command(CLI::App& app, int& code);    // forces
+void add_gears_command(CLI::App& app, int& code);     // gears
+void add_modes_command(CLI::App& app, int& code);     // modes
+void add_run_commands(CLI::App& app, int& code);      // run, compare
+void add_reduce_command(CLI::App& app, int& code);    // reduce
+void add_size_command(CLI::App& app, int& code);      // size
+void add_scene_commands(CLI::App& app, int& code);    // check, figures, new, keys, schema
+void add_steady_command(CLI::App& app, int& code);    // steady
 
 }  // namespace kurbel::app

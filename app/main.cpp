@@ -65,6 +65,9 @@ int main(int argc, char** argv) {
   add_gears_command(app, code);
   add_modes_command(app, code);
   add_steady_command(app, code);
+  add_effects_command(app, code);
+  add_advise_command(app, code);
+  add_accuracy_command(app, code);
   add_scene_commands(app, code);
   catch_interrupts();
   try {

@@ -28,7 +28,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "measured error of every figure over its scale (overrides the scene)");
   command.add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
   command.add_option("--method", arguments.method,
-                     "auto, work, dop853, dopri5, esdirk, bdf, adams; for multibody one of Simbody's integrators");
+                     "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
+                     "multibody one of Simbody's integrators");
   command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
 }
 

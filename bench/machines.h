@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,7 +18,7 @@ namespace kurbel::bench {
 
 // The E2 chain: N equal inertias of 0.01 kg·m² joined by k = 1e5 N·m/rad, c = 1 N·m·s/rad; 10 N·m on the first (or
 // spread evenly over all), 0.5 N·m·s/rad against the last.
-inline std::shared_ptr<const Model> equal_chain(int n, bool spread) {
+inline std::shared_ptr<const Model> equal_chain(int n, bool spread, double until = 0.2) {
   Network net;
   int before = -1;
   for (int i = 0; i < n; ++i) {
@@ -33,7 +32,7 @@ inline std::shared_ptr<const Model> equal_chain(int n, bool spread) {
     before = node;
   }
   Scene scene;
-  scene.run.until = 0.2;
+  scene.run.until = until;
   return compile_network(std::move(net), scene, Effects{true, {}});
 }
 
@@ -88,19 +87,6 @@ inline double final_angle(const std::shared_ptr<const Model>& model, double tole
                      .progress = {}};
   const RunOutcome out = integrate(equations, options, {});
   return equations.angle_with_turns(static_cast<std::size_t>(model->reduction_angle), out.state);
-}
-
-inline void print_machine() {
-  std::FILE* f = std::fopen("/proc/cpuinfo", "r");
-  char line[256];
-  std::string name = "unknown processor";
-  while (f && std::fgets(line, sizeof line, f))
-    if (std::string(line).starts_with("model name")) {
-      name = line;
-      break;
-    }
-  if (f) std::fclose(f);
-  std::printf("machine: %s  compiler: g++ %s; SUNDIALS 6.4.1, Simbody 3.7 of Debian 12\n\n", name.c_str(), __VERSION__);
 }
 
 }  // namespace kurbel::bench

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/benches.h"
 #include "mechanisms/multibody_run.h"
 #include "mechanisms/reduced_mechanism.h"
 
@@ -179,7 +180,9 @@ RunCost bench_multibody() {
 
 }  // namespace
 
-int main() {
+namespace kurbel::bench {
+
+void costs_of_mechanisms() {
   const TableCost table = bench_tables();
   const RunCost run = bench_multibody();
   fmt::print(
@@ -188,3 +191,5 @@ int main() {
       "ns, and is built in {:.0f} ms; a full multibody run to {:.0e} rad costs {:.1f} s, {:.0f} such tables.\n",
       table.table_ns, table.closed_ns, table.build_ms, run.error, run.cpu, run.cpu / table.build_ms * 1e3);
 }
+
+}  // namespace kurbel::bench

@@ -1,4 +1,5 @@
 // modes_bench.cpp — how long do the lowest 20 modes of a large drive take, branched and geared, and how do they grow?
+#include "bench/benches.h"
 #include "bench/machines.h"
 #include "engine/eigen_modes.h"
 
@@ -57,12 +58,11 @@ void report(const char* what, const std::shared_ptr<const Model>& model) {
 }
 
 }  // namespace
-}  // namespace kurbel::bench
 
-int main() {
-  using namespace kurbel::bench;
-  print_machine();
+void costs_of_modes() {
   for (const int n : {100, 1000, 10000}) report("branched and geared", branched_and_geared(n));
   for (const int n : {1000, 10000, 100000}) report("equal chain", equal_chain(n, false));
   std::printf("\nAim: the lowest 20 modes of 10000 inertias, branched and geared, within 500 ms.\n");
 }
+
+}  // namespace kurbel::bench

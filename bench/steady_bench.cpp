@@ -8,6 +8,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "bench/benches.h"
 #include "bench/machines.h"
 #include "engine/return_map.h"
 
@@ -68,8 +69,9 @@ Waited wait_for(const std::shared_ptr<const Model>& model, const ReturnMap& map,
 
 }  // namespace
 
-int main() {
-  print_machine();
+namespace kurbel::bench {
+
+void costs_of_steady_cycles() {
   std::printf(
       "Steady cycle of a press with a shaft of damping ratio 0.1 %%, sought directly against waited for (to 1e-8 of "
       "the "
@@ -104,5 +106,6 @@ int main() {
                 1e3 * direct.median_seconds, waited.cycles, 1e3 * waited.seconds, waited.miss, ratio);
   }
   std::printf("Conclusion: seeking the cycle is at least %.0f times cheaper than waiting for it.\n", least);
-  return 0;
 }
+
+}  // namespace kurbel::bench

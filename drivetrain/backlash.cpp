@@ -39,10 +39,11 @@ Backlash BacklashData::settled(double inertia) const {
 
 std::shared_ptr<ConnectionMaker> BacklashData::with(const Effects& effects) const {
   if (effects.backlash) return nullptr;
-  const Damping damping = contact.law == ContactLaw::hunt_crossley ? Damping{} : given;
-  auto maker =
-      std::make_shared<ConnectionMakerOf<Coupling, CouplingData>>(CouplingData{contact.stiffness_at_rest(), damping});
-  return maker;
+  return std::make_shared<ConnectionMakerOf<Coupling, CouplingData>>(without_gap());
+}
+
+CouplingData BacklashData::without_gap() const {
+  return {contact.stiffness_at_rest(), contact.law == ContactLaw::hunt_crossley ? Damping{} : given};
 }
 
 }  // namespace kurbel

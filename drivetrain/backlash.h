@@ -65,9 +65,12 @@ struct Backlash {
     const double p = std::abs(twist) - 0.5 * gap;
     return p <= 0 ? 0 : std::copysign(power(p), twist);
   }
-  double energy(double twist) const {
-    const double p = std::abs(twist) - 0.5 * gap;
-    return p <= 0 ? 0 : stiffness * std::pow(p, exponent + 1) / (exponent + 1);
+  template <class T>
+  T energy(const T& twist) const {
+    const T p = (value_of(twist) < 0 ? -1.0 : 1.0) * twist - 0.5 * gap;
+    if (value_of(p) <= 0) return T(0.0);
+    using std::pow;
+    return stiffness * pow(p, exponent + 1) / (exponent + 1);
   }
   double twist_at(double torque) const {
     if (torque == 0) return 0;
@@ -159,6 +162,7 @@ struct BacklashData {
   Damping given;  // in any of its forms; of Hunt–Crossley unused
 
   Backlash settled(double inertia) const;
+  CouplingData without_gap() const;
   std::shared_ptr<ConnectionMaker> with(const Effects& effects) const;
 };
 

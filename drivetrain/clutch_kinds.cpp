@@ -4,25 +4,13 @@
 #include <cmath>
 
 #include "drivetrain/clutch.h"
+#include "drivetrain/coupling_keys.h"
 #include "drivetrain/kinds.h"
 #include "drivetrain/shared_keys.h"
 #include "engine/network.h"
 
 namespace kurbel {
 namespace {
-
-std::vector<Key> side_inertia_keys() {
-  return {{.name = "inertia_in",
-           .unit = "kg*m2",
-           .fallback = "\"0 kg*m2\"",
-           .domain = not_negative,
-           .doc = "half on the driving side"},
-          {.name = "inertia_out",
-           .unit = "kg*m2",
-           .fallback = "\"0 kg*m2\"",
-           .domain = not_negative,
-           .doc = "half on the driven side"}};
-}
 
 // Capacity as it is, or from plates and the force that presses them.
 std::vector<Key> capacity_keys() {

@@ -1,4 +1,5 @@
 // coupling_kinds.cpp — what joins two shafts elastically: coupling and shaft.
+#include "drivetrain/coupling_keys.h"
 #include "drivetrain/kinds.h"
 
 #include <fmt/format.h>
@@ -13,23 +14,6 @@
 
 namespace kurbel {
 namespace {
-
-// What kurbel modes judges by. Limits of couplings after DIN 740-2.
-std::vector<Key> coupling_limit_keys() {
-  return {{.name = "nominal_torque", .unit = "N*m", .domain = positive, .doc = "T_KN, limit for kurbel modes"},
-          {.name = "maximum_torque", .unit = "N*m", .domain = positive, .doc = "T_Kmax, limit for kurbel modes"},
-          {.name = "vibratory_torque",
-           .unit = "N*m",
-           .domain = positive,
-           .doc = "T_KW, lasting amplitude at 10 Hz, limit for kurbel modes"},
-          {.name = "dissipated_power", .unit = "W", .domain = positive, .doc = "P_KW, limit for kurbel modes"}};
-}
-Key application_factor_key() {
-  return {.name = "application_factor",
-          .fallback = "1",
-          .domain = {.low = 1},
-          .doc = "K_A on the mean torque, in kurbel modes"};
-}
 
 std::vector<Key> backlash_keys() {
   return {{.name = "backlash",
@@ -133,23 +117,13 @@ std::vector<Kind> coupling_kinds() {
       {.name = "coupling",
        .doc = "spring and damper between two half inertias; rigid when its elasticity is off",
        .placement = Placement::inline_two,
-       .keys = joined(
-           {{.name = "stiffness",
-             .unit = "N*m/rad",
-             .domain = positive,
-             .doc = "torsional stiffness k",
-             .required = true},
-            {.name = "inertia_in",
-             .unit = "kg*m2",
-             .fallback = "\"0 kg*m2\"",
-             .domain = not_negative,
-             .doc = "half on the driving side"},
-            {.name = "inertia_out",
-             .unit = "kg*m2",
-             .fallback = "\"0 kg*m2\"",
-             .domain = not_negative,
-             .doc = "half on the driven side"}},
-           joined(joined(damping_keys(), backlash_keys()), joined(coupling_limit_keys(), {application_factor_key()}))),
+       .keys =
+           joined({{.name = "stiffness",
+                    .unit = "N*m/rad",
+                    .domain = positive,
+                    .doc = "torsional stiffness k",
+                    .required = true}},
+                  joined(joined(side_inertia_keys(), damping_keys()), joined(backlash_keys(), coupling_limit_keys()))),
        .build = build_coupling,
        .elastic = true},
       {.name = "shaft",

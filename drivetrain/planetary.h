@@ -63,6 +63,19 @@ inline bool planets_fit(int sun, int planet, int ring, int count) {
          (count == 1 || (sun + planet) * std::sin(pi / count) > planet + 2);
 }
 
+// Inertia of one planet about its own axis, J_p = 1, as inertias of the central shafts. Its energy ½ ω_p² mixes their
+// speeds; with ω_s = ω_c − x/ρ₁, ω_r = ω_c + x/ρ₂, x = ω_p − ω_c it is also A ω_s² + C ω_r² + B ω_c² for all motions:
+//   A/ρ₁² + C/ρ₂² = 1,  C/ρ₂ − A/ρ₁ = 1,  A + B + C = 1       ρ₁ = z_s/z_p, ρ₂ = z_r/z_q
+// (two masses on the pitch points and one on the axis; B < 0, and less than the planet's mass brings to the carrier.)
+struct PlanetShares {
+  double sun, ring, carrier;  // A, C, B
+};
+inline PlanetShares shares_of_planet(double sun_ratio, double ring_ratio) {
+  const double p = (1 - 1 / ring_ratio) / (1 / sun_ratio + 1 / ring_ratio);
+  const double sun = sun_ratio * p, ring = ring_ratio * (1 + p);
+  return {sun, ring, 1 - sun - ring};
+}
+
 // Moment of inertia that a simple train with its ring held shows at the sun, planets with mass m at the distance a:
 //   I = J_s + i_c² (J_c + n m a²) + n J_p i_p²,  i_c = z_s/(z_s + z_r),  i_p = ω_p/ω_s.
 struct PlanetaryInertia {

@@ -1,7 +1,10 @@
 // butcher_tables.h — the numbers of the explicit embedded Runge–Kutta methods, zero coefficients left out.
 //
 // Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993),
-// table II.5.2 (Dormand–Prince 5(4)), section II.10 and its program DOP853 (8(5,3)), II.6 (dense output).
+// table II.5.2 (Dormand–Prince 5(4)), section II.10 and its program DOP853 (8(5,3)), II.6 (dense output);
+// table II.5.4 (J. H. Verner 6(5), SIAM J. Numer. Anal. 15, 1978) and table II.6.4's source E. Fehlberg, NASA TR R-287
+// (1968) (8(7)). Verner's later "most efficient" 6(5) pair has weights of ±176 and rows of ±207: their rounding alone
+// breaks the order conditions by 7e-12, so that no tolerance below 1e-10 is served.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +13,7 @@
 
 namespace kurbel {
 
-inline constexpr std::size_t most_stages = 16;
+inline constexpr std::size_t most_stages = 24;
 
 struct Term {
   std::size_t stage;
@@ -42,5 +45,9 @@ struct EmbeddedTable {
 
 const EmbeddedTable& dormand_prince_54();
 const EmbeddedTable& dormand_prince_853();
+const EmbeddedTable& verner_65();
+// Its error estimate, 41/840 (k₀ + k₁₀ − k₁₁ − k₁₂), takes each end of the step once with either sign: it is
+// identically zero where the rates depend on time alone.
+const EmbeddedTable& fehlberg_87();
 
 }  // namespace kurbel

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/model.h"
+#include "engine/relations.h"
 #include "engine/units.h"
 
 namespace kurbel {
@@ -86,9 +87,11 @@ class Compiler {
     switch_connections();
     settle_relative_damping();
     switch_effects();
+    model_.gear_torques = simplify_relations(net(), model_.effects, standing_nodes());
     make_shafts();
     make_elastic_joints();
-    make_relations();
+    model_.relations = relations_over_shafts(model_);
+    for (std::string& line : bound_self_locking(model_)) model_.merged.push_back(std::move(line));
     check_inertias();
     find_scales();
     track_angles();
@@ -111,9 +114,9 @@ class Compiler {
     if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
     const Merging all = merge(
         net(), [](const Network::Joint&) { return true; }, true);
-    std::size_t links = net().joints.size();
-    for (const Network::Relation& relation : net().relations) links += at(relation.members()) - 1;
-    if (all.groups > 1 || links + 1 != net().nodes.size())
+    const Merging joined = merge(net(), [](const Network::Joint&) { return true; });
+    const bool loop = net().joints.size() + at(joined.groups) != net().nodes.size();
+    if (all.groups > 1 || loop || !relations_are_independent(net(), joined.group))
       throw SceneError(
           {{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
   }
@@ -181,6 +184,7 @@ class Compiler {
         model_.merged.push_back(fmt::format(
             "\"{}\" is rigid because its elasticity is off; the shafts on either side are one", joint.component));
     }
+    if (model_.effects.locked) release_brakes();
     bool any = false;
     for (Network::ShaftElement& e : net().elements)
       if (auto changed = e.element->with(model_.effects)) {
@@ -191,6 +195,30 @@ class Compiler {
       messages_.add({},
                     "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
                     "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
+  }
+
+  // Nodes that are rigidly tied to a shaft whose speed is prescribed as nothing: to the frame.
+  std::vector<char> standing_nodes() {
+    const Merging merging = merge(net(), [](const Network::Joint& joint) { return !joint.elastic; });
+    std::vector<char> stands(at(merging.groups), 0), of_node;
+    for (std::size_t n = 0; n < net().nodes.size(); ++n)
+      if (net().nodes[n].prescribed >= 0 && net().prescribed[at(net().nodes[n].prescribed)].is_nothing())
+        stands[at(merging.group[n])] = 1;
+    for (std::size_t n = 0; n < net().nodes.size(); ++n) of_node.push_back(stands[at(merging.group[n])]);
+    return of_node;
+  }
+
+  // With clutches locked the machine runs: what the operating sequence brakes with is released, and the sequence is
+  // over.
+  void release_brakes() {
+    std::set<std::string> told;
+    for (const SequenceStep& step : model_.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
+    model_.scene.sequence.steps.clear();
+    std::erase_if(net().elements, [&](const Network::ShaftElement& e) {
+      const bool brake = told.count(e.component) && e.element->directional() && e.element->commanded();
+      if (brake) model_.merged.push_back(fmt::format("\"{}\" counts as released", e.component));
+      return brake;
+    });
   }
 
   void make_shafts() {
@@ -256,36 +284,6 @@ class Compiler {
       model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)],
                                 model_.shaft_of_node[at(joint.b)], model_.gain_of_node[at(joint.a)],
                                 joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips()});
-    }
-  }
-
-  // The relations over the merged shafts; where two members became one shaft their gains add.
-  void make_relations() {
-    const auto add = [&](std::vector<ShaftGain>& row, int node, double gain) {
-      const int shaft = model_.shaft_of_node[at(node)];
-      gain *= model_.gain_of_node[at(node)];
-      for (ShaftGain& entry : row)
-        if (entry.shaft == shaft) {
-          entry.gain += gain;
-          return;
-        }
-      row.push_back({shaft, gain});
-    };
-    for (std::size_t r = 0; r < net().relations.size(); ++r) {
-      const Network::Relation& given = net().relations[r];
-      ShaftRelation relation;
-      relation.relation = static_cast<int>(r);
-      for (int k = 0; k < given.members(); ++k) add(relation.motion, given.node[at(k)], given.gain[at(k)]);
-      if (given.lossy) {
-        // L brakes the driving side against the frame of the gear: v = ω₀ − ω₂, felt at 1 and 2.
-        add(relation.loss, given.node[1], given.gain[1]);
-        add(relation.sliding, given.node[0], 1);
-        if (given.members() == 3) {
-          add(relation.loss, given.node[2], 1 + given.gain[2]);
-          add(relation.sliding, given.node[2], -1);
-        }
-      }
-      model_.relations.push_back(std::move(relation));
     }
   }
 
@@ -382,6 +380,7 @@ class Compiler {
   }
   void track_angles() {
     model_.reduction_angle = tracked(model_.reduction_node);
+    for (const int node : loose_trees(model_)) tracked(node);
     for (const SequenceStep& step : model_.scene.sequence.steps)
       model_.trigger_angle.push_back(step.when == SequenceStep::When::angle ? tracked(net().ports.at(step.of).in) : -1);
   }
@@ -489,7 +488,9 @@ class Compiler {
       const int index = joint.elastic ? elastic++ : -1;
       const int total = segments[joint.component], k = ++seen[joint.component];
       if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
-      const std::string name = total == 1 ? joint.component : fmt::format("{}.{}", joint.component, k);
+      const std::string name = !joint.label.empty() ? joint.component + "." + joint.label
+                               : total == 1         ? joint.component
+                                                    : fmt::format("{}.{}", joint.component, k);
       model_.torque_joints.push_back(
           {name, static_cast<int>(j), index, model_.torque_scale / model_.scale_ratio[at(joint.a)]});
     }
@@ -523,6 +524,17 @@ class Compiler {
 std::string Model::node_label(int node) const {
   const Network::Node& n = network.nodes[static_cast<std::size_t>(node)];
   return n.label.empty() ? n.component : n.component + "." + n.label;
+}
+
+double GearTorque::value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const {
+  double sum = 0;
+  for (const Term& term : terms) {
+    if (term.joint >= 0)
+      sum += term.taken * joint_torque[term.joint];
+    else
+      sum += term.taken * relation_torque[term.relation] + term.lost * relation_loss[term.relation];
+  }
+  return sum;
 }
 
 bool Model::has_contacts() const {
@@ -563,9 +575,11 @@ std::string Model::explain() const {
     }
     if (const std::string words = joint.element->describe(); !words.empty()) text += "    " + words + "\n";
   }
-  for (const Network::Relation& relation : network.relations)
+  for (const Network::Relation& relation : network.relations) {
     text += fmt::format("  \"{}\" ties {} speeds at run time{}\n", relation.component, relation.members(),
                         relation.lossy ? ", with losses" : "");
+    if (relation.lossy && !relation.words.empty()) text += "    " + relation.words + "\n";
+  }
   for (const OwnStatePlace& own : own_states)
     text += fmt::format("  state of its own: {} of {}\n", own.state.name, own.component);
   for (const Network::ShaftElement& e : network.elements)

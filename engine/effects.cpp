@@ -63,7 +63,7 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
     throw std::invalid_argument(fmt::format("effects {}{}; allowed: {}; several joined by +, or -NAME to take one away",
                                             in_quotes(name), near, listed(names)));
   }
-  if (on && known->where_given && !has_parameters(scene, *known))
+  if (on && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene, *known))
     throw std::invalid_argument(fmt::format("effects {}: no component of the scene has parameters for it; give {}",
                                             in_quotes(name), known->parameters));
   effects.*(known->flag) = on;
@@ -72,21 +72,27 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
 }  // namespace
 
 std::span<const EffectFlag> effect_flags() {
-  static constexpr std::array<EffectFlag, 7> flags = {{
-      {"joint_friction", &Effects::joint_friction, "joint friction", false,
+  using Unsaid = EffectFlag::Unsaid;
+  static constexpr std::array<EffectFlag, 9> flags = {{
+      {"joint_friction", &Effects::joint_friction, "joint friction", Unsaid::off,
        "friction in the joints of a slider-crank, found together with the reactions", "a joint's friction_coefficient"},
-      {"backlash", &Effects::backlash, "backlash", true, "gaps between flanks, with contact and flight as modes",
-       "the backlash of a coupling or a gear stage"},
-      {"mesh_variation", &Effects::mesh_variation, "mesh variation", true,
+      {"backlash", &Effects::backlash, "backlash", Unsaid::where_given,
+       "gaps between flanks, with contact and flight as modes", "the backlash of a coupling or a gear stage"},
+      {"mesh_variation", &Effects::mesh_variation, "mesh variation", Unsaid::where_given,
        "tooth stiffness that varies at the frequency of mesh", "mesh_variation of a gear mesh"},
-      {"transients", &Effects::transients, "electrical transients", true, "currents and fluxes of motors as states",
+      {"transients", &Effects::transients, "electrical transients", Unsaid::where_given,
+       "currents and fluxes of motors as states",
        "the inductance of a DC motor or the frequency of an induction motor"},
-      {"relaxation", &Effects::relaxation, "relaxation", true, "Maxwell branches of rubber couplings as states",
-       "the branches of a rubber coupling"},
-      {"bearing_friction", &Effects::bearing_friction, "bearing friction", true,
+      {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
+       "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling"},
+      {"bearing_friction", &Effects::bearing_friction, "bearing friction", Unsaid::where_given,
        "dry and mixed friction of bearings, with sticking", "a bearing"},
-      {"gear_losses", &Effects::gear_losses, "gear losses", true,
+      {"gear_losses", &Effects::gear_losses, "gear losses", Unsaid::where_given,
        "losses of gears by the direction of power, with self-locking", "the efficiency of a gearbox"},
+      {"gravity", &Effects::gravity, "gravity", Unsaid::part_of_machine, "weight of a mechanism's links",
+       "the gravity of a mechanism"},
+      {"variable_inertia", &Effects::variable_inertia, "variable inertia", Unsaid::part_of_machine,
+       "the reduced inertia of a mechanism varies with its angle; off: its mean", "a mechanism"},
   }};
   return flags;
 }
@@ -109,12 +115,19 @@ std::string Effects::describe() const {
     for (std::size_t i = 0; i < elastic.size(); ++i) text += (i ? ", " : "") + elastic[i];
     words.push_back(text);
   }
-  for (const EffectFlag& effect : effect_flags())
-    if (this->*(effect.flag)) words.emplace_back(effect.words);
-  if (words.empty()) return "none";
+  std::string without;
+  for (const EffectFlag& effect : effect_flags()) {
+    const bool on = this->*(effect.flag);
+    if (effect.unsaid == EffectFlag::Unsaid::part_of_machine) {
+      if (!on) without += (without.empty() ? ", without " : " and ") + std::string(effect.words);
+    } else if (on) {
+      words.emplace_back(effect.words);
+    }
+  }
+  if (words.empty()) return "none" + without;
   std::string text = words.front();
   for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
+  return text + without;
 }
 
 Effects parse_effects(const std::string& text, const Scene& scene) {

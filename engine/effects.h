@@ -20,6 +20,8 @@ struct Effects {
   bool relaxation = false;        // of rubber; off: its static stiffness and damping
   bool bearing_friction = false;  // off: none
   bool gear_losses = false;       // off: gears without losses
+  bool gravity = true;            // weight of the mechanisms
+  bool variable_inertia = true;   // I_r(φ) of the mechanisms; off: its mean
   bool locked = false;            // clutches count as locked: for studies of the rigid machine
 
   bool is_elastic(const std::string& component) const;
@@ -30,8 +32,9 @@ struct Effects {
 struct EffectFlag {
   const char* name;  // in [effects] and --effects
   bool Effects::*flag;
-  const char* words;       // "joint friction"
-  bool where_given;        // on, unless said otherwise, where the scene has parameters for it
+  const char* words;  // "joint friction"
+  enum class Unsaid { off, where_given, part_of_machine };
+  Unsaid unsaid;           // off; on where the scene has parameters for it; on even in the rigid machine
   const char* adds;        // what it simulates
   const char* parameters;  // what a scene needs for it
 };

@@ -53,10 +53,12 @@ class JacobianPattern {
 struct Snapshot {
   Instant now;
   Sums sums;
-  const double* alpha;         // per shaft [rad/s²]
-  const double* joint_torque;  // per joint of the network: torque that it transmits [N·m]
-  const double* node_angle;    // per node, turns counted [rad]
-  const double* quadrature;    // null without an audit
+  const double* alpha;            // per shaft [rad/s²]
+  const double* joint_torque;     // per joint of the network: torque that it transmits [N·m]
+  const double* relation_torque;  // per relation: torque λ that it takes from its first node [N·m]
+  const double* relation_loss;    // per relation: what of it is lost [N·m]
+  const double* node_angle;       // per node, turns counted [rad]
+  const double* quadrature;       // null without an audit
 };
 
 // One quantity that a run can record.

@@ -22,6 +22,7 @@ struct Event {
   double t = 0;
   std::string component, what;
   std::string from = {};  // the mode before, where it has a name
+  double angle = 0;       // of the reduction link then, turns counted [rad]
 };
 
 // Two sides that stick together or slip: a shaft against the frame with all that brakes it, the sides of a clutch, a
@@ -133,8 +134,9 @@ class Equations final : public OdeSystem {
                 double* own_rate = nullptr);
   void settle_reactions(double t, double* alpha, double* work_rate);
   void refuse_impossible_slip(double t, std::span<const double> y);
-  void free_member_follows(std::span<double> y, const std::vector<char>& given);
+  void members_follow(std::span<double> y, std::vector<char> given, double t);
   void find_joint_torques(const double* alpha);
+  void bear_reactions();
   void write_quadratures(double* rate);
   void list_rigid_trees();
   void list_elastic_tree();
@@ -150,6 +152,7 @@ class Equations final : public OdeSystem {
   void find_holds();
   Hold limits(std::size_t contact) const;
   double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
+  double flank_margin(std::size_t relation) const;
   struct Misfit {
     double size = 0;
     std::size_t contact = 0;  // or relation + contacts_.size()
@@ -178,6 +181,7 @@ class Equations final : public OdeSystem {
   std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
   void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
+  std::vector<double> balanced_joints(std::vector<double> need) const;
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
 
   std::shared_ptr<const Model> model_;
@@ -188,6 +192,7 @@ class Equations final : public OdeSystem {
   std::vector<int> variable_;
   std::vector<RigidStep> rigid_steps_;
   std::vector<ElasticStep> elastic_steps_;
+  std::vector<std::size_t> root_angles_;  // tracked angles that the others follow from, one per elastic tree
 
   // modes, fixed between events
   std::vector<int> mode_, direction_, prescribed_piece_;

@@ -35,6 +35,18 @@ std::vector<ShaftGain> minus(std::vector<ShaftGain> row) {
   return row;
 }
 
+// What goes on to the driven side, μ = λ − L, where both lines of a sense of motion meet: there the flanks change.
+double meeting(const GearLoss& loss, int direction) {
+  const GearLoss::Line &up = loss.line(direction, 1), &down = loss.line(direction, -1);
+  if (up.slope == down.slope) return 0;
+  const double taken = (down.offset - up.offset) / (up.slope - down.slope);
+  return taken - (up.slope * taken + up.offset);
+}
+// L while μ goes on: unique also where a gear locks itself and either flank takes λ > 0.
+double loss_at(const GearLoss::Line& line, double passed) {
+  return (line.slope * passed + line.offset) / (1 - line.slope);
+}
+
 }  // namespace
 
 void Equations::list_contacts() {
@@ -137,8 +149,7 @@ void Equations::tie_stuck_contacts() {
     const ShaftRelation& relation = m.relations[r];
     ConstraintRow row{relation.motion, minus(relation.motion), 1e6 * m.torque_scale};
     if (!relation.loss.empty() && loss_direction_[r] != 0) {
-      const GearLoss::Line& line =
-          m.network.relations[at(relation.relation)].loss.line(loss_direction_[r], loss_sign_[r]);
+      const GearLoss::Line& line = relation.in_motion.line(loss_direction_[r], loss_sign_[r]);
       for (const ShaftGain& g : relation.loss) row.torque.push_back({g.shaft, line.slope * g.gain});
     }
     rows.push_back(std::move(row));
@@ -159,8 +170,7 @@ void Equations::tie_stuck_contacts() {
   // A row whose other members stand still holds the last one too.
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.shafts[s].prescribed)];
-    still_[s] =
-        given.amplitude == 0 && std::all_of(given.speed.begin(), given.speed.end(), [](double w) { return w == 0; });
+    still_[s] = given.is_nothing();
   }
   for (bool changed = true; changed;) {
     changed = false;
@@ -179,7 +189,7 @@ void Equations::add_known_contact_torques() {
   const Model& m = *model_;
   for (const int r : lossy_)
     if (loss_direction_[at(r)] != 0) {
-      const GearLoss& loss = m.network.relations[at(m.relations[at(r)].relation)].loss;
+      const GearLoss& loss = m.relations[at(r)].in_motion;
       add_over(m.relations[at(r)].loss, loss.line(loss_direction_[at(r)], loss_sign_[at(r)]).offset, torque_);
     }
   for (std::size_t c = 0; c < contacts_.size(); ++c)
@@ -239,8 +249,7 @@ void Equations::publish_contacts(double* work_rate) {
     add_over(relation.motion, -relation_torque_[r], torque_);
     if (relation.loss.empty()) continue;
     if (loss_direction_[r] != 0) {
-      const GearLoss::Line& line =
-          m.network.relations[at(relation.relation)].loss.line(loss_direction_[r], loss_sign_[r]);
+      const GearLoss::Line& line = relation.in_motion.line(loss_direction_[r], loss_sign_[r]);
       relation_loss_[r] = line.slope * relation_torque_[r] + line.offset;
       add_over(relation.loss, line.slope * relation_torque_[r], torque_);  // the offset is in already
     } else {
@@ -276,10 +285,18 @@ Hold Equations::limits(std::size_t contact) const {
       break;
   }
   const GearLoss& loss = model_->network.relations[at(model_->relations[at(c.index)].relation)].loss;
-  const double taken = relation_torque_[at(c.index)];
-  const int sign = taken >= 0 ? 1 : -1;
-  const GearLoss::Line &up = loss.line(1, sign), &down = loss.line(-1, sign);
-  return {down.slope * taken + down.offset, up.slope * taken + up.offset};
+  const double passed = relation_torque_[at(c.index)] - contact_torque_[contact];
+  return {std::min(loss_at(loss.line(-1, 1), passed), loss_at(loss.line(-1, -1), passed)),
+          std::max(loss_at(loss.line(1, 1), passed), loss_at(loss.line(1, -1), passed))};
+}
+
+// Positive while the flank that the mode says is the one that carries.
+double Equations::flank_margin(std::size_t relation) const {
+  const int direction = loss_direction_[relation], sign = loss_sign_[relation];
+  const GearLoss& loss = model_->relations[relation].in_motion;
+  const GearLoss::Line& line = loss.line(direction, sign);
+  const double passed = relation_torque_[relation] - (line.slope * relation_torque_[relation] + line.offset);
+  return sign * (passed - meeting(loss, direction)) / contacts_[contact_of_loss_[relation]].torque_scale;
 }
 
 // λ = limit · tanh(v/v₀): it creeps.
@@ -326,9 +343,7 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
   }
   for (const int r : lossy_) {
     if (loss_direction_[at(r)] == 0) continue;
-    const Contact& contact = contacts_[contact_of_loss_[at(r)]];
-    consider(-relation_torque_[at(r)] * loss_sign_[at(r)] / contact.torque_scale - nothing, contacts_.size() + at(r),
-             -loss_sign_[at(r)]);
+    consider(-flank_margin(at(r)) - nothing, contacts_.size() + at(r), -loss_sign_[at(r)]);
   }
   return worst;
 }
@@ -488,10 +503,7 @@ void Equations::contact_guards(double t, std::span<const double> y, double* g) {
     }
   }
   double* sign = g + 2 * contacts_.size();
-  for (const int r : lossy_) {
-    const Contact& contact = contacts_[contact_of_loss_[at(r)]];
-    *sign++ = loss_direction_[at(r)] == 0 ? 1 : loss_sign_[at(r)] * relation_torque_[at(r)] / contact.torque_scale;
-  }
+  for (const int r : lossy_) *sign++ = loss_direction_[at(r)] == 0 ? 1 : flank_margin(at(r));
 }
 
 // Rows of tied shafts: ∂α = W ∂(M − I α), W = mobility. Comes before the division by the inertia, which these rows

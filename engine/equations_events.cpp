@@ -44,7 +44,10 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
     const std::string before = m.pools[p]->label(local, mode_.data()).what;
     m.pools[p]->fire(instant(t, y), local, mode_.data());
     const GuardLabel label = m.pools[p]->label(local, mode_.data());
-    if (!label.what.empty() && label.what != before) log.push_back({t, label.component, label.what, before});
+    // Edges over the angle are told as such; elsewhere a label names the mode.
+    const bool edge = m.pools[p]->guards_are_of_angle();
+    if (!label.what.empty() && (edge || label.what != before))
+      log.push_back({t, label.component, label.what, edge ? "" : before});
   }
   settle_contacts(t, y, stopped, released, &log);
   for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), mode_.data());

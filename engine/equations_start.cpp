@@ -74,7 +74,7 @@ std::vector<double> Equations::start(double t, const StartSettings& settings) {
     if (at(s) < m.free_shafts) y[speed_index(s)] = *c.speed / m.gain_of_node[at(node)];
     given[at(s)] = 1;
   }
-  free_member_follows(y, given);
+  members_follow(y, given, t);
   settle_modes(t, y, settings.equilibrium);
   return y;
 }
@@ -139,26 +139,37 @@ void Equations::refuse_impossible_slip(double t, std::span<const double> y) {
                       contacts_[c].name, slip_speed(contacts_[c], snapshot_.now)));
 }
 
-// Speeds that a relation demands of members whose speeds are not given.
-void Equations::free_member_follows(std::span<double> y, const std::vector<char>& given) {
+// Speeds that relations demand of members whose speeds are not given. Where a relation leaves a choice, its first
+// members keep the speeds of the usual motion.
+void Equations::members_follow(std::span<double> y, std::vector<char> given, double t) {
   const Model& m = *model_;
-  for (std::size_t pass = 0; pass < m.relations.size(); ++pass)
-    for (const ShaftRelation& relation : m.relations) {
-      double sum = 0;
-      const ShaftGain* open = nullptr;
-      for (const ShaftGain& g : relation.motion) {
-        const bool is_free = at(g.shaft) < m.free_shafts;
-        sum += g.gain * (is_free ? y[speed_index(g.shaft)] : prescribed_speed(at(g.shaft), 0));
-        if (is_free && !given[at(g.shaft)]) open = &g;
-      }
-      if (open) {
-        y[speed_index(open->shaft)] -= sum / open->gain;
-      } else if (std::abs(sum) > 1e-9 * m.speed_scale) {
-        throw std::runtime_error(
-            fmt::format("the start speeds contradict \"{}\", which ties them; leave one of them out",
-                        m.network.relations[at(relation.relation)].component));
-      }
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) given[s] = 1;
+  std::vector<const ShaftRelation*> open;
+  for (const ShaftRelation& relation : m.relations) open.push_back(&relation);
+  const auto unknown = [&](const ShaftRelation& relation) {
+    return std::count_if(relation.motion.begin(), relation.motion.end(),
+                         [&](const ShaftGain& g) { return !given[at(g.shaft)]; });
+  };
+  while (!open.empty()) {
+    const auto next = std::min_element(open.begin(), open.end(),
+                                       [&](const auto* a, const auto* b) { return unknown(*a) < unknown(*b); });
+    const ShaftRelation& relation = **next;
+    open.erase(next);
+    double sum = 0;
+    const ShaftGain* last = nullptr;
+    for (const ShaftGain& g : relation.motion) {
+      const bool is_free = at(g.shaft) < m.free_shafts;
+      sum += g.gain * (is_free ? y[speed_index(g.shaft)] : prescribed_speed(at(g.shaft), t));
+      if (!given[at(g.shaft)]) last = &g;
+      given[at(g.shaft)] = 1;
     }
+    if (last) {
+      y[speed_index(last->shaft)] -= sum / last->gain;
+    } else if (std::abs(sum) > 1e-9 * m.speed_scale) {
+      throw std::runtime_error(fmt::format("the start speeds contradict \"{}\", which ties them; leave one of them out",
+                                           m.network.relations[at(relation.relation)].component));
+    }
+  }
 }
 
 std::vector<double> Equations::modes_from_scratch(double t, double reduction_angle, double reduction_speed) {
@@ -193,7 +204,7 @@ void Equations::balance_twists(std::span<double> y, double t) {
   std::vector<double> need(net.nodes.size(), 0.0);
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
     inertia += net.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
-    free = free && net.nodes[n].prescribed < 0;
+    free = free && (net.nodes[n].prescribed < 0 || m.node_ratio[n] == 0);  // the frame holds nothing that moves
   }
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const double ratio = m.node_ratio[at(net.elements[e].node)];
@@ -221,34 +232,7 @@ void Equations::balance_twists(std::span<double> y, double t) {
     need[n] += element_inertia_[e] * m.node_ratio[n] * acceleration - element_torque_[e];
     if (still && capacity != 0) need[n] -= held / capacity * (held > 0 ? element_hold_[e].high : element_hold_[e].low);
   }
-  // Sum from the leaves of the whole tree to a root that can take the rest (a prescribed motion, if there is one).
-  std::vector<std::vector<int>> joints_at(net.nodes.size());
-  for (std::size_t j = 0; j < net.joints.size(); ++j) {
-    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
-    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
-  }
-  int root = m.reduction_node;
-  for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    if (net.nodes[n].prescribed >= 0) root = static_cast<int>(n);
-  std::vector<RigidStep> steps;
-  std::vector<char> seen(net.nodes.size(), 0);
-  std::vector<int> queue = {root};
-  seen[at(root)] = 1;
-  for (std::size_t next = 0; next < queue.size(); ++next)
-    for (const int j : joints_at[at(queue[next])]) {
-      const Network::Joint& joint = net.joints[at(j)];
-      const int other = joint.a == queue[next] ? joint.b : joint.a;
-      if (seen[at(other)]) continue;
-      seen[at(other)] = 1;
-      steps.push_back({j, other, queue[next], other == joint.b});
-      queue.push_back(other);
-    }
-  std::vector<double> joint_torque(net.joints.size(), 0.0);
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    const double ratio = net.joints[at(step->joint)].ratio, wanted = need[at(step->child)];
-    joint_torque[at(step->joint)] = step->child_is_b ? wanted / ratio : -wanted;
-    need[at(step->parent)] += step->child_is_b ? wanted / ratio : ratio * wanted;
-  }
+  const std::vector<double> joint_torque = balanced_joints(std::move(need));
   std::vector<double> twists(m.elastic.size());
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const int j = m.elastic[i].joint;
@@ -260,6 +244,64 @@ void Equations::balance_twists(std::span<double> y, double t) {
   set_shaft_angles(twists.data(), angles);
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] += m.angles[i].gain * angles[at(m.angles[i].shaft)];
   wrap(y);
+}
+
+// Torques of the joints that give every node what it needs: summed from the leaves of the whole tree to a root that can
+// take the rest (a prescribed motion, if there is one). A gear that runs counts as one without losses.
+std::vector<double> Equations::balanced_joints(std::vector<double> need) const {
+  const Model& m = *model_;
+  const Network& net = m.network;
+  struct Link {
+    int a, b;
+    double ratio;
+  };
+  std::vector<Link> links;
+  for (const Network::Joint& joint : net.joints) links.push_back({joint.a, joint.b, joint.ratio});
+  for (const Network::Relation& relation : net.relations) {
+    if (relation.members() == 3 && relation.usual[2] != 0)
+      throw std::runtime_error(
+          fmt::format("the three shafts of \"{}\" are free, so it is not known which torques balance each other; start "
+                      "without equilibrium",
+                      relation.component));
+    links.push_back({relation.node[0], relation.node[1], -relation.gain[1]});
+  }
+  std::vector<std::vector<int>> links_at(net.nodes.size());
+  for (std::size_t j = 0; j < links.size(); ++j) {
+    links_at[at(links[j].a)].push_back(static_cast<int>(j));
+    links_at[at(links[j].b)].push_back(static_cast<int>(j));
+  }
+  std::vector<double> torque(links.size(), 0.0);
+  std::vector<char> seen(net.nodes.size(), 0);
+  const auto sum_to = [&](int root) {
+    std::vector<RigidStep> steps;
+    std::vector<int> queue = {root};
+    seen[at(root)] = 1;
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const int j : links_at[at(queue[next])]) {
+        const int other = links[at(j)].a == queue[next] ? links[at(j)].b : links[at(j)].a;
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        steps.push_back({j, other, queue[next], other == links[at(j)].b});
+        queue.push_back(other);
+      }
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+      const double ratio = links[at(step->joint)].ratio, wanted = need[at(step->child)];
+      torque[at(step->joint)] = step->child_is_b ? wanted / ratio : -wanted;
+      need[at(step->parent)] += step->child_is_b ? wanted / ratio : ratio * wanted;
+    }
+  };
+  int root = m.reduction_node;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    if (net.nodes[n].prescribed >= 0 && m.node_ratio[n] != 0) root = static_cast<int>(n);
+  sum_to(root);
+  // Housings bear the reactions of their gears, towards the frame.
+  for (std::size_t r = 0; r < net.relations.size(); ++r)
+    if (net.relations[r].members() == 3)
+      need[at(net.relations[r].node[2])] += net.relations[r].gain[2] * torque[net.joints.size() + r];
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    if (net.nodes[n].prescribed >= 0 && !seen[n]) sum_to(static_cast<int>(n));
+  torque.resize(net.joints.size());
+  return torque;
 }
 
 }  // namespace kurbel

@@ -214,13 +214,18 @@ void ExplicitRungeKutta::take(double h) {
 }
 
 double ExplicitRungeKutta::error_norm(double h) {
-  const auto terms = [&]<std::size_t count>(const Combination& c) {
-    assert(c.size() == count);
-    return Gathered<count>(c, slope_, h);
+  const auto estimate = [&]<std::size_t terms>() {
+    return largest_error(size_, Gathered<terms>(table_.error, slope_, h), weight_.data());
   };
-  if (table_.rough_error.empty()) return largest_error(size_, terms.operator()<6>(table_.error), weight_.data());
-  return largest_corrected_error(size_, terms.operator()<8>(table_.error), terms.operator()<8>(table_.rough_error),
-                                 weight_.data());
+  if (!table_.rough_error.empty()) {
+    assert(table_.error.size() == 8 && table_.rough_error.size() == 8);
+    return largest_corrected_error(size_, Gathered<8>(table_.error, slope_, h),
+                                   Gathered<8>(table_.rough_error, slope_, h), weight_.data());
+  }
+  if (table_.error.size() == 4) return estimate.operator()<4>();
+  if (table_.error.size() == 6) return estimate.operator()<6>();
+  assert(table_.error.size() == 7);
+  return estimate.operator()<7>();
 }
 
 bool ExplicitRungeKutta::end_slope_is_finite() const {

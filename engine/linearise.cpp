@@ -57,6 +57,12 @@ class Lineariser {
       throw std::invalid_argument(
           "nothing is elastic, so the drive has no modes; switch elasticity on in [effects], or with --effects "
           "elasticity");
+    if (!m_.relations.empty())
+      throw std::invalid_argument(fmt::format(
+          "\"{}\" ties shafts only while the machine runs (losses, a housing that moves, three free shafts); "
+          "modes are sought without that: --effects elasticity leaves losses out, fixed holds a shaft of a "
+          "planetary gear",
+          m_.network.relations.front().component));
     state(angles_.front());
     drive_.coordinate.assign(m_.shafts.size(), -1);
     for (std::size_t s = 0; s < m_.free_shafts; ++s) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "engine/butcher_tables.h"
 #include "engine/explicit_runge_kutta.h"
@@ -10,6 +11,13 @@
 
 namespace kurbel {
 namespace {
+
+constexpr std::pair<std::string_view, Method> methods[] = {
+    {"work", Method::work_equation},    {"dopri5", Method::dormand_prince_54},
+    {"verner6", Method::verner_65},     {"dop853", Method::dormand_prince_853},
+    {"fehlberg8", Method::fehlberg_87}, {"adams", Method::adams},
+    {"esdirk3", Method::esdirk_32},     {"esdirk", Method::esdirk_43},
+    {"esdirk5", Method::esdirk_54},     {"bdf", Method::bdf}};
 
 void check(const OdeSystem& system, const ErrorControl& control) {
   if (!(control.tolerance > 0) || !std::isfinite(control.tolerance))
@@ -26,14 +34,32 @@ void check(const OdeSystem& system, const ErrorControl& control) {
 
 }  // namespace
 
+Method method_named(const std::string& name) {
+  if (name == "auto") return Method::dormand_prince_853;
+  std::string allowed = "auto";
+  for (const auto& [known, method] : methods) {
+    if (name == known) return method;
+    allowed += fmt::format(", {}", known);
+  }
+  throw std::invalid_argument(fmt::format("method \"{}\" integrates no reduced model; allowed: {}", name, allowed));
+}
+
 std::string_view name_of(Method method) {
   switch (method) {
     case Method::dormand_prince_54:
       return "dormand_prince_54";
     case Method::dormand_prince_853:
       return "dormand_prince_853";
+    case Method::verner_65:
+      return "verner_65";
+    case Method::fehlberg_87:
+      return "fehlberg_87";
+    case Method::esdirk_32:
+      return "esdirk_32";
     case Method::esdirk_43:
       return "esdirk_43";
+    case Method::esdirk_54:
+      return "esdirk_54";
     case Method::bdf:
       return "bdf";
     case Method::adams:
@@ -51,8 +77,16 @@ std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorCon
       return std::make_unique<ExplicitRungeKutta>(dormand_prince_54(), system, control);
     case Method::dormand_prince_853:
       return std::make_unique<ExplicitRungeKutta>(dormand_prince_853(), system, control);
+    case Method::verner_65:
+      return std::make_unique<ExplicitRungeKutta>(verner_65(), system, control);
+    case Method::fehlberg_87:
+      return std::make_unique<ExplicitRungeKutta>(fehlberg_87(), system, control);
+    case Method::esdirk_32:
+      return make_esdirk_stepper(3, system, control);
     case Method::esdirk_43:
-      return make_esdirk_stepper(system, control);
+      return make_esdirk_stepper(4, system, control);
+    case Method::esdirk_54:
+      return make_esdirk_stepper(5, system, control);
     case Method::bdf:
       return make_bdf_stepper(system, control);
     case Method::adams:

@@ -47,7 +47,20 @@ struct ShaftRelation {
   std::vector<ShaftGain> motion;   // Σ gain ω = 0
   std::vector<ShaftGain> loss;     // torque on the shafts by a unit of loss L
   std::vector<ShaftGain> sliding;  // speed that the loss opposes
+  GearLoss in_motion = {};         // the law of losses while it moves
   int loss_account = -1;           // −1: none
+};
+
+// A torque on a shaft of a gear, by what carries it: relations, and joints that were relations.
+struct GearTorque {
+  struct Term {
+    int relation = -1, joint = -1;  // one of them; a joint stands for a relation without losses
+    double taken = 1, lost = 0;     // factors of λ (of the joint's torque) and of L
+  };
+  std::string name;  // "gearbox.out"
+  int node = 0;
+  std::vector<Term> terms;
+  double value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const;
 };
 
 // A state that an element brings along.
@@ -109,6 +122,7 @@ struct Model {
   std::vector<ElasticJoint> elastic;
   std::vector<TrackedAngle> angles;
   std::vector<ShaftRelation> relations;
+  std::vector<GearTorque> gear_torques;
   std::vector<OwnStatePlace> own_states;
   std::vector<CommandTarget> commands;
   std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it watches, −1: none

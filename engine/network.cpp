@@ -21,7 +21,7 @@ int Network::add_node(const std::string& component, const std::string& label, do
 }
 
 void Network::join(int a, int b, double ratio, const std::string& component) {
-  joints.push_back({a, b, ratio, component, nullptr, false});
+  joints.push_back({.a = a, .b = b, .ratio = ratio, .component = component});
 }
 
 void Network::put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window,
@@ -55,6 +55,10 @@ double PrescribedSpeed::slope(double t, int piece) const {
     base = (speed[i + 1] - speed[i]) / (time[i + 1] - time[i]);
   }
   return base + amplitude * 2 * M_PI * frequency * std::cos(2 * M_PI * frequency * t + phase);
+}
+
+bool PrescribedSpeed::is_nothing() const {
+  return amplitude == 0 && std::all_of(speed.begin(), speed.end(), [](double w) { return w == 0; });
 }
 
 double PrescribedSpeed::next_edge(double t) const {

@@ -259,6 +259,7 @@ struct PrescribedSpeed {
   double value(double t, int piece) const;
   double slope(double t, int piece) const;  // dω/dt
   double next_edge(double t) const;
+  bool is_nothing() const;
 };
 
 // What a gear loses: a torque L on its driving side against its motion, proportional to the torque λ that it takes up
@@ -287,8 +288,9 @@ class Network {
     int a = 0, b = 0;
     double ratio = 1;
     std::string component;
-    std::shared_ptr<ConnectionMaker> element;  // null: always rigid
-    bool elastic = false;                      // by the effects that are on
+    std::shared_ptr<ConnectionMaker> element = nullptr;  // null: always rigid
+    bool elastic = false;                                // by the effects that are on
+    std::string label = {};                              // tells several joints of a component apart
   };
   struct ShaftElement {
     int node = 0;
@@ -308,6 +310,8 @@ class Network {
     std::string component;
     bool lossy = false;
     GearLoss loss = {};
+    std::string words = {};         // for people: its law of losses
+    std::size_t joints_before = 0;  // its place among the joints, where it becomes one
     int members() const { return node[2] >= 0 ? 3 : 2; }
   };
   struct Ports {
@@ -317,14 +321,18 @@ class Network {
 
   int add_node(const std::string& component, const std::string& label, double inertia);
   void join(int a, int b, double ratio, const std::string& component);
-  void relate(Relation relation) { relations.push_back(std::move(relation)); }
+  void relate(Relation relation) {
+    relation.joints_before = joints.size();
+    relations.push_back(std::move(relation));
+  }
   template <class E>
-  void connect(int a, int b, double ratio, const std::string& component, E element) {
+  void connect(int a, int b, double ratio, const std::string& component, E element, const std::string& label = {}) {
     if constexpr (requires { typename E::Element; }) {
       joints.push_back({a, b, ratio, component,
-                        std::make_shared<ConnectionMakerOf<typename E::Element, E>>(std::move(element)), false});
+                        std::make_shared<ConnectionMakerOf<typename E::Element, E>>(std::move(element)), false, label});
     } else {
-      joints.push_back({a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false});
+      joints.push_back(
+          {a, b, ratio, component, std::make_shared<ConnectionMakerOf<E>>(std::move(element)), false, label});
     }
   }
   template <class E>

@@ -45,6 +45,8 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     } else {
       motion(component + ".in", ports.in);
       motion(component + ".out", ports.out);
+      for (const auto& [name, node] : ports.others)
+        if (node != ports.in && node != ports.out) motion(component + "." + name, node);
     }
     std::vector<std::size_t> own;
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
@@ -73,6 +75,11 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
         {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
     channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
   }
+  for (const GearTorque& torque : model.gear_torques)
+    if (is_wanted(wanted, torque.name.substr(0, torque.name.find('.'))))
+      channels.push_back({"torque." + torque.name, "N*m", [torque](const Snapshot& s) {
+                            return torque.value(s.joint_torque, s.relation_torque, s.relation_loss);
+                          }});
   for (std::size_t k = 0; k < model.own_states.size(); ++k)
     if (is_wanted(wanted, model.own_states[k].component))
       channels.push_back({model.own_states[k].state.name + "." + model.own_states[k].component,
@@ -135,13 +142,30 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
               elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
           return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
         };
+      transmitted.slope = transmitted.rate;
       spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+      // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
+      const ConnectionMaker& element = *model.network.joints[at(j)].element;
+      if (known && element.stiffness() > 0 && !element.has_modes())
+        spring.slope = [shared, e, j](const Snapshot& s) {
+          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);
+        };
+      else
+        transmitted.slope = {};
       // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
       if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
     }
     wanted.push_back(std::move(transmitted));
     wanted.push_back(std::move(spring));
   }
+  for (const GearTorque& torque : model.gear_torques)
+    wanted.push_back(
+        {.name = "peak_torque." + torque.name,
+         .unit = "N*m",
+         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
+         .value =
+             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
+         .rate = {}});
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;
@@ -151,6 +175,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
                   .which = ExtremeOf::Which::maximum,
                   .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
+  speed.slope = speed.rate;
   wanted.push_back(speed);
   speed.name = "min_speed." + link;
   speed.which = ExtremeOf::Which::minimum;
@@ -194,9 +219,11 @@ void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) co
   out.t = t;
   out.value.resize(wanted_.size());
   out.rate.resize(wanted_.size());
+  out.slope.resize(wanted_.size());
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     out.value[i] = wanted_[i].value(snapshot);
     out.rate[i] = wanted_[i].rate ? wanted_[i].rate(snapshot) : 0;
+    out.slope[i] = wanted_[i].slope ? wanted_[i].slope(snapshot) : HUGE_VAL;
   }
 }
 
@@ -207,14 +234,28 @@ void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equa
 
 void ExtremeRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
-  sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
-  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  if (view.begins_anew() || last_.t != t0)
+    sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
+  else
+    std::swap(first_, last_);
   sample(view.snapshot(t1), t1, last_);
+  bool any = false;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
-    search(view, i);
+    any = any || may_be_beaten(i);
   }
+  if (!any) return;
+  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i)
+    if (may_be_beaten(i)) search(view, i);
+}
+
+// A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far
+// lies half a turn of a sine between two of its zeros.
+bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
+  const double reach = (last_.t - first_.t) * (std::abs(first_.slope[i]) + std::abs(last_.slope[i]));
+  return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 
 // Looks for an extreme within the step, but only where it could beat what is known already.

@@ -42,7 +42,9 @@ struct ExtremeOf {
   double scale = 0;  // for its error
   Which which = Which::largest_magnitude;
   std::function<double(const Snapshot&)> value;
-  std::function<double(const Snapshot&)> rate;  // empty: by central differences of the value
+  std::function<double(const Snapshot&)> rate;  // vanishes at the extreme; empty: by central differences of the value
+  // d value/dt, where it bounds what the value does between two points of a step; empty: unknown.
+  std::function<double(const Snapshot&)> slope = {};
 };
 
 // Peaks of torques in all couplings, of the reduction link's speed, and of the mechanisms' motion and force.
@@ -63,11 +65,12 @@ class ExtremeRecorder final : public Observer {
  private:
   struct Sample {
     double t;
-    std::vector<double> value, rate;
+    std::vector<double> value, rate, slope;
   };
   double merit(std::size_t i, double value) const;
   void consider(std::size_t i, double t, double value);
   void sample(const Snapshot& snapshot, double t, Sample& out) const;
+  bool may_be_beaten(std::size_t i) const;
   void search(StepView& view, std::size_t i);
 
   std::vector<ExtremeOf> wanted_;

@@ -96,10 +96,12 @@ double angle_turned(const PrescribedSpeed& given, double until) {
   return sum;
 }
 
-int prescribed_node(const Network& net) {
+int prescribed_node(const Model& m) {
+  const Network& net = m.network;
   int found = -1;
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
     if (net.nodes[n].prescribed < 0) continue;
+    if (m.node_ratio[n] == 0 && net.prescribed[at(net.nodes[n].prescribed)].is_nothing()) continue;  // the frame
     if (found >= 0)
       throw std::invalid_argument(
           fmt::format("\"{}\" and \"{}\" both prescribe a speed; a steady cycle is sought for one prescribed speed at "
@@ -117,13 +119,13 @@ Periodicity periodicity_of(const Model& m) {
   std::vector<NamedPeriod> angles, times;
   for (const Network::ShaftElement& e : m.network.elements) {
     if (e.element->uses_angle() && e.element->angle_period() > 0)
-      angles.push_back({e.element->angle_period() / std::abs(m.node_ratio[at(e.node)]), e.component});
+      angles.push_back({e.element->angle_period() / m.scale_ratio[at(e.node)], e.component});
     if (e.element->time_period() > 0) times.push_back({e.element->time_period(), e.component});
     result.settled_from = std::max(result.settled_from, e.element->settled_from());
   }
   result.angle_matters = !angles.empty();
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
-  if (const int node = prescribed_node(m.network); node >= 0) {
+  if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
     const std::string& name = m.network.nodes[at(node)].component;
     const double link_speed = std::abs(given.speed.back() / m.node_ratio[at(node)]);
@@ -142,9 +144,16 @@ Periodicity periodicity_of(const Model& m) {
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
   const Model& m = *shared_;
+  if (!m.own_states.empty() || m.has_contacts() || !m.scene.sequence.steps.empty())
+    throw std::invalid_argument(fmt::format(
+        "a steady cycle is sought for twists and speeds alone; {}. Simulate with kurbel run until it is steady",
+        !m.own_states.empty() ? fmt::format("\"{}\" has a state of its own ({})", m.own_states.front().component,
+                                            m.own_states.front().state.name)
+        : m.has_contacts()    ? "this machine has shafts that are tied at run time"
+                              : "an operating sequence does not repeat with the cycle"));
   periodicity_ = periodicity_of(m);
   start_time_ = periodicity_.settled_from;
-  const int node = prescribed_node(m.network);
+  const int node = prescribed_node(m);
   fixed_shaft_ = node >= 0 ? m.shaft_of_node[at(node)] : -1;
   angle_unknown_ = periodicity_.by_time && periodicity_.angle_matters && fixed_shaft_ < 0;
   if (angle_unknown_) scale_.push_back(1);

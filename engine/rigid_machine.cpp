@@ -33,6 +33,11 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
     throw std::invalid_argument(fmt::format(
         "the machine is elastic (effects: {}); one angle and its speed describe it only with elasticity off",
         model->effects.describe()));
+  if (!model->relations.empty())
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" ties shafts only while the machine runs, so one angle does not describe it; simulate it with "
+        "kurbel run, or hold a shaft of a planetary gear (fixed)",
+        model->network.relations.front().component));
   if (model->free_shafts != 1)
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
@@ -63,7 +68,13 @@ double lowest(const std::function<double(double)>& f, double a, double b) {
 
 }  // namespace
 
-RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, Effects{})) {}
+Effects rigid_effects() {
+  Effects effects;
+  effects.locked = true;
+  return effects;
+}
+
+RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rigid_effects())) {}
 
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
@@ -83,7 +94,7 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / std::abs(m.node_ratio[at_index(e.node)]));
+    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / m.scale_ratio[at_index(e.node)]);
   const auto repeats = [&](double cycle) {
     return std::all_of(period.begin(), period.end(),
                        [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });

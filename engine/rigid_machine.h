@@ -20,6 +20,9 @@ struct CyclePeriod {
 };
 CyclePeriod cycle_of(const Model& model);
 
+// Everything off, clutches locked: the machine of one coordinate.
+Effects rigid_effects();
+
 class RigidMachine {
  public:
   // Compiles the scene with elasticity off. Throws SceneError where it makes no machine; std::invalid_argument in words

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <deque>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -21,17 +23,6 @@ double cpu_now() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-Method method_named(const std::string& name) {
-  if (name == "auto" || name == "dop853") return Method::dormand_prince_853;
-  if (name == "dopri5") return Method::dormand_prince_54;
-  if (name == "esdirk") return Method::esdirk_43;
-  if (name == "bdf") return Method::bdf;
-  if (name == "adams") return Method::adams;
-  if (name == "work") return Method::work_equation;
-  throw std::invalid_argument(fmt::format(
-      "method \"{}\" integrates no reduced model; allowed: auto, work, dopri5, dop853, esdirk, bdf, adams", name));
 }
 
 // Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
@@ -52,6 +43,10 @@ class FlushDenormals {
 // A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
 constexpr double fired_below = -1e-11, at_root = 1e-13;
 constexpr int most_events_at_once = 100;
+// So many events while the machine turns by no more than this find no rest of themselves: bouncing that dies away,
+// a contact that flickers. Their elements then follow laws without events.
+constexpr std::size_t restless_events = 60;
+constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
 
 // Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
 // ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
@@ -103,6 +98,9 @@ class Loop {
       if (method_ == Method::work_equation)
         if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty())
           throw std::invalid_argument("method \"work\": " + why);
+      if (method_ == Method::fehlberg_87)
+        if (const std::string why = rates_of_time_alone(); !why.empty())
+          throw std::invalid_argument("method \"fehlberg8\": " + why);
     } else if (work_equation_pays()) {
       method_ = Method::work_equation;
       reason = "rigid, torques of angle and speed: load edges lie at known angles";
@@ -112,6 +110,17 @@ class Loop {
       reason = "explicit while its steps are held by accuracy, not by stability";
     }
     out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
+  std::string rates_of_time_alone() const {
+    const Model& m = equations_.model();
+    const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
+    if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
+    for (const Network::ShaftElement& e : m.network.elements)
+      if (e.element->uses_time())
+        return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
+    return {};
   }
 
   // Where inertia or torques vary with the angle, over more than a few turns.
@@ -148,6 +157,7 @@ class Loop {
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
+    view_.set_anew(true);
     find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
@@ -159,13 +169,17 @@ class Loop {
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
-    if (!at_begin_ && stepper_->t() > stepper_->t_previous())  // a step that is taken back was never there
+    if (!at_begin_ && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
+      view_.set_anew(false);
+    }
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
     if (t >= edge_) {
       std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      const std::size_t known = out_.events.size();
       equations_.pass_edge(t, y, out_.events);
+      note_angle(known, y);
       equations_.wrap(y);
       restart(t, y);
       return true;
@@ -289,7 +303,7 @@ class Loop {
     }
   }
 
-  bool pass_event(double t, const std::vector<std::size_t>& fired) {
+  bool pass_event(double t, std::vector<std::size_t> fired) {
     const bool at_begin = std::exchange(at_begin_, false);
     if (options_.stop && fired.back() == equations_.guard_count()) {
       out_.stopped = true;
@@ -312,11 +326,48 @@ class Loop {
     }
     ++out_.statistics.events;
     if (options_.extension) options_.extension->before_event(time, y, fired);
-    equations_.fire(time, y, fired, out_.events);
+    if (is_restless(time, fired)) calm(time, fired);
+    const std::size_t known = out_.events.size();
+    if (!fired.empty()) equations_.fire(time, y, fired, out_.events);
+    note_angle(known, y);
     if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
     return true;
+  }
+
+  void note_angle(std::size_t first, std::span<const double> y) {
+    const auto link = static_cast<std::size_t>(equations_.model().reduction_angle);
+    for (std::size_t k = first; k < out_.events.size(); ++k)
+      out_.events[k].angle = equations_.angle_with_turns(link, y);
+  }
+
+  bool is_restless(double time, const std::vector<std::size_t>& fired) {
+    recent_.push_back({time, fired});
+    if (recent_.size() <= restless_events) return false;
+    recent_.pop_front();
+    return (time - recent_.front().time) * equations_.model().speed_scale < restless_angle;
+  }
+
+  // The guards that fired most often in the restless stretch lose their events, those that fire now among them.
+  void calm(double time, std::vector<std::size_t>& fired) {
+    constexpr int most_for_one = static_cast<int>(restless_events / 10);
+    std::map<std::size_t, int> times;
+    for (const Recent& event : recent_)
+      for (const std::size_t guard : event.fired)
+        if (guard < equations_.guard_count()) ++times[guard];
+    std::vector<std::size_t> restless;
+    for (const auto& [guard, count] : times)
+      if (count > most_for_one) restless.push_back(guard);
+    const double span = time - recent_.front().time;
+    recent_.clear();
+    const std::string what = equations_.regularise(restless);
+    if (what.empty()) return;
+    out_.events.push_back({time, what,
+                           fmt::format("{} events within {:.2g} s find no rest: a law without events from here on",
+                                       restless_events, span)});
+    out_.regularised.push_back(what);
+    std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
   }
 
   // From explicit to implicit when stability holds the steps down, and back if that did not pay.
@@ -407,6 +458,11 @@ class Loop {
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
   double explicit_step_ = 0, trial_begin_ = 0;
+  struct Recent {
+    double time;
+    std::vector<std::size_t> fired;
+  };
+  std::deque<Recent> recent_;
   bool at_begin_ = false;
   std::int64_t checks_ = 0;
 };

@@ -32,7 +32,7 @@ class RunExtension : public OdeSystem {
 
 struct RunOptions {
   double tolerance = 1e-8;      // local, over the scale of each state
-  std::string method = "auto";  // auto, work, dopri5, dop853, esdirk, bdf, adams
+  std::string method = "auto";  // auto or one that method_named() knows
   double until = 1;             // [s]
   double budget = 300;          // processor time [s]
   const std::atomic<bool>* interrupted = nullptr;
@@ -67,10 +67,14 @@ class StepView {
   std::span<const double> at(double time);
   const Snapshot& snapshot(double time) { return equations_.snapshot(time, at(time)); }
   Equations& equations() { return equations_; }
+  // The step is the first one after the start, an event or an edge: what was seen at its begin before may have jumped.
+  bool begins_anew() const { return anew_; }
+  void set_anew(bool anew) { anew_ = anew; }
 
  private:
   Equations& equations_;
   std::size_t size_;
+  bool anew_ = true;
   Stepper* stepper_ = nullptr;
   std::vector<double> scratch_;
 };
@@ -89,6 +93,7 @@ struct RunOutcome {
   double t = 0;
   std::vector<double> state;
   std::vector<Event> events;
+  std::vector<std::string> regularised;  // what lost its events because they found no rest
   RunStatistics statistics;
 };
 

@@ -402,7 +402,7 @@ class SceneReader {
       } else {
         scene_.effects.*(known->flag) = entry.value.flag;
         said_.insert(entry.key);
-        if (entry.value.flag && known->where_given && !has_parameters(scene_, *known) && unreadable_.empty())
+        if (entry.value.flag && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene_, *known) && unreadable_.empty())
           refuse(entry.at, fmt::format("[effects]: {} = true, but no component has parameters for it; give {}, or drop "
                                        "the line",
                                        entry.key, known->parameters));
@@ -424,7 +424,7 @@ class SceneReader {
   // What the file does not mention is on where there are parameters for it.
   void complete_effects() {
     for (const EffectFlag& effect : effect_flags())
-      if (effect.where_given && !said_.count(effect.name))
+      if (effect.unsaid == EffectFlag::Unsaid::where_given && !said_.count(effect.name))
         scene_.effects.*(effect.flag) = has_parameters(scene_, effect);
   }
   std::vector<std::string> elastic_names() const {
@@ -580,7 +580,8 @@ const Section* Scene::find(const std::string& name) const {
 }
 
 const std::vector<std::string>& methods_of(const std::string& model) {
-  static const std::vector<std::string> reduced = {"auto", "work", "dop853", "dopri5", "esdirk", "bdf", "adams"};
+  static const std::vector<std::string> reduced = {"auto",  "work",    "dopri5", "verner6", "dop853", "fehlberg8",
+                                                   "adams", "esdirk3", "esdirk", "esdirk5", "bdf"};
   static const std::vector<std::string> multibody = {
       "auto",   "RungeKuttaMerson",   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2",
       "Verlet", "SemiExplicitEuler2", "ExplicitEuler",      "CPodes"};
@@ -602,9 +603,9 @@ const std::vector<Key>& run_keys() {
        .type = KeyType::text,
        .fallback = "\"auto\"",
        .doc = "integrator; work: the work equation over the angle (rigid, no torque over time)",
-       .choices = {"auto", "work", "dopri5", "dop853", "esdirk", "bdf", "adams", "RungeKuttaMerson",
-                   "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2", "Verlet", "SemiExplicitEuler2", "ExplicitEuler",
-                   "CPodes"}},
+       .choices = {"auto", "work", "dopri5", "verner6", "dop853", "fehlberg8", "adams", "esdirk3", "esdirk", "esdirk5",
+                   "bdf", "RungeKuttaMerson", "RungeKuttaFeldberg", "RungeKutta3", "RungeKutta2", "Verlet",
+                   "SemiExplicitEuler2", "ExplicitEuler", "CPodes"}},
       {.name = "model",
        .type = KeyType::text,
        .fallback = "\"reduced\"",

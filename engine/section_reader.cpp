@@ -79,7 +79,8 @@ bool is_number(const DocumentValue& v) { return v.type == Type::integer || v.typ
 // Unit of the first column of a curve, by what it is given over.
 std::string unit_over(const std::string& over) {
   if (over == "time") return "s";
-  if (over == "angle" || over == "swing") return "rad";
+  if (over == "angle" || over == "swing" || over == "twist") return "rad";
+  if (over == "speed ratio") return "1";
   if (over == "speed") return "rad/s";
   return "m";  // travel
 }

@@ -86,13 +86,19 @@ class Stepper {
 enum class Method {
   dormand_prince_54,   // explicit, order 5
   dormand_prince_853,  // explicit, order 8
-  esdirk_43,           // implicit, L-stable, order 4 (SUNDIALS ARKStep)
+  verner_65,           // explicit, order 6
+  fehlberg_87,         // explicit, order 8; blind to rates that depend on time alone
+  esdirk_32,           // implicit, L-stable, order 3 (SUNDIALS ARKStep)
+  esdirk_43,           // order 4
+  esdirk_54,           // order 5
   bdf,                 // implicit, multistep, order 1…5 (SUNDIALS CVODE)
   adams,               // multistep, order 1…12 (SUNDIALS CVODE, fixed-point iteration)
   work_equation        // rigid machines over their angle (work_stepper.h)
 };
 
 std::string_view name_of(Method method);
+// By the name that scenes use; "auto" begins with dop853. Throws std::invalid_argument in words.
+Method method_named(const std::string& name);
 std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorControl control);
 
 }  // namespace kurbel

@@ -413,6 +413,9 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
         "the machine is elastic ({} coordinates; effects: {}), and the work equation is that of one angle; "
         "switch the elasticity off or choose another method",
         model->free_shafts + model->twist_count(), model->effects.describe());
+  if (!model->relations.empty())
+    return fmt::format("\"{}\" ties shafts only while the machine runs; choose another method",
+                       model->network.relations.front().component);
   if (model->free_shafts != 1)
     return "a prescribed speed leaves no coordinate free; replace it by a motor or choose another method";
   if (!model->own_states.empty())

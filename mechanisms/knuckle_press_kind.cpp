@@ -35,7 +35,12 @@ Kind knuckle_press_kind() {
           "crank and rod work a knee joint between an upper link on a fixed bearing and a lower link to the ram; "
           "x runs along the stroke, y 90 deg ahead of it, both from the crank axis; φ = 0 with the crank along x",
       .keys = joined(
-          {{{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
+          {{{.name = "radius",
+             .unit = "m",
+             .domain = positive,
+             .doc = "crank radius r",
+             .required = true,
+             .effect = "variable_inertia"},
             {.name = "rod", .unit = "m", .domain = positive, .doc = "from the crank pin to the knee", .required = true},
             {.name = "bearing_x",
              .unit = "m",

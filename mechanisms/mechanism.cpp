@@ -78,7 +78,7 @@ Mechanism::Mechanism(std::string component, const MechanismData& what)
       travel(travel_of_turn(*reduced)) {}
 
 bool Mechanism::has_weight() const {
-  return std::visit([](const auto& d) { return d.gravity != 0; }, data);
+  return !weightless && std::visit([](const auto& d) { return d.gravity != 0; }, data);
 }
 
 bool MechanismMaker::directional() const {
@@ -123,10 +123,12 @@ std::vector<std::pair<std::string, Account>> MechanismMaker::further_accounts() 
 }
 
 std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) const {
-  if (!effects.joint_friction || !mechanism_.joints) return nullptr;
-  Mechanism rough = mechanism_;
-  rough.joint_friction = true;
-  return std::make_shared<MechanismMaker>(std::move(rough));
+  Mechanism changed = mechanism_;
+  changed.joint_friction = effects.joint_friction && mechanism_.joints;
+  changed.weightless = !effects.gravity;
+  changed.mean_inertia = !effects.variable_inertia;
+  if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia) return nullptr;
+  return std::make_shared<MechanismMaker>(std::move(changed));
 }
 
 void MechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
@@ -178,7 +180,8 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
     const double omega = p.at.gain * now.speed[p.at.shaft];
     const double phi = angle_of(p.at, now);
     const auto here = p.mechanism.reduced->at(phi);
-    const auto [inertia, slope] = here.inertia();
+    auto [inertia, slope] = here.inertia();
+    if (p.mechanism.mean_inertia) inertia = p.mechanism.travel.mean_inertia, slope = 0;
     double torque = -0.5 * slope * omega * omega;
     if (p.has_weight) {
       const double weight = here.gravity_torque().value;
@@ -277,7 +280,8 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
   for (const Placed& p : placed_) {
     const double omega = p.at.gain * now.speed[p.at.shaft], phi = angle_of(p.at, now);
     const auto here = p.mechanism.reduced->at(phi);
-    const auto [slope, curvature] = here.inertia_derivative();
+    auto [slope, curvature] = here.inertia_derivative();
+    if (p.mechanism.mean_inertia) slope = curvature = 0;
     const D angle = D::input(phi, 0), speed = D::input(omega, 1);
     D torque = -0.5 * angle.chain(slope, curvature) * speed * speed;
     if (p.has_weight) {
@@ -415,8 +419,11 @@ void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) co
 
 double MechanismPool::kinetic_energy_of_bodies(const Instant& now) const {
   double sum = 0;
-  for (const Placed& p : placed_)
-    sum += p.mechanism.bodies->kinetic_energy(angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft]);
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft];
+    sum += p.mechanism.mean_inertia ? 0.5 * p.mechanism.travel.mean_inertia * omega * omega
+                                    : p.mechanism.bodies->kinetic_energy(angle_of(p.at, now), omega);
+  }
   return sum;
 }
 

@@ -36,6 +36,8 @@ struct Mechanism {
   double phase = 0;                                  // added to the shaft's angle [rad]
   std::shared_ptr<const SliderCrankStatics> joints;  // of a slider-crank whose joints have friction; else null
   bool joint_friction = false;                       // is an effect that is on
+  bool weightless = false;                           // the effect gravity is off
+  bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
 
   bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
   bool has_weight() const;
@@ -56,6 +58,7 @@ class MechanismMaker final : public ShaftElementMaker {
   double least_inertia() const override { return mechanism_.travel.least_inertia; }
   double cycle() const override;
   InertiaAt inertia_at(double angle) const override {
+    if (mechanism_.mean_inertia) return {mechanism_.travel.mean_inertia, 0};
     const auto [value, slope] = mechanism_.reduced->inertia(angle);
     return {value, slope};
   }

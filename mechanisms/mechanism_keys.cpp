@@ -56,7 +56,8 @@ Key gravity_key() {
           .unit = "m/s2",
           .fallback = "\"0 m/s2\"",
           .domain = not_negative,
-          .doc = "0: weight is neglected"};
+          .doc = "0: weight is neglected",
+          .effect = "gravity"};
 }
 Key phase_key() {
   return {.name = "phase",

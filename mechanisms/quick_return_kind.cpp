@@ -35,7 +35,12 @@ Kind quick_return_kind() {
           "crank and slotted lever that drive a ram: shaper (pivot_distance > radius) or Whitworth (pivot_distance < "
           "radius); φ = 0 with the crank along the stroke",
       .keys = joined(
-          {{{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
+          {{{.name = "radius",
+             .unit = "m",
+             .domain = positive,
+             .doc = "crank radius r",
+             .required = true,
+             .effect = "variable_inertia"},
             {.name = "pivot_distance",
              .unit = "m",
              .domain = positive,

@@ -45,7 +45,12 @@ Kind slider_crank_kind() {
       .name = "slider-crank",
       .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
       .keys =
-          {{.name = "radius", .unit = "m", .domain = positive, .doc = "crank radius r", .required = true},
+          {{.name = "radius",
+            .unit = "m",
+            .domain = positive,
+            .doc = "crank radius r",
+            .required = true,
+            .effect = "variable_inertia"},
            {.name = "rod",
             .unit = "m",
             .domain = positive,

@@ -145,7 +145,7 @@ void find_meshes(const LinearDrive& drive, Excitations& found) {
   const Model& m = *drive.model;
   for (const Section& section : m.scene.components) {
     if (!section.kind || section.kind->name != "gearbox" || !section.has("stages")) continue;
-    double ratio = std::abs(m.node_ratio[at(m.network.ports.at(section.name).in)]);
+    double ratio = m.scale_ratio[at(m.network.ports.at(section.name).in)];
     int k = 0;
     for (const Section& stage : section["stages"].sections) {
       if (!stage.has("teeth") || stage["teeth"].numbers.size() != 2) continue;

@@ -79,7 +79,7 @@ class SliderLoads {
     network.put_made(node, component, element_of(whole, component).element, {}, 0);
     Scene bare;
     bare.file = scene.file;
-    return compile_network(std::move(network), bare, Effects{});
+    return compile_network(std::move(network), bare, rigid_effects());
   }
 
   RigidMachine machine_;

@@ -9,6 +9,7 @@
 
 #include "drivetrain/kinds.h"
 #include "engine/scene.h"
+#include "engine/sequence_reader.h"
 #include "engine/units.h"
 #include "mechanisms/kinds.h"
 
@@ -172,6 +173,22 @@ const std::vector<Kind>& all_kinds() {
   return kinds;
 }
 
+namespace {
+
+const char* unsaid_text(const EffectFlag& effect) {
+  switch (effect.unsaid) {
+    case EffectFlag::Unsaid::off:
+      return "off";
+    case EffectFlag::Unsaid::where_given:
+      return "on where the scene gives that";
+    case EffectFlag::Unsaid::part_of_machine:
+      break;
+  }
+  return "on, even in the rigid machine; off by name alone";
+}
+
+}  // namespace
+
 std::string keys_in_markdown() {
   std::string text =
       "# Keys of a scene\n\n"
@@ -188,9 +205,21 @@ std::string keys_in_markdown() {
       "| `title`, `description` | texts |\n"
       "| `line` | names of the components in the order of the drive |\n"
       "| `[[branch]]` | `from = \"component\"` (`\"gearbox.out\"`) and `line = [...]` |\n"
-      "| `[effects]` | `elasticity = true`, `false` or a list of components; `joint_friction = true` or `false` |\n\n"
-      "## `[run]`\n\n";
-  text += rows(run_keys());
+      "| `[effects]` | `elasticity = true`, `false` or a list of components; the effects below, `true` or `false` |\n"
+      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n\n"
+      "## `[effects]`\n\n"
+      "| effect | what it adds | needs | unless mentioned |\n|---|---|---|---|\n"
+      "| `elasticity` | couplings and shafts twist | a stiffness | off |\n";
+  for (const EffectFlag& effect : effect_flags())
+    text += fmt::format("| `{}` | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters, unsaid_text(effect));
+  text +=
+      "\n## Steps of `[sequence]`\n\n"
+      "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "
+      "of = "
+      "\"press\", set = \"brake\" }]`. `set` names the components: clutches, brakes and motors take any value of `to`, "
+      "everything else is on above one half.\n\n";
+  text += rows(sequence_step_keys());
+  text += "\n## `[run]`\n\n" + rows(run_keys());
   text +=
       "| `output` | list of names | all | | components in trajectory.csv |\n"
       "| `start` | \"rest\", \"equilibrium\" or a table | `\"rest\"` | | see below |\n\n"

@@ -26,14 +26,11 @@ class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
       : options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
-    if (effects.joint_friction)
-      found_.notes.push_back(
-          "friction in the mechanisms' joints is no linear effect: left out of modes and forced "
-          "response, counted in the simulated torque");
-    if (effects.bearing_friction)
-      found_.notes.push_back("bearing friction is no linear effect: left out of modes and forced response");
-    if (effects.transients)
-      found_.notes.push_back("motors count by their static characteristics in modes and forced response");
+    for (const EffectFlag& flag : effect_flags())
+      if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine)
+        found_.notes.push_back(
+            fmt::format("{} left out of modes and forced response, counted in the simulated torque", flag.words));
+    if (!scene.sequence.steps.empty()) found_.notes.push_back("clutches count as locked and brakes as released");
     found_.title = scene.title;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
@@ -41,7 +38,9 @@ class Study {
   }
 
   static Effects linear(Effects effects) {
-    effects.joint_friction = effects.bearing_friction = effects.transients = false;
+    for (const EffectFlag& flag : effect_flags())
+      if (flag.unsaid != EffectFlag::Unsaid::part_of_machine) effects.*(flag.flag) = false;
+    effects.locked = true;
     return effects;
   }
 
@@ -352,8 +351,7 @@ class Study {
       }
       // A coupling hammers where its torque changes sign; crankshafts do so by nature, idle ends carry no mean torque.
       const std::size_t j = found_.limits.size();
-      const double rated =
-          model_->torque_scale / std::abs(model_->node_ratio[at(model_->network.joints[at(e.joint)].a)]);
+      const double rated = model_->torque_scale / model_->scale_ratio[at(model_->network.joints[at(e.joint)].a)];
       means_judge_.push_back((!s || !s->kind || s->kind->name == "coupling") &&
                              std::abs(found_.here.joints[j].mean) > 0.02 * rated);
       found_.limits.push_back(limits);

@@ -174,7 +174,7 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   settings.angle = link_start_angle(m);
   if (node < 0) node = m.reduction_node;
   const double gain = m.gain_of_node[at_index(node)];
-  const double scale = m.speed_scale * std::abs(m.node_ratio[at_index(node)]);
+  const double scale = m.speed_scale * m.scale_ratio[at_index(node)];
   const std::size_t speed = equations.speed_index(m.shaft_of_node[at_index(node)]);
   RunOptions run{
       .tolerance = 1e-9, .method = "auto", .until = limit, .budget = 20, .interrupted = interrupted, .progress = {}};
@@ -221,7 +221,7 @@ class RatioTrial {
   RatioTrial(const Scene& scene, std::string gearbox, double target, double limit, const std::atomic<bool>* interrupted)
       : scene_(scene), gearbox_(std::move(gearbox)), target_(target), limit_(limit), interrupted_(interrupted) {
     network_ = always_on(scene, ignored_);
-    const auto model = compile_network(network_, scene, Effects{});
+    const auto model = compile_network(network_, scene, rigid_effects());
     node_ = network_.ports.at(gearbox_).out;
     target_ *= model->node_ratio[at_index(node_)];
     present_ = 1;
@@ -232,7 +232,7 @@ class RatioTrial {
   double operator()(double ratio) {
     Network net = network_;
     net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
-    const auto model = compile_network(std::move(net), scene_, Effects{});
+    const auto model = compile_network(std::move(net), scene_, rigid_effects());
     const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_);
     const double time = run.reached ? run.time : HUGE_VAL;
     tried_.emplace_back(ratio, time);

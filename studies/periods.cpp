@@ -24,7 +24,8 @@ std::optional<double> last_switch_off(const Model& model, const RunOutcome& outc
     last = std::max(last, off);
   }
   for (const Network::Node& node : model.network.nodes)
-    if (node.prescribed >= 0) return {};
+    if (node.prescribed >= 0 && !model.network.prescribed[static_cast<std::size_t>(node.prescribed)].is_nothing())
+      return {};
   return any && last > 0 ? std::optional(last) : std::nullopt;
 }
 

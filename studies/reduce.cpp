@@ -144,7 +144,7 @@ class Reducer {
     if (options_.to.empty()) return;
     const std::string& to = options_.to;
     if (to.ends_with(".slider") || to.ends_with(".rocker")) {
-      slider_ = std::make_unique<SliderRatio>(compile(model().scene, Effects{}), to.substr(0, to.size() - 7));
+      slider_ = std::make_unique<SliderRatio>(compile(model().scene, rigid_effects()), to.substr(0, to.size() - 7));
       if (!slider_->found() || slider_->rocks() != to.ends_with(".rocker")) refuse_target(model(), to);
       r_.to = to;
       r_.to_output = true;

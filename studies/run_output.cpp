@@ -88,7 +88,11 @@ Json result_json(const Result& r) {
     if (state.angle_out) j["final"][name].update({{"angle_out", *state.angle_out}, {"speed_out", *state.speed_out}});
   }
   j["events"] = Json::array();
-  for (const Event& e : r.events) j["events"].push_back({{"t", e.t}, {"component", e.component}, {"what", e.what}});
+  for (const Event& e : r.events) {
+    Json event = {{"t", e.t}, {"component", e.component}, {"what", e.what}};
+    if (!e.from.empty()) event["from"] = e.from;
+    j["events"].push_back(event);
+  }
   j["periods"] = {{"run_up_end", optional_json(r.periods.run_up_end)},
                   {"run_down_begin", optional_json(r.periods.run_down_begin)},
                   {"standstill", optional_json(r.periods.standstill)},

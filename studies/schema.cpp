@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene.h"
+#include "engine/sequence_reader.h"
 #include "engine/units.h"
 #include "studies/kinds.h"
 
@@ -166,6 +167,12 @@ Json run_schema() {
   return table_of(properties);
 }
 
+Json sequence_schema() {
+  Json step = properties_of(sequence_step_keys());
+  step["set"] = {{"anyOf", {text(), list_of(text())}}, {"description", "the components that the step sets"}};
+  return table_of({{"steps", list_of(table_of(step, {"set"}))}, {"repeat", {{"type", "boolean"}}}}, {"steps"});
+}
+
 }  // namespace
 
 std::string scene_schema() {
@@ -177,6 +184,9 @@ std::string scene_schema() {
   from["description"] = "component that the branch begins at; of one with two shafts \"gearbox.in\" or \"gearbox.out\"";
   Json elasticity = {{"anyOf", {{{"type", "boolean"}}, list_of(text())}},
                      {"description", "true, false, or the components that are elastic"}};
+  Json effects = {{"elasticity", elasticity}};
+  for (const EffectFlag& effect : effect_flags())
+    effects[effect.name] = {{"type", "boolean"}, {"description", effect.adds}};
   const Json branch = table_of({{"from", from}, {"line", names}}, {"from", "line"});
 
   Json definitions = Json::object(), kinds = Json::array();
@@ -199,7 +209,8 @@ std::string scene_schema() {
                    {"description", text()},
                    {"line", line},
                    {"branch", list_of(branch)},
-                   {"effects", table_of({{"elasticity", elasticity}, {"joint_friction", {{"type", "boolean"}}}})},
+                   {"effects", table_of(effects)},
+                   {"sequence", sequence_schema()},
                    {"run", run_schema()}}},
                  {"required", {"line"}},
                  {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},

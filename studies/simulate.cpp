@@ -43,6 +43,8 @@ class Figures {
     collect_cycles();
     collect_periods();
     collect_work();
+    collect_heat();
+    collect_stopping();
   }
 
  private:
@@ -76,6 +78,8 @@ class Figures {
     if (run_.outcome.t <= 0) return;
     for (std::size_t i = 0; i < model_.torque_joints.size(); ++i)
       for (const bool spring : {false, true}) {
+        const int elastic = model_.torque_joints[i].elastic;
+        if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
         const double square = run_.outcome.state[equations_.square_index(i, spring)];
         add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component,
             std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
@@ -87,10 +91,44 @@ class Figures {
       if (model_.network.components.size() > 60 && component != link()) continue;
       const Network::Ports& ports = model_.network.ports.at(component);
       const int node = ports.out;
-      const double ratio = std::abs(model_.node_ratio[at(node)]);
+      const double ratio = model_.scale_ratio[at(node)];
       add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
       add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
           "rad/s", model_.speed_scale * ratio, run_.outcome.t);
+    }
+  }
+  // Heat of what slips.
+  void collect_heat() {
+    for (const ElasticJoint& e : model_.elastic)
+      if (e.slips)
+        add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
+            energy_scale(), run_.outcome.t);
+  }
+  // From the signal that makes the reduction link stop to its rest.
+  void collect_stopping() {
+    const std::vector<Event>& events = run_.outcome.events;
+    const auto is_command = [&](const Event& e) {
+      return std::any_of(model_.commands.begin(), model_.commands.end(), [&](const CommandTarget& target) {
+        return target.component == e.component && (e.what.starts_with("is set") || e.what.starts_with("goes to"));
+      });
+    };
+    const std::string name =
+        model_.node_label(model_.shafts[at(model_.shaft_of_node[at(model_.reduction_node)])].reference);
+    for (std::size_t k = 1; k < events.size(); ++k) {
+      if (events[k].component != name || events[k].what != "comes to rest and is held") continue;
+      // Back to the signal: the first command after the clutch last locked, or since the link moved.
+      std::size_t begin = k;
+      while (begin > 0 && events[begin - 1].what != "locks" &&
+             !(events[begin - 1].component == name && events[begin - 1].what.starts_with("moves")))
+        --begin;
+      const auto told =
+          static_cast<std::size_t>(std::find_if(events.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                events.begin() + static_cast<std::ptrdiff_t>(k), is_command) -
+                                   events.begin());
+      if (told == k) continue;
+      add("stopping_time." + link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
+      add("stopping_angle." + link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
+      return;
     }
   }
   // Of the last complete cycle of steady motion, or the last one before run-down.
@@ -140,6 +178,7 @@ class Simulation {
     if (options.accuracy) settings_.accuracy = *options.accuracy;
     if (options.until) settings_.until = *options.until;
     if (options.method) settings_.method = *options.method;
+    if (options.budget) settings_.budget = std::min(settings_.budget, *options.budget);
     result_.label = label;
   }
 
@@ -300,12 +339,14 @@ class Simulation {
     fill_energy(*run.energy);
     if (!run.outcome.state.empty()) fill_final(run.outcome);
     note_stall(run.outcome);
+    for (const std::string& what : run.outcome.regularised)
+      result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");
   }
   // A reduction link that is held at the end although something drives.
   void note_stall(const RunOutcome& outcome) {
     const Model& m = *model_;
     const std::size_t shaft = at(m.shaft_of_node[at(m.reduction_node)]);
-    if (outcome.state.empty() || !equations_.at_standstill(shaft)) return;
+    if (outcome.state.empty() || !equations_.at_standstill(shaft) || !m.commands.empty()) return;
     const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
     double drive = 0;  // on the reduction link
     for (std::size_t e = 0; e < m.network.elements.size(); ++e)

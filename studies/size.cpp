@@ -339,8 +339,9 @@ class Sizer {
     }
     s_.reached.push_back(std::move(exact));
     const Scene sized = with_flywheel(scene_, s_.flywheel, flywheel, s_.link);
-    run("rigid, simulated", sized_by, flywheel, sized, {}, cycle);
+    run("rigid, simulated", sized_by, flywheel, sized, rigid_effects(), cycle);
     Effects elastic = scene_.effects;
+    elastic.locked = true;
     if (elastic.describe() == "none") elastic.all_elastic = true;
     const bool has_joints = std::any_of(model().network.joints.begin(), model().network.joints.end(),
                                         [](const Network::Joint& j) { return j.element != nullptr; });

@@ -110,7 +110,7 @@ class DriveQuadratures final : public RunExtension {
     const Model& m = equations_.model();
     for (const Drive& drive : drives_) {
       const int node = m.network.elements[drive.elements.front()].node;
-      const double torque = m.torque_scale / std::abs(m.node_ratio[at_index(node)]);
+      const double torque = m.torque_scale / m.scale_ratio[at_index(node)];
       control.scale.push_back(torque / m.speed_scale);  // per radian of the link
       control.scale.push_back(torque * torque / m.speed_scale);
     }
@@ -155,7 +155,7 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
     const double gain = m.gain_of_node[at_index(shaft.node)];
     ExtremeOf speed{.name = "max_speed." + shaft.name,
                     .unit = "rad/s",
-                    .scale = m.speed_scale * std::abs(m.node_ratio[at_index(shaft.node)]),
+                    .scale = m.speed_scale * m.scale_ratio[at_index(shaft.node)],
                     .which = ExtremeOf::Which::maximum,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
@@ -422,7 +422,7 @@ class Search {
       throw std::invalid_argument(
           "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
           "free; drop the option");
-    unit_ = out_.model->torque_scale / std::abs(out_.model->node_ratio[at_index(added_node_)]);
+    unit_ = out_.model->torque_scale / out_.model->scale_ratio[at_index(added_node_)];
     ReturnMap::Image guess;
     for (const double faster : {1.0, 1.2, 1.5}) {  // a machine that just stops at its load's peak
       guess = map_->approach(faster * speed);
@@ -484,7 +484,7 @@ class Search {
   // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
   double first_torque(double speed) const {
     if (!study_.diagram) return 0;
-    RigidMachine machine(compile_network(network_, scene_, Effects{}));
+    RigidMachine machine(compile_network(network_, scene_, rigid_effects()));
     const double net = MeanCharacteristic(machine, speed < 0 ? -1 : 1).at(speed).net();
     return -net / machine.model().node_ratio[at_index(added_node_)];
   }
@@ -608,7 +608,7 @@ class Study {
   }
 
   SteadyStudy run() {
-    rigid_ = compile_network(always_on(scene_, switched_), scene_, Effects{});
+    rigid_ = compile_network(always_on(scene_, switched_), scene_, rigid_effects());
     out_.title = scene_.title.empty() ? scene_.file : scene_.title;
     out_.scene_file = scene_.file;
     out_.link = rigid_->node_label(rigid_->reduction_node);
@@ -659,11 +659,14 @@ class Study {
       throw std::invalid_argument(family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link));
   }
 
+  // Steady motion is that of the machine coupled: clutches locked, brakes released.
   void find_cycle(const Effects& effects) {
     const bool stopped = options_.interrupted && options_.interrupted->load();
     if (stopped) return incomplete("interrupted");
     progress("steady cycle with effects: " + effects.describe(), 0);
-    SteadyCycle cycle = Search(scene_, effects, out_, options_).run();
+    Effects running = effects;
+    running.locked = true;
+    SteadyCycle cycle = Search(scene_, running, out_, options_).run();
     log(fmt::format(
         "{}: {} unknowns; {} after {} rounds, {} with derivative; cost {:.1f} of {:.0f} cycles allowed; "
         "residual {:.1e}; {:.3g} ms",

@@ -28,7 +28,7 @@
   const plots = [];
 
   // A curve that comes back on itself, such as a polar diagram, is read point by point.
-  const isLocus = plot => plot.equalAxes || plot.series.some(s => s.x.some((x, i) => i && x < s.x[i - 1]));
+  const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || s.x.some((x, i) => i && x < s.x[i - 1]));
 
   function tracesOf(plot) {
     const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
@@ -38,7 +38,8 @@
         mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
         line: {color: colour(s.role), width: s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
       },
-      hovertemplate: `${reading}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
+      ...s.labels ? {text: s.labels.map(text => text.replace(/[<&]/g, ''))} : {},
+      hovertemplate: `${s.labels ? '%{text}<br>' : ''}${reading}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
     }));
     if (plot.marks.length) traces.push({
       x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => m.text.replace(/[<&]/g, '')), name: 'events', yaxis: 'y2', type: 'scatter',

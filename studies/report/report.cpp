@@ -137,6 +137,7 @@ void write(Writer& w, const Plot& plot) {
       w.field("line", series.line);
       w.field("x", x, 8);
       w.field("y", y, 7);
+      if (series.labels.size() == x.size() && !x.empty()) w.field("labels", series.labels);
     });
   });
   // Marks beyond some hundreds run into each other.

@@ -37,9 +37,10 @@ struct Series {
   std::string name;
   Role role = Role::elastic;
   std::vector<double> x, y;
-  bool dashed = false;  // references
-  bool points = false;  // markers beside the line
-  bool line = true;     // false: markers alone
+  bool dashed = false;                   // references
+  bool points = false;                   // markers beside the line
+  bool line = true;                      // false: markers alone
+  std::vector<std::string> labels = {};  // what a point is, for those who point at it; none, or one each
 };
 
 // Something that happened, on the x-axis.

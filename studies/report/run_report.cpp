@@ -160,15 +160,16 @@ void note_marks(Plot& plot) {
 
 Table events_table(const Result& r) {
   Table table{.title = fmt::format("Events, {} model ({})", r.label, r.events.size()),
-              .columns = {"component", "what", "time [s]"},
+              .columns = {"component", "from", "to", "time [s]"},
               .rows = {},
               .folded = true,
-              .text_columns = 2};
+              .text_columns = 3};
   constexpr std::size_t most = 500;
   for (std::size_t i = 0; i < r.events.size() && i < most; ++i)
-    table.rows.push_back({r.events[i].component, r.events[i].what, fmt::format("{:.9g}", r.events[i].t)});
+    table.rows.push_back(
+        {r.events[i].component, r.events[i].from, r.events[i].what, fmt::format("{:.9g}", r.events[i].t)});
   if (r.events.size() > most)
-    table.rows.push_back({"…", fmt::format("{} more in summary.json", r.events.size() - most), ""});
+    table.rows.push_back({"…", "", fmt::format("{} more in summary.json", r.events.size() - most), ""});
   return table;
 }
 

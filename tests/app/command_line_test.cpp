@@ -164,7 +164,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   const struct {
     std::string option, value, said;
   } cases[] = {
-      {"--effects", "elastic", "allowed: none, elasticity, elasticity:COUPLING"},
+      {"--effects", "elastic", "allowed: \"none\", \"elasticity\", \"elasticity:COUPLING"},
       {"--effects", "elasticity:copling",
        "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
       {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},
@@ -178,7 +178,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "fine", "--accuracy"},
       {"--accuracy", "nan", "--accuracy"},
       {"--accuracy", "0", "--accuracy"},
-      {"--method", "euler", "allowed: \"auto\", \"work\", \"dop853\", \"dopri5\", \"esdirk\", \"bdf\" or \"adams\""},
+      {"--method", "euler", "allowed: \"auto\", \"work\", \"dopri5\", \"verner6\", \"dop853\", \"fehlberg8\", \"adams\", \"esdirk3\", \"esdirk\", \"esdirk5\" or \"bdf\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
       {"--method", "CPodes",
        "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},

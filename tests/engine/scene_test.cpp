@@ -133,8 +133,13 @@ TEST(Scene, CommandLineEffectsAreParsed) {
 TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   const Scene scene = test::scene_from(base);
   EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }),
-            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: none, elasticity, elasticity:COUPLING,…, "
-            "joint_friction, or two joined by +");
+            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"elasticity\", "
+            "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
+            "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"gravity\" or \"variable_inertia\"; several "
+            "joined by +, or -NAME to take one away");
+  EXPECT_NE(message_of([&] { parse_effects("backlash", scene); }).find("no component of the scene has parameters"),
+            std::string::npos);
+  EXPECT_EQ(parse_effects("-elasticity", scene).describe(), "none");
   EXPECT_EQ(message_of([&] { parse_effects("elasticity:copling", scene); }),
             "effects \"elasticity:copling\": \"copling\" is no component — did you mean \"coupling\"?; allowed: "
             "\"coupling\"");

@@ -73,6 +73,21 @@ Vector twist_at(double t) {
   return {std::exp(s), std::exp(5 * s), s + 1, std::cos(t * t)};
 }
 
+// Kepler's orbit of eccentricity 0.3, from the pericentre.
+void orbit(double, std::span<const double> y, std::span<double> f) {
+  const double r3 = std::pow(y[0] * y[0] + y[1] * y[1], 1.5);
+  f[0] = y[2];
+  f[1] = y[3];
+  f[2] = -y[0] / r3;
+  f[3] = -y[1] / r3;
+}
+Vector orbit_at(double t) {
+  const double e = 0.3;
+  double anomaly = t;  // Kepler's equation E − e sin E = t by Newton's method
+  for (int i = 0; i < 50; ++i) anomaly -= (anomaly - e * std::sin(anomaly) - t) / (1 - e * std::cos(anomaly));
+  const double rate = 1 / (1 - e * std::cos(anomaly)), b = std::sqrt(1 - e * e);
+  return {std::cos(anomaly) - e, b * std::sin(anomaly), -std::sin(anomaly) * rate, b * std::cos(anomaly) * rate};
+}
 void run(Stepper& stepper, double t_end) {
   while (stepper.t() < t_end) stepper.step(t_end);
 }
@@ -86,7 +101,8 @@ double distance(std::span<const double> a, std::span<const double> b) {
 class EveryMethod : public testing::TestWithParam<Method> {
  protected:
   bool is_explicit() const {
-    return GetParam() == Method::dormand_prince_54 || GetParam() == Method::dormand_prince_853;
+    return GetParam() == Method::dormand_prince_54 || GetParam() == Method::dormand_prince_853 ||
+           GetParam() == Method::verner_65 || GetParam() == Method::fehlberg_87;
   }
 };
 class ExplicitMethod : public EveryMethod {};
@@ -94,12 +110,28 @@ class StiffMethod : public EveryMethod {};
 
 constexpr auto named = [](const auto& info) { return std::string(name_of(info.param)); };
 INSTANTIATE_TEST_SUITE_P(Stepper, EveryMethod,
-                         testing::Values(Method::dormand_prince_54, Method::dormand_prince_853, Method::esdirk_43,
+                         testing::Values(Method::dormand_prince_54, Method::verner_65, Method::dormand_prince_853,
+                                         Method::fehlberg_87, Method::esdirk_32, Method::esdirk_43, Method::esdirk_54,
                                          Method::bdf, Method::adams),
                          named);
 INSTANTIATE_TEST_SUITE_P(Stepper, ExplicitMethod,
-                         testing::Values(Method::dormand_prince_54, Method::dormand_prince_853), named);
-INSTANTIATE_TEST_SUITE_P(Stepper, StiffMethod, testing::Values(Method::esdirk_43, Method::bdf), named);
+                         testing::Values(Method::dormand_prince_54, Method::verner_65, Method::dormand_prince_853,
+                                         Method::fehlberg_87),
+                         named);
+INSTANTIATE_TEST_SUITE_P(Stepper, StiffMethod,
+                         testing::Values(Method::esdirk_32, Method::esdirk_43, Method::esdirk_54, Method::bdf), named);
+
+const std::vector<const EmbeddedTable*>& all_tables() {
+  static const std::vector<const EmbeddedTable*> tables = {&dormand_prince_54(), &verner_65(), &dormand_prince_853(),
+                                                           &fehlberg_87()};
+  return tables;
+}
+const EmbeddedTable& table_of(Method method) {
+  return method == Method::dormand_prince_54    ? dormand_prince_54()
+         : method == Method::verner_65          ? verner_65()
+         : method == Method::dormand_prince_853 ? dormand_prince_853()
+                                                : fehlberg_87();
+}
 
 // --- Tables
 // -----------------------------------------------------------------------------------------------------------
@@ -110,20 +142,28 @@ double weighted(const Combination& combination, const Vector& k) {
   return sum;
 }
 
+// What the rounding of the weights leaves open: Verner's are as large as 200.
+double rounding(const Combination& combination) {
+  double sum = 0;
+  for (const Term& term : combination) sum += std::abs(term.weight);
+  return 2e-16 * sum;
+}
+
 TEST(ButcherTables, RowsSumToTheirNodes) {
-  for (const EmbeddedTable* table : {&dormand_prince_54(), &dormand_prince_853()}) {
+  for (const EmbeddedTable* table : all_tables()) {
     ASSERT_EQ(table->row.size(), table->node.size());
     const Vector ones(table->row.size(), 1.0);
     for (std::size_t i = 0; i < table->row.size(); ++i)
-      EXPECT_NEAR(weighted(table->row[i], ones), table->node[i], 2e-14) << table->name << " row " << i;
-    EXPECT_NEAR(weighted(table->error, ones), 0, 1e-15);
-    EXPECT_NEAR(weighted(table->rough_error, ones), 0, 1e-15);
+      EXPECT_NEAR(weighted(table->row[i], ones), table->node[i], 2e-14 + rounding(table->row[i]))
+          << table->name << " row " << i;
+    EXPECT_NEAR(weighted(table->error, ones), 0, 1e-15 + rounding(table->error)) << table->name;
+    EXPECT_NEAR(weighted(table->rough_error, ones), 0, 1e-15) << table->name;
   }
 }
 
 // Σ b cᵏ = 1/(k+1), Σ b A cᵏ = 1/((k+1)(k+2)) and Σ b A A cᵏ = 1/((k+1)(k+2)(k+3)) as far as the order reaches.
 TEST(ButcherTables, SolutionMeetsTheOrderConditionsOfChains) {
-  for (const EmbeddedTable* table : {&dormand_prince_54(), &dormand_prince_853()}) {
+  for (const EmbeddedTable* table : all_tables()) {
     const std::size_t s = table->stages;
     const auto through_stages = [&](const Vector& x) {
       Vector sums(s);
@@ -136,7 +176,8 @@ TEST(ButcherTables, SolutionMeetsTheOrderConditionsOfChains) {
       double expected = 1;
       for (std::size_t depth = 1; k + depth <= table->order && depth <= 4; ++depth) {
         expected /= static_cast<double>(k + depth);
-        EXPECT_NEAR(weighted(table->row[s], power), expected, 1e-14) << table->name << " k=" << k << " depth=" << depth;
+        EXPECT_NEAR(weighted(table->row[s], power), expected, 1e-14 + rounding(table->row[s]))
+            << table->name << " k=" << k << " depth=" << depth;
         power = through_stages(power);
       }
     }
@@ -168,16 +209,21 @@ LocalErrors local_errors(Method method, TestSystem& system, Exact exact, double 
 }
 
 TEST_P(ExplicitMethod, LocalErrorsOfStepAndDenseOutputShowTheirOrders) {
-  const bool high = GetParam() == Method::dormand_prince_853;  // longer steps than these show up to one order too much
-  TestSystem system(4, twist);
-  const LocalErrors coarse = local_errors(GetParam(), system, twist_at, 0.5, high ? 0.08 : 0.03);
-  const LocalErrors fine = local_errors(GetParam(), system, twist_at, 0.5, high ? 0.04 : 0.015);
-  EXPECT_NEAR(std::log2(coarse.end / fine.end), high ? 9 : 6, 0.6);
-  EXPECT_NEAR(std::log2(coarse.middle / fine.middle), high ? 8 : 5, 0.6);
+  // Longer steps than these show up to one order too much; Fehlberg's error on the twist is lost in round-off before.
+  const bool round = GetParam() == Method::fehlberg_87;
+  const auto order = static_cast<double>(table_of(GetParam()).order);
+  const double h = round ? 0.25 : order == 8 ? 0.08 : order == 6 ? 0.05 : 0.03;
+  TestSystem system(4, round ? orbit : twist);
+  const auto exact = round ? orbit_at : twist_at;
+  const LocalErrors coarse = local_errors(GetParam(), system, exact, 0.5, h);
+  const LocalErrors fine = local_errors(GetParam(), system, exact, 0.5, h / 2);
+  EXPECT_NEAR(std::log2(coarse.end / fine.end), order + 1, 0.6);
+  // The dense output is an order below the step's, but for Verner's.
+  EXPECT_NEAR(std::log2(coarse.middle / fine.middle), GetParam() == Method::verner_65 ? order + 1 : order, 0.6);
 }
 
 // y″ = −y + sin 3t: linear, so Newton's iteration is exact at any tolerance. The dense output is a cubic.
-TEST(Stepper, EsdirkLocalErrorsShowOrderFourAndItsDenseOutputThree) {
+TEST(Stepper, EsdirkLocalErrorsShowTheirOrderAndThatOfTheDenseOutput) {
   TestSystem system(2, [](double t, auto y, auto f) {
     f[0] = y[1];
     f[1] = -y[0] + std::sin(3 * t);
@@ -185,10 +231,58 @@ TEST(Stepper, EsdirkLocalErrorsShowOrderFourAndItsDenseOutputThree) {
   const auto exact = [](double t) {
     return Vector{std::cos(t) - std::sin(3 * t) / 8, -std::sin(t) - 3 * std::cos(3 * t) / 8};
   };
-  const LocalErrors coarse = local_errors(Method::esdirk_43, system, exact, 0.3, 0.1);
-  const LocalErrors fine = local_errors(Method::esdirk_43, system, exact, 0.3, 0.05);
-  EXPECT_NEAR(std::log2(coarse.end / fine.end), 5, 0.6);
-  EXPECT_NEAR(std::log2(coarse.middle / fine.middle), 4, 0.6);
+  const struct {
+    Method method;
+    double order, dense_order;
+  } cases[] = {{Method::esdirk_32, 3, 2}, {Method::esdirk_43, 4, 3}, {Method::esdirk_54, 5, 3}};
+  for (const auto& c : cases) {
+    const LocalErrors coarse = local_errors(c.method, system, exact, 0.3, 0.1);
+    const LocalErrors fine = local_errors(c.method, system, exact, 0.3, 0.05);
+    EXPECT_NEAR(std::log2(coarse.end / fine.end), c.order + 1, 0.6) << name_of(c.method);
+    EXPECT_NEAR(std::log2(coarse.middle / fine.middle), c.dense_order + 1, 0.6) << name_of(c.method);
+  }
+}
+
+// y″ = −y + sin 3t: linear, so that Newton's iteration is exact whatever the tolerance.
+void forced(double t, std::span<const double> y, std::span<double> f) {
+  f[0] = y[1];
+  f[1] = -y[0] + std::sin(3 * t);
+}
+Vector forced_at(double t) { return {std::cos(t) - std::sin(3 * t) / 8, -std::sin(t) - 3 * std::cos(3 * t) / 8}; }
+
+// Error at t = 5 after n equal steps: the tolerance allows any step, the limits dictate it. A first pass leaves the
+// wish for a long step behind, so that even the first step is of full length (and Newton's matrix belongs to it).
+double error_of_equal_steps(Method method, int n, Flow flow, std::size_t size, Vector (*exact)(double)) {
+  constexpr double end = 5;
+  TestSystem system(size, std::move(flow));
+  const auto stepper = make_stepper(method, system, {1e12, Vector(size, 1.0)});
+  stepper->start(0, exact(0));
+  run(*stepper, end);
+  const std::int64_t before = stepper->statistics().steps;
+  stepper->start(0, exact(0));
+  for (int i = 1; i <= n; ++i) stepper->step(end * i / n);
+  EXPECT_EQ(stepper->t(), end);
+  EXPECT_EQ(stepper->statistics().steps - before, n) << name_of(method);
+  return distance(stepper->y(), exact(end));
+}
+
+TEST(Stepper, HalvingEqualStepsShowsTheOrder) {
+  const struct {
+    Method method;
+    int steps;
+    double order;
+  } cases[] = {{Method::dormand_prince_54, 200, 5}, {Method::verner_65, 200, 6}, {Method::dormand_prince_853, 36, 8},
+               {Method::fehlberg_87, 40, 8},        {Method::esdirk_32, 400, 3}, {Method::esdirk_43, 200, 4},
+               {Method::esdirk_54, 100, 5}};
+  for (const auto& c : cases) {
+    const bool implicit = c.order < 6 && c.method != Method::dormand_prince_54;
+    const auto error = [&](int n) {
+      return implicit ? error_of_equal_steps(c.method, n, forced, 2, forced_at)
+                      : error_of_equal_steps(c.method, n, orbit, 4, orbit_at);
+    };
+    const double a = error(c.steps), b = error(4 * c.steps);
+    EXPECT_NEAR(0.5 * std::log2(a / b), c.order, 0.25) << name_of(c.method) << ": " << a << ", " << b;
+  }
 }
 
 struct GlobalErrors {
@@ -218,14 +312,50 @@ TEST(Stepper, GlobalErrorFallsWithTheOrderInTheNumberOfSteps) {
   const struct {
     Method method;
     double coarse, fine, order;
-  } cases[] = {{Method::dormand_prince_54, 1e-6, 1e-10, 5},
-               {Method::dormand_prince_853, 1e-6, 1e-11, 8},
-               {Method::esdirk_43, 1e-5, 1e-10, 4}};
+  } cases[] = {{Method::dormand_prince_54, 1e-6, 1e-10, 5},  {Method::verner_65, 1e-6, 1e-10, 6},
+               {Method::dormand_prince_853, 1e-6, 1e-11, 8}, {Method::fehlberg_87, 1e-6, 1e-11, 8},
+               {Method::esdirk_32, 1e-5, 1e-9, 3},           {Method::esdirk_43, 1e-5, 1e-10, 4},
+               {Method::esdirk_54, 1e-5, 1e-11, 5}};
   for (const auto& c : cases) {
     const GlobalErrors a = global_errors(c.method, c.coarse), b = global_errors(c.method, c.fine);
     EXPECT_NEAR(slope(a.steps, a.end, b.steps, b.end), c.order, 0.2 * c.order) << name_of(c.method);
-    EXPECT_NEAR(slope(a.steps, a.between, b.steps, b.between), c.order, 0.2 * c.order) << name_of(c.method);
+    const double between = c.method == Method::esdirk_54 ? 4 : c.order;  // a cubic between the steps
+    EXPECT_NEAR(slope(a.steps, a.between, b.steps, b.between), between, 0.2 * between) << name_of(c.method);
   }
+}
+
+// Multistep methods choose their order: as the tolerance falls, BDF works its way up to 5, Adams far beyond.
+TEST(Stepper, MultistepErrorsFallWithTheHighOrdersTheyReach) {
+  const auto observed = [](Method method, double coarse, double fine) {
+    const auto solve = [&](double tolerance) {
+      TestSystem system(4, orbit);
+      const auto stepper = make_stepper(method, system, {tolerance, Vector(4, 1.0)});
+      stepper->start(0, orbit_at(0));
+      run(*stepper, 20);
+      return std::pair{static_cast<double>(stepper->statistics().steps), distance(stepper->y(), orbit_at(20))};
+    };
+    const auto [n, a] = solve(coarse);
+    const auto [m, b] = solve(fine);
+    return slope(n, a, m, b);
+  };
+  const double bdf = observed(Method::bdf, 1e-6, 1e-11), adams = observed(Method::adams, 1e-6, 1e-11);
+  EXPECT_GT(bdf, 3.5);
+  EXPECT_LT(bdf, 5.5);
+  EXPECT_GT(adams, 6);
+  EXPECT_LT(adams, 13);
+}
+
+// Fehlberg's estimate: 41/840 (k₀ + k₁₀ − k₁₁ − k₁₂) with nodes 0, 1, 0, 1.
+TEST(Stepper, FehlbergIsBlindToRatesOfTimeAlone) {
+  TestSystem system(1, [](double t, auto, auto f) { f[0] = std::cos(50 * t); });
+  const auto blind = make_stepper(Method::fehlberg_87, system, {1e-10, {1}});
+  const auto sees = make_stepper(Method::verner_65, system, {1e-10, {1}});
+  for (Stepper* stepper : {blind.get(), sees.get()}) {
+    stepper->start(0, Vector{0});
+    run(*stepper, 3);
+  }
+  EXPECT_GT(std::abs(blind->y()[0] - std::sin(150) / 50), 1e-3);
+  EXPECT_NEAR(sees->y()[0], std::sin(150) / 50, 1e-9);
 }
 
 // --- Closed forms
@@ -250,6 +380,7 @@ TEST_P(EveryMethod, OscillatorFollowsTheCosine) {
 
 // Prothero–Robinson: y' = λ (y − cos t) − sin t keeps to cos t however stiff it is.
 TEST_P(StiffMethod, SlowMotionOfAStiffEquationTakesFewSteps) {
+  const double between = GetParam() == Method::esdirk_32 ? 2e-5 : 5e-6;  // its dense output is a parabola
   for (const double lambda : {-1e3, -1e6, -1e9}) {
     TestSystem system(1, [=](double t, auto y, auto f) { f[0] = lambda * (y[0] - std::cos(t)) - std::sin(t); });
     const auto stepper = make_stepper(GetParam(), system, {1e-7, {1}});
@@ -259,7 +390,7 @@ TEST_P(StiffMethod, SlowMotionOfAStiffEquationTakesFewSteps) {
       stepper->step(10);
       const double t = 0.5 * (stepper->t_previous() + stepper->t());
       stepper->interpolate(t, y);
-      EXPECT_NEAR(y[0], std::cos(t), 5e-6) << "between steps, λ = " << lambda << " t = " << t;
+      EXPECT_NEAR(y[0], std::cos(t), between) << "between steps, λ = " << lambda << " t = " << t;
     }
     EXPECT_NEAR(stepper->y()[0], std::cos(10), 2e-6) << lambda;
     EXPECT_LT(stepper->statistics().steps, 3000) << lambda;

@@ -36,7 +36,7 @@ accuracy = 1e-5
 )");
   scene.run.method = "dop853";
   const Result reference = test::run(scene);
-  for (const char* method : {"dopri5", "esdirk", "bdf", "adams"}) {
+  for (const char* method : {"dopri5", "verner6", "esdirk3", "esdirk", "esdirk5", "bdf", "adams"}) {
     scene.run.method = method;
     const Result r = test::run(scene);
     EXPECT_TRUE(r.accuracy_confirmed) << method;
@@ -48,6 +48,36 @@ accuracy = 1e-5
       EXPECT_NEAR(test::figure(r, name), test::figure(reference, name), 2 * stated + 1e-7 * scale)
           << method << " " << name;
     }
+  }
+}
+
+// Its error estimate sees nothing of what time drives: refused in words rather than wrong.
+TEST(Methods, FehlbergIsRefusedWhereTimeDrives) {
+  Scene scene = test::scene_from(R"(
+line = ["motor", "disc"]
+motor = { kind = "torque source", torque = "3 N*m", amplitude = "10 N*m", frequency = "2 Hz" }
+disc = { kind = "flywheel", inertia = "1 kg*m2" }
+run = { until = "1 s" }
+)");
+  scene.run.method = "fehlberg8";
+  try {
+    test::run(scene);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "method \"fehlberg8\": the torque of \"motor\" depends on time, and its error estimate is blind to "
+                 "what depends on time alone; choose dop853 or verner6");
+  }
+}
+
+// E1's peak spring torque: 290.808843395416 N·m (tests/cases/reference.toml).
+TEST(Methods, FehlbergAndVernerFindThePeakOfTheChain) {
+  Scene scene = test::scene_file("scenes/six_inertia_chain.toml");
+  for (const char* method : {"verner6", "fehlberg8", "esdirk3", "esdirk5"}) {
+    scene.run.method = method;
+    scene.run.accuracy = 1e-8;
+    const Result r = test::run(scene);
+    EXPECT_NEAR(std::abs(test::figure(r, "peak_spring_torque.c1")), 290.808843395416, 3e-5) << method;
   }
 }
 

@@ -1,0 +1,71 @@
+// advise_command.cpp — the cheapest set of effects that stays within a tolerance.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "app/command_line.h"
+#include "studies/advise_output.h"
+
+namespace kurbel::app {
+namespace {
+
+struct AdviseArguments {
+  StudyOptions study;
+  std::string within = "1 %", figures, write;
+  bool no_held_out = false;
+};
+
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  std::stringstream stream(text);
+  for (std::string name; std::getline(stream, name, ',');)
+    if (!name.empty()) names.push_back(name);
+  return names;
+}
+
+// Under a temporary name first, so that nothing half-written stays.
+void write_scene(const std::string& path, const std::string& text) {
+  const std::string temporary = path + ".part";
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    if (!file.flush()) throw std::invalid_argument(fmt::format("--write {}: cannot be written", path));
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw std::invalid_argument(fmt::format("--write {}: {}", path, error.message()));
+}
+
+int run_advise(const AdviseArguments& arguments) {
+  const Scene scene = read(arguments.study);
+  check_folder(arguments.study);
+  Progress progress(arguments.study.quiet);
+  AdviseOptions options;
+  options.simulate = simulate_options(arguments.study, progress);
+  options.within = quantity_of("--within", arguments.within, "a part > 0 and below 1", "1 %", {.low = 1e-9, .high = 1});
+  options.figures = names_in(arguments.figures);
+  options.held_out = !arguments.no_held_out;
+  const Advice advice = advise(scene, options);
+  if (!arguments.write.empty() && advice.complete) write_scene(arguments.write, advice.lean_scene);
+  return present(output_of(advice), arguments.study);
+}
+
+}  // namespace
+
+void add_advise_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<AdviseArguments>();
+  CLI::App* command = app.add_subcommand("advise", "the cheapest set of effects whose figures stay within a tolerance");
+  add_study_options(*command, arguments->study, "advise");
+  command->add_option("--within", arguments->within, "deviation allowed from the fullest model (default: 1 %)");
+  command->add_option("--figures", arguments->figures,
+                      "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)");
+  command->add_option("--write", arguments->write, "writes the scene with the effects advised");
+  command->add_flag("--no-held-out", arguments->no_held_out, "skips the check at other loads and speeds");
+  command->callback([&code, arguments] { code = run_advise(*arguments); });
+}
+
+}  // namespace kurbel::app

@@ -1,0 +1,41 @@
+// effects_command.cpp — what effects there are, and what each changes and costs in a scene.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command_line.h"
+#include "studies/effect_study_output.h"
+
+namespace kurbel::app {
+namespace {
+
+int list_effects() {
+  fmt::print("elasticity — couplings and shafts twist; needs: a stiffness; unless mentioned: off\n");
+  for (const EffectFlag& effect : effect_flags())
+    fmt::print("{} — {}; needs: {}; unless mentioned: {}\n", effect.name, effect.adds, effect.parameters,
+               effect.unsaid == EffectFlag::Unsaid::off           ? "off"
+               : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
+                                                                  : "on, even in the rigid machine");
+  return exit_done;
+}
+
+int study(const StudyOptions& arguments) {
+  if (arguments.scene.empty()) return list_effects();
+  const Scene scene = read(arguments);
+  check_folder(arguments);
+  Progress progress(arguments.quiet);
+  const EffectStudy found = study_effects(scene, simulate_options(arguments, progress));
+  return present(output_of(found), arguments);
+}
+
+}  // namespace
+
+void add_effects_command(CLI::App& app, int& code) {
+  const auto arguments = std::make_shared<StudyOptions>();
+  CLI::App* command = app.add_subcommand("effects", "what each effect changes and costs; without a scene: the list");
+  add_study_options(*command, *arguments, "effects");
+  command->get_option("scene")->required(false);
+  command->callback([&code, arguments] { code = study(*arguments); });
+}
+
+}  // namespace kurbel::app

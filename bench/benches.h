@@ -1,0 +1,71 @@
+// benches.h — the parts of kurbel_bench, each answering one question, and the book that they write their answers into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/report/report.h"
+
+namespace kurbel::bench {
+
+// One solver at one setting on one problem.
+struct BenchPoint {
+  double setting = 0;  // tolerance or step
+  double error = 0, seconds = 0, fastest = 0, slowest = 0;
+  long steps = 0;
+};
+
+// One solver over its settings.
+struct BenchCurve {
+  std::string problem;  // "R1"
+  std::string solver;   // "kurbel dop853", "hand-written dop853", "Simbody RungeKuttaMerson, point in plane"
+  bool peer = false;    // not ours
+  std::vector<BenchPoint> points;
+
+  // Least time with an error of at most this; infinite: never reached.
+  double time_to(double error) const;
+};
+
+struct BenchTarget {
+  std::string what, wanted, measured;
+  bool met = false;
+};
+
+class BenchBook {
+ public:
+  std::vector<BenchCurve> curves;
+  std::vector<BenchTarget> targets;
+  std::vector<Table> tables;
+  std::vector<Plot> plots;
+
+  // Least time of the solvers that the filter takes; infinite: none reaches it.
+  template <class Filter>
+  double best(const std::string& problem, double error, Filter filter) const;
+  void target(const std::string& what, const std::string& wanted, const std::string& measured, bool met) {
+    targets.push_back({what, wanted, measured, met});
+  }
+
+  std::string text() const;
+  std::string json() const;
+  Report report() const;
+  void write(const std::string& folder) const;  // bench.json, report.html, plots as SVG where gnuplot is installed
+};
+
+template <class Filter>
+double BenchBook::best(const std::string& problem, double error, Filter filter) const {
+  double least = __builtin_huge_val();
+  for (const BenchCurve& c : curves)
+    if (c.problem == problem && filter(c)) least = c.time_to(error) < least ? c.time_to(error) : least;
+  return least;
+}
+
+void accuracy_of_problems(BenchBook& book);  // R1, R2b, R2stick, E1 against their references, with the peers
+void accuracy_of_scenes(BenchBook& book);    // the example scenes
+void growth_with_size(BenchBook& book);      // E2
+void costs_of_effects(BenchBook& book);      // switched on, and stiffened
+void costs_of_elements(BenchBook& book);     // per evaluation, and events a second
+void costs_of_mechanisms();                  // elements: table against closed form, extraction, multibody
+void costs_of_modes();                       // growth of the eigenvalue problem
+void costs_of_steady_cycles();
+
+}  // namespace kurbel::bench

@@ -1,0 +1,42 @@
+// kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes.
+//
+//   kurbel_bench accuracy|scenes|effects|growth|elements|all [--out FOLDER]
+#include <cstdio>
+#include <cstring>
+
+#include "bench/benches.h"
+
+int main(int argc, char** argv) {
+  using namespace kurbel::bench;
+  const std::string part = argc > 1 ? argv[1] : "";
+  std::string folder = "results/bench";
+  for (int i = 2; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], "--out") == 0) folder = argv[i + 1];
+  const bool all = part == "all";
+  bool any = all;
+  BenchBook book;
+  const auto wants = [&](const char* name) {
+    any = any || part == name;
+    return all || part == name;
+  };
+  if (wants("accuracy")) accuracy_of_problems(book);
+  if (wants("scenes")) accuracy_of_scenes(book);
+  if (wants("effects")) costs_of_effects(book);
+  if (wants("growth")) {
+    growth_with_size(book);
+    costs_of_modes();
+  }
+  if (wants("elements")) {
+    costs_of_elements(book);
+    costs_of_mechanisms();
+    costs_of_steady_cycles();
+  }
+  if (!any) {
+    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, growth, elements or all\n");
+    return 2;
+  }
+  std::fputs(book.text().c_str(), stdout);
+  book.write(folder);
+  std::printf("report: %s/report.html\n", folder.c_str());
+  return 0;
+}

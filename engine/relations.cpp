@@ -1,0 +1,203 @@
+// relations.cpp — which relations vanish when the machine is compiled, and what the rest are over the merged shafts.
+#include "engine/relations.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double least_efficiency = 1e-6;  // magnitude of η₂ that is told from none
+
+std::string torque_name(const Network& network, const Network::Relation& relation, int k) {
+  const Network::Node& node = network.nodes[at(relation.node[at(k)])];
+  return relation.component + "." + node.label;
+}
+
+// The torques of a relation by their shafts: taken from the first, given to the others.
+void list_torques(const Network& network, const Network::Relation& relation, const GearTorque::Term& source,
+                  double taken_per_source, std::vector<GearTorque>& torques) {
+  for (int k = 0; k < relation.members(); ++k) {
+    GearTorque::Term term = source;
+    const double gain = relation.gain[at(k)];
+    term.taken = (k == 0 ? 1 : -gain) * taken_per_source;
+    term.lost = k == 0 ? 0 : k == 1 ? gain : 1 + gain;
+    const std::string name = torque_name(network, relation, k);
+    const auto known =
+        std::find_if(torques.begin(), torques.end(), [&](const GearTorque& t) { return t.name == name; });
+    if (known == torques.end())
+      torques.push_back({name, relation.node[at(k)], {term}});
+    else if (k == 2)
+      known->terms.push_back(term);  // the housing bears the reaction of every stage
+  }
+}
+
+// What hangs on node `from` without the relation, as one inertia at that node in the usual motion.
+double inertia_behind(const Model& model, std::size_t skipped, int from) {
+  const Network& net = model.network;
+  std::set<int> seen = {from};
+  std::vector<int> queue = {from};
+  const auto visit = [&](int node) {
+    if (seen.insert(node).second) queue.push_back(node);
+  };
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const int here = queue[next];
+    for (const Network::Joint& joint : net.joints)
+      if (joint.a == here || joint.b == here) visit(joint.a), visit(joint.b);
+    for (std::size_t r = 0; r < net.relations.size(); ++r) {
+      if (r == skipped) continue;
+      const auto& node = net.relations[r].node;
+      if (std::find(node.begin(), node.end(), here) == node.end()) continue;
+      for (int k = 0; k < net.relations[r].members(); ++k) visit(node[at(k)]);
+    }
+  }
+  double sum = 0;
+  const double own = model.scale_ratio[at(from)];
+  const auto add = [&](int node, double inertia) {
+    const double ratio = model.node_ratio[at(node)] / own;
+    sum += inertia * ratio * ratio;
+  };
+  for (const int n : seen) {
+    if (net.nodes[at(n)].prescribed >= 0 && model.node_ratio[at(n)] != 0) return HUGE_VAL;
+    add(n, net.nodes[at(n)].inertia);
+  }
+  for (const Network::ShaftElement& e : net.elements)
+    if (seen.count(e.node)) add(e.node, e.element->mean_inertia());
+  return sum;
+}
+
+}  // namespace
+
+bool relations_are_independent(const Network& network, const std::vector<int>& group) {
+  if (network.relations.empty()) return true;
+  const int groups = 1 + *std::max_element(group.begin(), group.end());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(network.relations.size()), groups);
+  for (std::size_t r = 0; r < network.relations.size(); ++r) {
+    const Network::Relation& relation = network.relations[r];
+    for (int k = 0; k < relation.members(); ++k)
+      rows(static_cast<Eigen::Index>(r), group[at(relation.node[at(k)])]) += relation.gain[at(k)];
+  }
+  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rows).rank() == rows.rows();
+}
+
+std::vector<GearTorque> simplify_relations(Network& network, const Effects& effects, const std::vector<char>& stands) {
+  std::vector<GearTorque> torques;
+  std::vector<Network::Relation> kept;
+  std::vector<Network::Joint> joints;
+  std::size_t next = 0;
+  for (Network::Relation& relation : network.relations) {
+    while (next < relation.joints_before) joints.push_back(std::move(network.joints[next++]));
+    relation.lossy = relation.lossy && effects.gear_losses;
+    std::vector<int> moving;
+    for (int k = 0; k < relation.members(); ++k)
+      if (!stands[at(relation.node[at(k)])]) moving.push_back(k);
+    if (relation.lossy || moving.size() != 2) {
+      list_torques(network, relation, {.relation = static_cast<int>(kept.size())}, 1, torques);
+      kept.push_back(relation);
+      continue;
+    }
+    const std::size_t a = at(moving[0]), b = at(moving[1]);
+    list_torques(network, relation, {.joint = static_cast<int>(joints.size())}, 1 / relation.gain[a], torques);
+    joints.push_back({.a = relation.node[a],
+                      .b = relation.node[b],
+                      .ratio = -relation.gain[b] / relation.gain[a],
+                      .component = relation.component});
+  }
+  while (next < network.joints.size()) joints.push_back(std::move(network.joints[next++]));
+  network.joints = std::move(joints);
+  network.relations = std::move(kept);
+  return torques;
+}
+
+std::vector<ShaftRelation> relations_over_shafts(const Model& model) {
+  const Network& net = model.network;
+  const auto add = [&](std::vector<ShaftGain>& row, int node, double gain) {
+    const int shaft = model.shaft_of_node[at(node)];
+    gain *= model.gain_of_node[at(node)];
+    for (ShaftGain& entry : row)
+      if (entry.shaft == shaft) {
+        entry.gain += gain;
+        return;
+      }
+    row.push_back({shaft, gain});
+  };
+  std::vector<ShaftRelation> relations;
+  for (std::size_t r = 0; r < net.relations.size(); ++r) {
+    const Network::Relation& given = net.relations[r];
+    ShaftRelation relation;
+    relation.relation = static_cast<int>(r);
+    for (int k = 0; k < given.members(); ++k) add(relation.motion, given.node[at(k)], given.gain[at(k)]);
+    if (given.lossy) {
+      relation.in_motion = given.loss;
+      // L brakes the driving side against the frame of the gear: v = ω₀ − ω₂, felt at 1 and 2.
+      add(relation.loss, given.node[1], given.gain[1]);
+      add(relation.sliding, given.node[0], 1);
+      if (given.members() == 3) {
+        add(relation.loss, given.node[2], 1 + given.gain[2]);
+        add(relation.sliding, given.node[2], -1);
+      }
+    }
+    relations.push_back(std::move(relation));
+  }
+  return relations;
+}
+
+std::vector<std::string> bound_self_locking(Model& model) {
+  std::vector<std::string> words;
+  for (std::size_t r = 0; r < model.network.relations.size(); ++r) {
+    const Network::Relation& relation = model.network.relations[r];
+    if (!relation.lossy) continue;
+    GearLoss& law = model.relations[r].in_motion;
+    double bound = 0;
+    for (GearLoss::Line* line : {&law.forwards_driven, &law.backwards_driven}) {
+      const double efficiency = 1 / (1 - line->slope);
+      if (efficiency > 0) continue;
+      if (bound == 0) {
+        const double near = inertia_behind(model, r, relation.node[0]),
+                     far = inertia_behind(model, r, relation.node[1]);
+        const double gain = relation.gain[1];
+        bound = std::isinf(near) ? HUGE_VAL : std::isinf(far) ? 0 : 0.5 * near * gain * gain / far;
+      }
+      if (-efficiency <= bound) continue;
+      // Too little to tell from none: then an overhauling load does nothing to the near side.
+      const double bounded = bound > least_efficiency ? -bound : least_efficiency;
+      line->slope = 1 - 1 / bounded;
+      if (line == &law.forwards_driven)
+        words.push_back(fmt::format(
+            "\"{}\" locks itself so strongly (efficiency {:.3g} backwards) that it would jam in motion with "
+            "these inertias; in motion it counts as {:.3g}",
+            relation.component, efficiency, bounded));
+    }
+  }
+  return words;
+}
+
+std::vector<int> loose_trees(const Model& model) {
+  if (model.relations.empty()) return {};
+  std::vector<char> known(model.shafts.size(), 0);
+  const auto follow_twists = [&] {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const ElasticJoint& e : model.elastic)
+        if (known[at(e.shaft_a)] != known[at(e.shaft_b)]) known[at(e.shaft_a)] = known[at(e.shaft_b)] = changed = true;
+    }
+  };
+  known[at(model.angles.front().shaft)] = 1;
+  follow_twists();
+  std::vector<int> loose;
+  for (std::size_t s = 0; s < model.shafts.size(); ++s) {
+    if (known[s]) continue;
+    loose.push_back(model.shafts[s].reference);
+    known[s] = 1;
+    follow_twists();
+  }
+  return loose;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,36 @@
+// many_events_test.cpp — thousands of events of many kinds in one run: no chatter, no lost energy.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+// Twelve shafts, two clutches, two brakes, a one-way clutch, a torque limiter and three gaps under shaking torques
+// (bench/scenes/twelve_shafts.toml; the bench runs it to 10⁴ events).
+TEST(ManyEvents, ClutchesBrakesAndGapsRunWithoutChatter) {
+  Scene scene = test::scene_file("bench/scenes/twelve_shafts.toml");
+  scene.run.until = 12;
+  const Result r = test::run(scene, false);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_GT(r.statistics.events, 1500);
+  // Restarts beyond one for each event are those of angles wrapped and edges of the sequence; chatter would show as
+  // more.
+  EXPECT_LE(r.statistics.stepper.restarts, 2 * r.statistics.events);
+  EXPECT_LT(r.energy.relative, 1e-7);
+  EXPECT_TRUE(r.notes.empty());  // nothing was regularised
+  // No contact goes there and back at one instant.
+  std::map<std::string, const Event*> last;
+  for (const Event& e : r.events) {
+    const Event*& before = last[e.component];
+    if (before && before->t == e.t) {
+      EXPECT_NE(before->from, e.what) << e.component << " at " << e.t;
+    }
+    before = &e;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,151 @@
+// accuracy_test.cpp — what accuracy costs: errors fall with the tolerance, references are right, answers hold.
+#include "studies/accuracy.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "studies/accuracy_output.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+TEST(ParetoFront, KeepsWhatNothingBeatsInErrorAndTime) {
+  //                                   slow and exact, beaten, cheap, no answer, hardly better than the first
+  const std::vector<double> error = {1e-6, 1e-3, 1e-2, std::nan(""), 0.95e-6}, seconds = {3, 2, 1, 0.5, 4};
+  EXPECT_EQ(pareto_front(error, seconds), (std::vector<std::size_t>{2, 1, 0}));
+  EXPECT_EQ(pareto_front({1e-3, 1e-4}, {1, 1}), (std::vector<std::size_t>{1}));
+}
+
+AccuracyOptions coarse() {
+  AccuracyOptions options;
+  options.tolerances = {1e-4, 1e-6, 1e-8, 1e-10};
+  options.methods = {"dop853", "verner6"};
+  options.multibody = false;
+  options.most_repetitions = 1;
+  options.time = 60;
+  return options;
+}
+
+// Up to the floor, which is what the references agree to. Where no step may turn a mechanism by more than a quarter,
+// loose tolerances take the very same steps, and the error stays; luck within a rung may double it, no more.
+class ErrorFalls : public testing::TestWithParam<std::string> {};
+
+TEST_P(ErrorFalls, WithTheToleranceOnEveryLevel) {
+  Scene scene = test::scene_file("scenes/" + GetParam() + ".toml");
+  scene.run.until = std::min(scene.run.until, GetParam().find("engine") == std::string::npos ? 2.0 : 0.4);
+  const AccuracyStudy study = measure_accuracy(scene, coarse());
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  ASSERT_FALSE(study.settings.empty());
+  for (std::size_t level = 0; level < study.levels.size(); ++level) {
+    const double floor = study.levels[level].agreement;
+    EXPECT_LT(floor, 1e-7) << study.levels[level].name;
+    if (study.levels[level].name == "energy method") continue;  // has no tolerance
+    for (const char* method : {"dop853", "verner6"}) {
+      double first = 0, before = HUGE_VAL;
+      for (const MeasuredSetting& s : study.settings) {
+        if (s.level != level || s.method != method) continue;
+        EXPECT_GE(s.trajectory_error, floor) << study.name_of(s);
+        EXPECT_LE(s.trajectory_error, std::max(2 * before, 10 * floor)) << study.name_of(s);
+        if (first == 0) first = s.trajectory_error;
+        before = s.trajectory_error;
+      }
+      // 1e-4 → 1e-10: to a hundredth at least, unless it was within 100 × the tightest tolerance all along.
+      EXPECT_LE(before, std::max({0.01 * first, 10 * floor, 1e-8})) << study.levels[level].name << " " << method;
+    }
+  }
+}
+std::vector<std::string> example_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_path("scenes")))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(Accuracy, ErrorFalls, testing::ValuesIn(example_scenes()),
+                         [](const auto& info) { return info.param; });
+
+// tests/cases/reference.toml, R1 and E1: twelve digits by other means.
+TEST(Accuracy, ReferencesAgreeWithPublishedDigitsAndStateAnHonestAgreement) {
+  AccuracyOptions options = coarse();
+  options.figure = "final_angle.crank";
+  const AccuracyStudy crank = measure_accuracy(test::scene_file("scenes/free_slider_crank.toml"), options);
+  const double turned = 294.719373652657;
+  EXPECT_NEAR(crank.levels[0].value[0], turned, 1e-11 * turned);
+  // The energy method's motion is that of the rigid model.
+  bool seen = false;
+  for (const MeasuredSetting& s : crank.settings)
+    if (s.method == "work diagram") {
+      seen = true;
+      EXPECT_LT(s.trajectory_error, 1e-9);
+    }
+  EXPECT_TRUE(seen);
+
+  options.figure = "peak_spring_torque.c1";
+  const AccuracyStudy chain = measure_accuracy(test::scene_file("scenes/six_inertia_chain.toml"), options);
+  EXPECT_NEAR(std::abs(chain.levels[chain.fullest].value[0]), 290.808843395416, 1e-10 * 290.8);
+}
+
+TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
+  AccuracyOptions options = coarse();
+  options.within = 0.01;
+  options.budget = 1e3;
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 3;
+  const AccuracyStudy study = measure_accuracy(scene, options);
+  ASSERT_EQ(study.answers.size(), 2u);
+  EXPECT_TRUE(study.answers[0].starts_with("Cheapest within 1 % of peak_torque.main_coupling: elastic, "))
+      << study.answers[0];
+  // Unlimited time buys the setting with the least error of all.
+  double least = HUGE_VAL;
+  std::string best;
+  for (const MeasuredSetting& s : study.settings)
+    if (s.total_error[study.key] < least) least = s.total_error[study.key], best = study.name_of(s);
+  EXPECT_NE(study.answers[1].find(best), std::string::npos) << study.answers[1] << " but " << best;
+  // The rigid model knows no ringing: tightening its tolerance cannot help.
+  ASSERT_EQ(study.levels[0].name, "rigid");
+  EXPECT_GT(study.levels[0].model_error[study.key], 0.5);
+  for (const MeasuredSetting& s : study.settings)
+    EXPECT_TRUE(s.level > 0 || s.total_error[study.key] > 0.5) << study.name_of(s);
+  EXPECT_TRUE(std::any_of(study.findings.begin(), study.findings.end(),
+                          [](const std::string& f) { return f.find("whatever its tolerance") != std::string::npos; }));
+  // What is printed, written and drawn holds every setting.
+  const StudyOutput output = output_of(study);
+  const auto json = nlohmann::json::parse(output.json);
+  EXPECT_EQ(json["settings"].size(), study.settings.size());
+  EXPECT_EQ(json["models"].size(), study.levels.size());
+  const std::string page = html_of(output.report());
+  EXPECT_NE(page.find("What is bought per time"), std::string::npos);
+  EXPECT_NE(page.find("verner6 at 1e-08"), std::string::npos);
+}
+
+TEST(Accuracy, WhatDoesNotApplyIsNamedWithItsReason) {
+  AccuracyOptions options = coarse();
+  options.methods = {"work", "fehlberg8", "dop853"};
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 0.5;
+  const AccuracyStudy press = measure_accuracy(scene, options);
+  EXPECT_TRUE(std::any_of(press.omissions.begin(), press.omissions.end(), [](const Omission& o) {
+    return o.what == "energy method" && o.why.find("depends on the speed") != std::string::npos;
+  }));
+  const AccuracyStudy driven = measure_accuracy(test::scene_from(R"(
+line = ["motor", "disc"]
+motor = { kind = "torque source", torque = "3 N*m", amplitude = "10 N*m", frequency = "2 Hz" }
+disc = { kind = "flywheel", inertia = "1 kg*m2" }
+run = { until = "1 s" }
+)"),
+                                                options);
+  EXPECT_TRUE(std::any_of(driven.omissions.begin(), driven.omissions.end(), [](const Omission& o) {
+    return o.what == "rigid, fehlberg8" && o.why.find("blind") != std::string::npos;
+  }));
+  EXPECT_THROW(
+      {
+        options.figure = "peak_torque.nothing";
+        measure_accuracy(scene, options);
+      },
+      std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,171 @@
+// effects_test.cpp — what is off leaves no trace, any subset runs, and advice is only given on sets that were run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/equations.h"
+#include "engine/run.h"
+#include "studies/advise.h"
+#include "studies/effect_study.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> example_scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(test::source_path("scenes")))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+Scene example(const std::string& name) { return test::scene_file("scenes/" + name + ".toml"); }
+
+// Takes every key of this effect out of the scene.
+void erase_keys(Section& section, const std::string& effect) {
+  std::erase_if(section.settings, [&](const Setting& setting) {
+    const auto& keys = section.kind->keys;
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
+    return key != keys.end() && key->effect == effect && key->fallback.empty() && !key->required;
+  });
+  for (Setting& setting : section.settings)
+    for (Section& nested : setting.sections) erase_keys(nested, effect);
+}
+
+std::vector<double> end_of_run(const Model& model, double until) {
+  Equations equations(std::shared_ptr<const Model>(std::shared_ptr<void>(), &model), false);
+  return integrate(equations, {.tolerance = 1e-7, .until = until, .progress = {}}, {}).state;
+}
+
+class OfExample : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, OfExample, testing::ValuesIn(example_scenes()),
+                         [](const auto& info) { return info.param; });
+
+// With an effect off, the model has the states, Jacobian and guards of the scene that never had it, and runs bit for
+// bit the same.
+TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
+  const Scene scene = example(GetParam());
+  for (const EffectFlag& flag : effect_flags()) {
+    if (flag.unsaid != EffectFlag::Unsaid::where_given || !has_parameters(scene, flag)) continue;
+    Scene never = scene;
+    for (Section& section : never.components) erase_keys(section, flag.name);
+    if (has_parameters(never, flag)) continue;  // a component that is nothing but the effect
+    Effects off = scene.effects;
+    off.*(flag.flag) = false;
+    const auto with = compile(scene, off), without = compile(never, off);
+    EXPECT_EQ(with->state_count(), without->state_count()) << flag.name;
+    EXPECT_EQ(with->jacobian.pattern.row, without->jacobian.pattern.row) << flag.name;
+    EXPECT_EQ(size_of(*with).guards, size_of(*without).guards) << flag.name;
+    const double until = std::min(0.2, scene.run.until);
+    EXPECT_EQ(end_of_run(*with, until), end_of_run(*without, until)) << flag.name;
+  }
+}
+
+// Effects compose: each pair of them left out, and each pair alone, makes a machine that runs.
+TEST_P(OfExample, AnyPairOfEffectsComposes) {
+  Scene scene = example(GetParam());
+  scene.run.until = std::min(0.02, scene.run.until);
+  const std::vector<EffectUnit> units = effect_units(scene);
+  for (std::size_t a = 0; a < units.size(); ++a)
+    for (std::size_t b = a; b < units.size(); ++b)
+      for (const bool on : {true, false}) {
+        EffectSet set(units.size(), !on);
+        set[a] = set[b] = on;
+        const Effects effects = effects_of(scene, units, set);
+        const auto model = compile(scene, effects);
+        Equations equations(model, true);
+        const RunOutcome outcome = integrate(equations, {.tolerance = 1e-6, .until = scene.run.until, .progress = {}}, {});
+        EXPECT_TRUE(outcome.complete) << describe(units, set) << ": " << outcome.diagnosis;
+        for (const double value : outcome.state) EXPECT_TRUE(std::isfinite(value)) << describe(units, set);
+      }
+}
+
+SimulateOptions plain() {
+  return {.measure_error = true, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}};
+}
+
+// A light branch with a mode at the frequency that shakes it: it carries some 10⁻³ of the energy and sets the peak.
+const char* const resonant_branch = R"(
+  title = "Resonant branch"
+  line = ["motor", "coupling", "machine"]
+  motor = { kind = "dc shunt motor", stall_torque = "4 kN*m", no_load_speed = "160 rad/s", inertia = "2 kg*m2" }
+  coupling = { kind = "coupling", stiffness = "400 kN*m/rad", damping_ratio = 0.02 }
+  machine = { kind = "flywheel", inertia = "30 kg*m2" }
+  work = { kind = "load", on = "machine", torque = "600 N*m", damping = "4 N*m*s/rad" }
+  pump_shaft = { kind = "shaft", stiffness = "2 kN*m/rad", damping_ratio = 0.002 }
+  pump = { kind = "inertia", inertia = "0.05 kg*m2" }
+  shaking = { kind = "torque source", on = "pump", amplitude = "1 N*m", frequency = "31.83 Hz" }
+  [[branch]]
+  from = "machine"
+  line = ["pump_shaft", "pump"]
+  [effects]
+  elasticity = true
+  [run]
+  until = "4 s"
+  accuracy = 1e-5
+  start = { speed = "130 rad/s" }
+)";
+
+TEST(Effects, EachIsRankedByWhatItChanges) {
+  const Scene scene = test::scene_from(resonant_branch);
+  const EffectStudy study = study_effects(scene, plain());
+  ASSERT_TRUE(study.full.complete);
+  ASSERT_EQ(study.left_out.size(), 2u);
+  EXPECT_EQ(study.left_out[0].effect.name, "elasticity:pump_shaft");
+  EXPECT_EQ(study.left_out[0].saved.states, 2u);  // a twist and a speed
+  EXPECT_GT(study.left_out[0].saved.nonzeros, 0u);
+  EXPECT_EQ(study.left_out[0].changes.front().figure, "peak_torque.pump_shaft");
+  // Rigid, the shaft carries M + J α; at resonance 1/(2 ζ) times as much: most of it is missed.
+  EXPECT_GT(study.left_out[0].changes.front().relative, 0.9);
+}
+
+TEST(Advise, KeepsALightlyDampedModeThatCarriesLittleEnergy) {
+  const Scene scene = test::scene_from(resonant_branch);
+  AdviseOptions options{.simulate = plain(), .within = 0.05, .figures = {}};
+  const Advice advice = advise(scene, options);
+  const auto at = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(advice.units.begin(), advice.units.end(), [&](const EffectUnit& u) { return u.name == name; }) -
+        advice.units.begin());
+  };
+  const std::size_t branch = at("elasticity:pump_shaft");
+  ASSERT_FALSE(advice.screens[branch].empty());
+  EXPECT_EQ(advice.screens[branch].front().name, "activity");
+  EXPECT_FALSE(advice.screens[branch].front().needed);  // activity alone would drop it
+  EXPECT_TRUE(advice.tried[advice.chosen].on[branch]);  // the runs keep it
+}
+
+// The recommended set was run, its deviation is within the tolerance, and the scene that is written makes just that
+// model.
+TEST(Advise, RecommendsOnlyWhatWasRunAndStaysWithin) {
+  const Scene scene = test::scene_from(resonant_branch);
+  for (const double within : {0.3, 0.05, 1e-3}) {
+    const Advice advice =
+        advise(scene, {.simulate = plain(), .within = within, .figures = {"peak_torque", "max_speed"}});
+    const TriedSet& chosen = advice.tried[advice.chosen];
+    EXPECT_TRUE(chosen.within);
+    EXPECT_LE(chosen.deviation, within);
+    const Scene lean = test::scene_from(advice.lean_scene);
+    const auto written = compile(lean, lean.effects);
+    EXPECT_EQ(written->state_count(), chosen.size.states);
+    const Result again = test::run(lean, false);
+    for (const FigureChange& change : changes_between(advice.full, again, {"peak_torque", "max_speed"}))
+      EXPECT_LE(change.relative, within * 1.01 + 1e-4) << change.figure;
+    for (const HeldOut& held : advice.held_out) {
+      const bool warned = std::any_of(advice.warnings.begin(), advice.warnings.end(),
+                                      [&](const std::string& w) { return w.find(held.what) != std::string::npos; });
+      EXPECT_NE(held.within, warned) << held.what;
+    }
+  }
+}
+
+TEST(Advise, RefusesFiguresThatDoNotExist) {
+  const Scene scene = test::scene_from(resonant_branch);
+  EXPECT_THROW(advise(scene, {.simulate = plain(), .within = 0.05, .figures = {"peak_torqe"}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kurbel
