@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/model.h"
+#include "engine/no_element.h"
 #include "engine/relations.h"
 #include "engine/units.h"
 
@@ -188,8 +189,13 @@ class Compiler {
     bool any = false;
     for (Network::ShaftElement& e : net().elements)
       if (auto changed = e.element->with(model_.effects)) {
+        any = any || e.element->cycle() > 0;
         e.element = std::move(changed);
-        any = true;
+      }
+    for (std::size_t e = net().elements.size(); e-- > 0;)
+      if (net().elements[e].element == no_element()) {
+        net().elements.erase(net().elements.begin() + static_cast<std::ptrdiff_t>(e));
+        if (static_cast<int>(e) < model_.reduction_element) --model_.reduction_element;
       }
     if (model_.effects.joint_friction && !any)
       messages_.add({},
