@@ -160,6 +160,10 @@ ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions option
   for (const ElasticJoint& e : m.elastic) scale_.push_back(e.twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s) scale_.push_back(m.shafts[s].speed_scale);
   size_ = scale_.size();
+  if (size_ == 0)
+    throw std::invalid_argument(
+        "a prescribed speed leaves nothing to find: the rigid machine moves as it is told. Switch elasticity on, or "
+        "replace the prescribed speed by a motor");
   if (size_ > most_unknowns)
     throw std::invalid_argument(
         fmt::format("a steady cycle is sought for up to {} twists and speeds; this model has {}. Switch elasticity off "
