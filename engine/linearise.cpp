@@ -179,11 +179,13 @@ class Lineariser {
           const auto row = static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)]);
           if (row < first_speed) continue;
           const std::size_t s = row - first_speed;
+          if (s >= m_.free_shafts) continue;  // the elements' own states stand still
           const int i = drive_.coordinate[s];
           if (i < 0) continue;
           const double slope = -share * inertia[s] * values[static_cast<std::size_t>(k)];
           if (column >= first_speed) {
-            const int j = drive_.coordinate[column - first_speed];
+            const std::size_t of = column - first_speed;
+            const int j = of < m_.free_shafts ? drive_.coordinate[of] : -1;
             if (j >= 0) damping.emplace_back(i, j, slope);
           } else if (column >= first_twist) {
             const std::size_t joint = column - first_twist;

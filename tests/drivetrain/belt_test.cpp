@@ -151,6 +151,17 @@ TEST(ElasticBelt, StiffnessComesFromTheStrands) {
 TEST(ElasticBelt, WithoutElasticityIsTheRigidBeltToTheLastBit) {
   test::expect_same_machine(belt_drive(constant(1.1 * limit), elastic, "false"), belt_drive(constant(1.1 * limit)));
 }
+// Linearised it is its spring and damper: the slipped angle stands still and is no motion of the drive.
+TEST(ElasticBelt, LinearisedItIsItsSpringAndDamper) {
+  const Scene scene = test::scene_from(belt_drive(constant(1), elastic + "\ndamping = \"2 N*m*s/rad\""));
+  const LinearDrive drive = linearise(compile(scene, scene.effects), {});
+  const double sign[2] = {1, -ratio};
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      EXPECT_NEAR(drive.stiffness.coeff(i, j), 300 * sign[i] * sign[j], 1e-9);
+      EXPECT_NEAR(drive.damping.coeff(i, j), 2 * sign[i] * sign[j], 1e-11);
+    }
+}
 TEST(ElasticBelt, JacobianEqualsDifferencesInEveryMode) {
   for (const std::string damping : {"", "\ndamping = \"2 N*m*s/rad\""})
     for (const double twist : {0.1, -0.1, 0.5, -0.5})
