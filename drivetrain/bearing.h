@@ -47,18 +47,6 @@ struct StribeckCurve {
   Rated rated() const { return {breakaway, 0}; }
 };
 
-// A bearing whose friction is off.
-struct FrictionlessBearing {
-  static constexpr Account account = Account::harmful;
-  template <class T>
-  T torque(const ShaftState<T>&) const {
-    return T(0.0);
-  }
-  bool uses_time() const { return false; }
-  bool uses_speed() const { return false; }
-  Rated rated() const { return {}; }
-};
-
 // What stands in place of a bearing under these effects; null: the bearing as it is.
 std::shared_ptr<ShaftElementMaker> bearing_without(const Effects& effects);
 

@@ -6,13 +6,13 @@
 #include "drivetrain/shared_keys.h"
 #include "engine/effects.h"
 #include "engine/network.h"
+#include "engine/no_element.h"
 #include "engine/units.h"
 
 namespace kurbel {
 
 std::shared_ptr<ShaftElementMaker> bearing_without(const Effects& effects) {
-  if (effects.bearing_friction) return nullptr;
-  return std::make_shared<ShaftElementMakerOf<FrictionlessBearing>>(FrictionlessBearing{});
+  return effects.bearing_friction ? nullptr : no_element();
 }
 
 std::string CreepingBearing::describe() const {

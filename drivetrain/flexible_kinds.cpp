@@ -9,6 +9,7 @@
 #include "drivetrain/progressive_coupling.h"
 #include "drivetrain/rubber_coupling.h"
 #include "drivetrain/shared_keys.h"
+#include "drivetrain/universal_joint.h"
 #include "engine/network.h"
 
 namespace kurbel {
@@ -88,6 +89,13 @@ void build_rubber(const Section& s, Network& net, Messages& messages) {
   }
 }
 
+void build_universal_joint(const Section& s, Network& net, Messages& messages) {
+  const auto [in, out] = halves(s, net);
+  net.connect(
+      in, out, 1, s.name,
+      UniversalJointData{{s.number("stiffness"), damping_of(s, messages)}, {s.number("angle")}, s.number("phase")});
+}
+
 Key stiffness_key(const char* doc) {
   return {.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = doc, .required = true};
 }
@@ -121,6 +129,22 @@ std::vector<Kind> flexible_kinds() {
                         .effect = "relaxation"}},
                       joined(joined(side_inertia_keys(), damping_keys()), coupling_limit_keys())),
        .build = build_rubber,
+       .elastic = true},
+      {.name = "universal joint",
+       .doc = "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1",
+       .placement = Placement::inline_two,
+       .keys = joined({stiffness_key("torsional stiffness k of the joint and its shaft"),
+                       {.name = "angle",
+                        .unit = "rad",
+                        .domain = {.low = 0, .high = 1.4},
+                        .doc = "angle β between the shafts, up to 80 deg",
+                        .required = true},
+                       {.name = "phase",
+                        .unit = "rad",
+                        .fallback = "\"0 deg\"",
+                        .doc = "angle of the driving fork past its position in the plane of the shafts, at φ = 0"}},
+                      joined(side_inertia_keys(), joined(damping_keys(), coupling_limit_keys()))),
+       .build = build_universal_joint,
        .elastic = true},
   };
 }

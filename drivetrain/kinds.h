@@ -15,6 +15,7 @@ std::vector<Kind> bearing_kinds();
 std::vector<Kind> coupling_kinds();
 std::vector<Kind> flexible_kinds();
 std::vector<Kind> belt_kinds();
+std::vector<Kind> fluid_kinds();
 std::vector<Kind> gearbox_kinds();
 std::vector<Kind> planetary_kinds();
 std::vector<Kind> gear_mesh_kinds();

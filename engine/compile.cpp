@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/model.h"
+#include "engine/no_element.h"
 #include "engine/relations.h"
 #include "engine/units.h"
 
@@ -171,7 +172,7 @@ class Compiler {
 
   void switch_effects() {
     for (Network::Joint& joint : net().joints) {
-      if (joint.element && joint.element->slips()) {
+      if (joint.element && (joint.element->slips() || joint.element->springless())) {
         joint.elastic = !model_.effects.locked;
         if (!joint.elastic)
           model_.merged.push_back(
@@ -188,8 +189,13 @@ class Compiler {
     bool any = false;
     for (Network::ShaftElement& e : net().elements)
       if (auto changed = e.element->with(model_.effects)) {
+        any = any || e.element->cycle() > 0;
         e.element = std::move(changed);
-        any = true;
+      }
+    for (std::size_t e = net().elements.size(); e-- > 0;)
+      if (net().elements[e].element == no_element()) {
+        net().elements.erase(net().elements.begin() + static_cast<std::ptrdiff_t>(e));
+        if (static_cast<int>(e) < model_.reduction_element) --model_.reduction_element;
       }
     if (model_.effects.joint_friction && !any)
       messages_.add({},
@@ -283,7 +289,8 @@ class Compiler {
       if (!joint.elastic) continue;
       model_.elastic.push_back({static_cast<int>(j), model_.shaft_of_node[at(joint.a)],
                                 model_.shaft_of_node[at(joint.b)], model_.gain_of_node[at(joint.a)],
-                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips()});
+                                joint.ratio * model_.gain_of_node[at(joint.b)], 1e-4, joint.element->slips(),
+                                joint.element->springless()});
     }
   }
 
@@ -365,7 +372,7 @@ class Compiler {
     for (ElasticJoint& e : model_.elastic) {
       const Network::Joint& joint = net().joints[at(e.joint)];
       const double stiffness = joint.element->stiffness();
-      if (e.slips) e.twist_scale = 1;
+      if (e.slips || e.springless) e.twist_scale = 1;
       if (stiffness > 0) e.twist_scale = torque / model_.scale_ratio[at(joint.a)] / stiffness;
     }
   }
@@ -568,6 +575,8 @@ std::string Model::explain() const {
     if (elastic[i].slips) {
       text += fmt::format("  slip of {}: carries {} before it slips\n", joint.component,
                           with_unit(joint.element->capacity(), "N*m"));
+    } else if (elastic[i].springless) {
+      text += fmt::format("  slip of {}\n", joint.component);
     } else {
       text += fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
                           with_unit(joint.element->stiffness(), "N*m/rad"),

@@ -86,8 +86,9 @@ class ConnectionPool final : public ElementPool {
       std::array<Number, own_states + 1> own;
       for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 2 + k);
       Twist<Number> dual{
-          Number::input(x.angle, 0), Number::input(x.rate, 1), x.t, x.mode, x.direction, x.command, own.data(), {}};
+          Number::input(x.angle, 0), Number::input(x.rate, 1), x.t, x.mode, x.direction, x.command, own.data(), {}, {}};
       if constexpr (UsesAngle<E>) dual.turn = Number::input(x.turn, 2 + own_states);
+      if constexpr (UsesSpeeds<E>) dual.turn_rate = Number::input(x.turn_rate, derivatives - 1);
       const Number tau = p.element.torque(dual);
       Number on_a = -tau;
       if constexpr (UsesAngle<E>) on_a = on_a + p.element.turning_torque(dual);
@@ -151,7 +152,7 @@ class ConnectionPool final : public ElementPool {
 
   double energy(const Instant& now) const override {
     double sum = 0;
-    if constexpr (!Slipping<E>)
+    if constexpr (!Slipping<E> && !Springless<E>)
       for (const Placed& p : placed_) {
         if constexpr (HasStates<E> || UsesAngle<E>)
           sum += p.element.energy(motion(p, now));
@@ -162,7 +163,8 @@ class ConnectionPool final : public ElementPool {
   }
 
  private:
-  static constexpr int derivatives = 2 + own_states + (UsesAngle<E> ? 1 : 0);
+  // θ, θ̇, own states, the angle, the speed of a.
+  static constexpr int derivatives = 2 + own_states + (UsesAngle<E> ? 1 : 0) + (UsesSpeeds<E> ? 1 : 0);
   // The columns: θ, ω_a, ω_b, own states, the angle.
   static constexpr std::size_t inputs = 3 + own_states + (UsesAngle<E> ? 1 : 0);
   struct Slots {
@@ -183,6 +185,7 @@ class ConnectionPool final : public ElementPool {
     slots[to[0]] += gain * value.d[0];
     slots[to[1]] += gain * value.d[1] * p.at.gain_a;
     slots[to[2]] -= gain * value.d[1] * p.at.gain_b;
+    if constexpr (UsesSpeeds<E>) slots[to[1]] += gain * value.d[derivatives - 1] * p.at.gain_a;
     for (std::size_t k = 3; k < inputs; ++k) slots[to[k]] += gain * value.d[k - 1];
   }
 
@@ -207,6 +210,7 @@ class ConnectionPool final : public ElementPool {
         if (p.more.command >= 0) x.command = now.command[p.more.command];
       if constexpr (UsesAngle<E>) x.turn = now.angle[p.more.angle];
     }
+    if constexpr (UsesSpeeds<E>) x.turn_rate = p.at.gain_a * now.speed[p.at.shaft_a];
     if constexpr (Slipping<E>) x.direction = now.slip[p.at.id];
     return x;
   }
@@ -236,14 +240,14 @@ class ConnectionPool final : public ElementPool {
   }
   static void add_work(const Placed& p, const Twist<double>& x, double tau, Sums& sums) {
     double spring = 0;
-    if constexpr (Slipping<E>) {
+    if constexpr (Slipping<E> || Springless<E>) {
     } else if constexpr (HasStates<E> || UsesAngle<E>) {
       spring = p.element.spring_torque(x);
     } else {
       spring = p.element.spring_torque(x.angle);
     }
     sums.spring_torque[p.at.id] = spring;
-    if constexpr (HasStates<E>)
+    if constexpr (requires { p.element.loss_power(x); })
       sums.work_rate[p.at.loss_account] -= p.element.loss_power(x);
     else
       sums.work_rate[p.at.loss_account] -= (tau - spring) * x.rate;

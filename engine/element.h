@@ -14,6 +14,9 @@
 //   Hold hold(const Twist<double>&) const;                   range of τ that it can carry without slipping [N·m]
 //   double capacity() const;                                 order of magnitude of that range [N·m]
 //
+// A **springless connection** (viscous film, fluid coupling) has no spring either, and never sticks: torque() is all.
+//   static constexpr bool springless = true;                 it stays, whatever elasticity is on
+//
 // A **shaft element** sits on one shaft and exerts a torque M on it, positive in the direction of positive rotation.
 //   template <class T> T torque(const ShaftState<T>&) const;
 //   static constexpr Account account;                        which line of the energy balance its work belongs to
@@ -35,12 +38,15 @@
 //     void first_states(x, double* own) const;                 at the start
 //     OwnState state(int k) const;                             its name, unit and order of magnitude
 //     double stored(const double* own) const;                  optional: energy in them [J]
-//   double loss_power(x) const;                              of a connection with states: τ θ̇ − dE/dt; and its
-//                                                            spring_torque and energy take x in place of the twist.
+//   double loss_power(x) const;                              of a connection with states or an angle: its power −dE/dt;
+//                                                            its spring_torque and energy take x in place of the twist.
 //                                                            Of a shaft element that stores: −M ω − dE/dt
 //   void switched(x, double* own) const;                     of a shaft element with states: it went on or off (x.on)
+//   double rest_twist(double turn) const;                    of a connection with uses_angle: its twist unloaded at φ_a
+//   double rest_ratio(double turn) const;                    and then i ω_b/ω_a; unsaid: 0 and 1
+//   static constexpr bool uses_speeds = true;                of a connection: x.turn_rate, so that ω_b = (ω_a − θ̇)/i
 //   template <class T> T turning_torque(x) const;            of a connection with uses_angle: further torque on a,
-//                                                            −∂E/∂φ_a
+//                                                            of a spring −∂E/∂φ_a
 //   static constexpr bool commanded = true;                  an operating sequence sets x.command (1 unless told)
 //     static constexpr bool reversible = true;                 of a shaft element: it may be told less than 0
 //     bool opens_at_zero() const;                              of a shaft element: told 0 it is off, as outside its
@@ -61,6 +67,7 @@ struct Twist {
   double command = 1;      // what an operating sequence says
   const T* own = nullptr;  // states of the element
   T turn{};                // φ_a, where the element uses the angle [rad], turns removed
+  T turn_rate{};           // ω_a, where the element uses the speeds [rad/s]
 };
 
 template <class T>
@@ -130,6 +137,14 @@ concept Guarded = requires {
 template <class E>
 concept Slipping = requires {
   requires E::slips;
+};
+template <class E>
+concept Springless = requires {
+  requires E::springless;
+};
+template <class E>
+concept UsesSpeeds = requires {
+  requires E::uses_speeds;
 };
 template <class E>
 concept HasStates = requires {

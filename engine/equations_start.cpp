@@ -52,7 +52,43 @@ std::vector<double> Equations::start_angles(const StartSettings& start, std::vec
     if (c != start.components.end() && c->second.twist) twists[i] = *c->second.twist;
   }
   set_shaft_angles(twists.data(), angles);
+  if (!given) rest_twists(start, twists, angles);
   return angles;
+}
+
+// Connections whose unloaded twist hangs on the angle of a, from the reduction link outwards; from b to a by iteration.
+void Equations::rest_twists(const StartSettings& start, std::vector<double>& twists,
+                            std::vector<double>& angles) const {
+  const Model& m = *model_;
+  for (const ElasticStep& step : elastic_steps_) {
+    const ElasticJoint& e = m.elastic[at(step.elastic)];
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    const auto own = start.components.find(joint.component);
+    if (!joint.element->uses_angle() || (own != start.components.end() && own->second.twist)) continue;
+    for (int pass = 0; pass < 100; ++pass) {
+      const double twist = joint.element->rest_twist(e.gain_a * angles[at(e.shaft_a)]);
+      if (twist == twists[at(step.elastic)]) break;
+      twists[at(step.elastic)] = twist;
+      set_shaft_angles(twists.data(), angles);
+    }
+  }
+}
+
+// Speeds of the shafts over that of the reduction link, before any load acts.
+std::vector<double> Equations::unloaded_speeds(const std::vector<double>& angles) const {
+  const Model& m = *model_;
+  std::vector<double> speed(m.shafts.size());
+  for (std::size_t s = 0; s < speed.size(); ++s) speed[s] = m.node_ratio[at(m.shafts[s].reference)];
+  for (const ElasticStep& step : elastic_steps_) {
+    const ElasticJoint& e = m.elastic[at(step.elastic)];
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    const double turning = joint.element->rest_ratio(e.gain_a * angles[at(e.shaft_a)]);
+    const int known = step.forward ? e.shaft_a : e.shaft_b, next = step.forward ? e.shaft_b : e.shaft_a;
+    const double usual = m.node_ratio[at(m.shafts[at(known)].reference)];
+    const double factor = usual == 0 ? 1 : speed[at(known)] / usual;
+    if (turning != 1 || factor != 1) speed[at(next)] *= factor * (step.forward ? turning : 1 / turning);
+  }
+  return speed;
 }
 
 std::vector<double> Equations::start(double t, const StartSettings& settings) {
@@ -63,9 +99,11 @@ std::vector<double> Equations::start(double t, const StartSettings& settings) {
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[at(m.angles[i].shaft)];
   for (std::size_t i = 0; i < twists.size(); ++i) y[twists_begin() + i] = twists[i];
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
+  const std::vector<double> unloaded = unloaded_speeds(angles);
+  const std::size_t shaft_on = at(m.shaft_of_node[at(on)]);
+  const double speed_on = m.node_ratio[at(on)] * (unloaded[shaft_on] / m.node_ratio[at(m.shafts[shaft_on].reference)]);
   for (std::size_t s = 0; s < m.free_shafts; ++s)
-    y[speed_index(static_cast<int>(s))] =
-        settings.speed * m.node_ratio[at(m.shafts[s].reference)] / m.node_ratio[at(on)];
+    y[speed_index(static_cast<int>(s))] = settings.speed * unloaded[s] / speed_on;
   std::vector<char> given(m.shafts.size(), 0);
   for (const auto& [component, c] : settings.components) {
     if (!c.speed) continue;
@@ -196,7 +234,11 @@ void Equations::balance_twists(std::span<double> y, double t) {
   const Model& m = *model_;
   if (m.elastic.empty()) return;
   const Network& net = m.network;
-  for (std::size_t i = 0; i < m.elastic.size(); ++i) y[twists_begin() + i] = 0;
+  std::vector<double> rest(m.elastic.size(), 0.0);
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    if (m.network.joints[at(m.elastic[i].joint)].element->uses_angle()) rest[i] = y[twists_begin() + i];
+    y[twists_begin() + i] = 0;
+  }
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
   // Without twists the elements' torques alone remain; sum them over the whole machine.
   double torque = 0, inertia = 0;
@@ -237,7 +279,7 @@ void Equations::balance_twists(std::span<double> y, double t) {
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const int j = m.elastic[i].joint;
     twists[i] = net.joints[at(j)].element->twist_at(joint_torque[at(j)]);
-    y[twists_begin() + i] = twists[i];
+    y[twists_begin() + i] = twists[i] + rest[i];
   }
   // Shafts away from the reduction link stand turned by the twists.
   std::vector<double> angles(m.shafts.size(), 0.0);

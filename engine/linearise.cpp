@@ -40,7 +40,10 @@ class Lineariser {
   void choose_positions() {
     const auto& elements = m_.network.elements;
     const bool turns = std::any_of(elements.begin(), elements.end(),
-                                   [](const Network::ShaftElement& e) { return e.element->uses_angle(); });
+                                   [](const Network::ShaftElement& e) { return e.element->uses_angle(); }) ||
+                       std::any_of(m_.elastic.begin(), m_.elastic.end(), [&](const ElasticJoint& e) {
+                         return m_.network.joints[at(e.joint)].element->uses_angle();
+                       });
     const double cycle = cycle_of(m_).angle;
     if (drive_.at.angle || !turns) {
       angles_ = {drive_.at.angle.value_or(0)};
@@ -162,7 +165,10 @@ class Lineariser {
     Triplets damping, by_angle;
     for (const double angle : angles_) {
       std::vector<double> y = state(angle);
-      std::copy(twist_.begin(), twist_.end(), y.begin() + static_cast<std::ptrdiff_t>(first_twist));
+      for (std::size_t i = 0; i < twist_.size(); ++i) {
+        const Network::Joint& joint = m_.network.joints[at(m_.elastic[i].joint)];
+        y[first_twist + i] = twist_[i] + joint.element->rest_twist(angle * m_.node_ratio[at(joint.a)]);
+      }
       equations_.jacobian(0, y, values);
       const double* inertia = equations_.snapshot(0, y).sums.inertia;
       if (drive_.at.angle)

@@ -32,6 +32,7 @@ struct ElasticJoint {
   double gain_a = 1, gain_b = 1;
   double twist_scale = 1e-4;  // [rad]
   bool slips = false;         // a clutch: no spring
+  bool springless = false;    // a viscous film: no spring, no sticking
   int loss_account = 0;
 };
 

@@ -58,11 +58,15 @@ class ConnectionMaker {
   // dτ/dt from θ̇ and θ̈, where the torque hangs on the twist alone.
   virtual bool knows_torque_rate() const { return true; }
   virtual double torque_rate(double twist, double rate, double acceleration) const = 0;
-  virtual bool slips() const { return false; }   // no spring: a clutch, never merged by effects
-  virtual double capacity() const { return 0; }  // of one that slips [N·m]
+  virtual bool slips() const { return false; }       // no spring: a clutch, never merged by effects
+  virtual bool springless() const { return false; }  // no spring and no sticking: a viscous film; never merged, either
+  virtual double capacity() const { return 0; }      // of one that slips [N·m]
   virtual bool has_modes() const { return false; }
   virtual bool commanded() const { return false; }
   virtual bool uses_angle() const { return false; }
+  // Unloaded at an angle of a: the twist, and ratio · ω_b/ω_a.
+  virtual double rest_twist(double /*turn*/) const { return 0; }
+  virtual double rest_ratio(double /*turn*/) const { return 1; }
   virtual std::vector<OwnState> own_states() const { return {}; }
   // The element with these effects on; null where they change nothing.
   virtual std::shared_ptr<ConnectionMaker> with(const Effects&) const { return nullptr; }
@@ -81,7 +85,7 @@ class ConnectionMakerOf final : public ConnectionMaker {
     if constexpr (!std::is_same_v<E, Specification>) element_ = given_.settled(inertia);
   }
   double stiffness() const override {
-    if constexpr (Slipping<E>)
+    if constexpr (Slipping<E> || Springless<E>)
       return 0;
     else
       return element_.stiffness_at_rest();
@@ -93,7 +97,7 @@ class ConnectionMakerOf final : public ConnectionMaker {
       return element_.torque(moving(Twist<double>{}, Dual<1>(0.0), Dual<1>::input(0.0, 0))).d[0];
   }
   double twist_at(double torque) const override {
-    if constexpr (Slipping<E>)
+    if constexpr (Slipping<E> || Springless<E>)
       return 0;
     else
       return element_.twist_at(torque);
@@ -107,7 +111,9 @@ class ConnectionMakerOf final : public ConnectionMaker {
       return element_.torque(x);
     }
   }
-  bool knows_torque_rate() const override { return !Slipping<E> && !HasStates<E> && !UsesAngle<E> && !Commanded<E>; }
+  bool knows_torque_rate() const override {
+    return !Slipping<E> && !HasStates<E> && !UsesAngle<E> && !UsesSpeeds<E> && !Commanded<E>;
+  }
   double torque_rate(double twist, double rate, double acceleration) const override {
     if constexpr (Slipping<E> || HasStates<E>) {
       return 0;
@@ -119,6 +125,7 @@ class ConnectionMakerOf final : public ConnectionMaker {
     }
   }
   bool slips() const override { return Slipping<E>; }
+  bool springless() const override { return Springless<E>; }
   double capacity() const override {
     if constexpr (Slipping<E>)
       return element_.capacity();
@@ -128,6 +135,14 @@ class ConnectionMakerOf final : public ConnectionMaker {
   bool has_modes() const override { return Guarded<E>; }
   bool commanded() const override { return Commanded<E>; }
   bool uses_angle() const override { return UsesAngle<E>; }
+  double rest_twist([[maybe_unused]] double turn) const override {
+    if constexpr (requires { element_.rest_twist(turn); }) return element_.rest_twist(turn);
+    return 0;
+  }
+  double rest_ratio([[maybe_unused]] double turn) const override {
+    if constexpr (requires { element_.rest_ratio(turn); }) return element_.rest_ratio(turn);
+    return 1;
+  }
   std::vector<OwnState> own_states() const override { return own_states_of(element_); }
   std::shared_ptr<ConnectionMaker> with(const Effects& effects) const override {
     if constexpr (requires { given_.with(effects); })

@@ -64,7 +64,7 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
     const int j = joint.joint, e = joint.elastic;
     channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
     if (e < 0) continue;
-    if (model.elastic[at(e)].slips) {
+    if (model.elastic[at(e)].slips || model.elastic[at(e)].springless) {
       const int a = model.elastic[at(e)].shaft_a, b = model.elastic[at(e)].shaft_b;
       const double ga = model.elastic[at(e)].gain_a, gb = model.elastic[at(e)].gain_b;
       channels.push_back({"slip." + joint.component, "rad/s",
@@ -130,7 +130,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
     ExtremeOf spring = transmitted;
     spring.name = "peak_spring_torque." + joint.component;
     const bool known = e >= 0 && model.network.joints[at(j)].element->knows_torque_rate();
-    if (e >= 0 && model.elastic[at(e)].slips) {
+    if (e >= 0 && (model.elastic[at(e)].slips || model.elastic[at(e)].springless)) {
       wanted.push_back(std::move(transmitted));  // no spring
       continue;
     }

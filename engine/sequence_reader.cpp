@@ -78,7 +78,7 @@ class StepReader {
       step.of = section.text("of");
       check(step.of, section.where("of"), what + ": of");
     }
-    if (watches == step.of.empty())
+    if (given <= 1 && watches == step.of.empty())
       messages_.add(step.at,
                     watches ? fmt::format("{}: \"of\" is missing: whose angle or speed?", what)
                             : fmt::format("{}: \"of\" belongs to \"angle\", \"speed_above\" or \"speed_below\"", what));

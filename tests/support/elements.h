@@ -49,6 +49,15 @@ inline void expect_exact_jacobian(const std::string& scene_text, double angle, c
   expect_exact_jacobian(equations, equations.state_of(0.1, angle, twists, speeds));
 }
 
+// The same at the start of a scene, in the modes that hold there; the last states are then moved off it by `offset`.
+inline void expect_exact_jacobian_near_start(const std::string& scene_text, const std::vector<double>& offset = {}) {
+  const Scene scene = scene_from(scene_text);
+  Equations equations(compile(scene, scene.effects), false);
+  std::vector<double> y = equations.start(0);
+  for (std::size_t k = 0; k < offset.size(); ++k) y[y.size() - offset.size() + k] += offset[k];
+  expect_exact_jacobian(equations, y);
+}
+
 // Two scenes that are the same machine: same states, Jacobian, guards, and the same trajectory to the last bit.
 inline void expect_same_machine(const std::string& off, const std::string& without) {
   const Scene a = scene_from(off), b = scene_from(without);
