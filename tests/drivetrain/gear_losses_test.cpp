@@ -132,10 +132,11 @@ TEST(GearLosses, PowerRatioIsTheEfficiencyOfItsDirection) {
             for (std::size_t k = 0; k < in.size(); ++k) {
               const double p_in = in[k] * w_in[k], p_out = out[k] * w_out[k];
               ASSERT_EQ(p_in > 0, driving);
-              if (driving)
+              if (driving) {
                 EXPECT_NEAR(p_out / p_in, forwards, 1e-12);
-              else
+              } else {
                 EXPECT_NEAR(p_in / p_out, backwards, 1e-12);
+              }
               EXPECT_NEAR(w_in[k], std::round(10 * ratio) / 10 * w_out[k], 1e-11 * std::abs(w_in[k]));
             }
             EXPECT_LT(r.energy.relative, 1e-11);

@@ -98,7 +98,9 @@ TEST(GearboxHousing, StiffSupportTendsToTheRigidOne) {
     const std::string scene =
         test::with(elastic_bearing("[effects]\nelasticity = true\n"), "100 kN*m/rad", test::digits(k) + " N*m/rad");
     const double off = std::abs(figure(run(scene, false), "final_angle.load") - figure(rigid, "final_angle.load"));
-    if (last > 0) EXPECT_LT(off, 0.2 * last);
+    if (last > 0) {
+      EXPECT_LT(off, 0.2 * last);
+    }
     last = off;
   }
 }
