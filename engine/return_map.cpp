@@ -162,7 +162,7 @@ ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions option
   size_ = scale_.size();
   if (size_ == 0)
     throw std::invalid_argument(
-        "a prescribed speed leaves nothing to find: the rigid machine moves as it is told. Switch elasticity on, or "
+        "time drives this machine: a prescribed speed leaves nothing to find. Switch elasticity on, or "
         "replace the prescribed speed by a motor");
   if (size_ > most_unknowns)
     throw std::invalid_argument(
