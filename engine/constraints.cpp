@@ -69,17 +69,22 @@ void Constraints::solve(std::span<const double> inertia, std::span<const double>
   for (std::size_t s = 0; s < free_; ++s) alpha[s] = torque[s] / inertia[s];
   if (rows_.empty()) return;
   factorise(inertia);
-  Eigen::VectorXd right(ix(rows_.size()));
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    double sum = 0;
-    for (const ShaftGain& g : rows_[k].motion) sum += g.gain * alpha[at(g.shaft)];
-    right[ix(k)] = -sum;
-  }
-  const Eigen::VectorXd lambda = multipliers(right);
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    multiplier[k] = lambda[ix(k)];
-    for (const ShaftGain& t : rows_[k].torque)
-      if (at(t.shaft) < free_) alpha[at(t.shaft)] += t.gain * lambda[ix(k)] / inertia[at(t.shaft)];
+  std::fill_n(multiplier.begin(), rows_.size(), 0.0);
+  right_side_.resize(ix(rows_.size()));
+  // Twice: a light shaft's acceleration is the difference of two large ones, and what round-off leaves of it would
+  // make noise that small steps cannot get under. The second pass takes the residue out.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      double sum = 0;
+      for (const ShaftGain& g : rows_[k].motion) sum += g.gain * alpha[at(g.shaft)];
+      right_side_[ix(k)] = -sum;
+    }
+    const Eigen::VectorXd lambda = multipliers(right_side_);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      multiplier[k] += lambda[ix(k)];
+      for (const ShaftGain& t : rows_[k].torque)
+        if (at(t.shaft) < free_) alpha[at(t.shaft)] += t.gain * lambda[ix(k)] / inertia[at(t.shaft)];
+    }
   }
 }
 

@@ -46,7 +46,7 @@ class Constraints {
   std::vector<double> factorised_for_;  // inertias
   bool singular_ = false;
   Eigen::MatrixXd schur_;
-  Eigen::VectorXd root_capacity_, right_;
+  Eigen::VectorXd root_capacity_, right_, right_side_;
   Eigen::PartialPivLU<Eigen::MatrixXd> regular_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_;
 };

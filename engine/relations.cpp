@@ -191,7 +191,8 @@ std::vector<int> loose_trees(const Model& model) {
   known[at(model.angles.front().shaft)] = 1;
   follow_twists();
   std::vector<int> loose;
-  for (std::size_t s = 0; s < model.shafts.size(); ++s) {
+  // Prescribed shafts first, the last of all: what swings against the frame counts its angle from there.
+  for (std::size_t s = model.shafts.size(); s-- > 0;) {
     if (known[s]) continue;
     loose.push_back(model.shafts[s].reference);
     known[s] = 1;

@@ -38,11 +38,11 @@ TEST(PlanetaryGear, DISABLED_SpeedsObeyWillisWhateverTheTorques) {
     for (const double carrier_torque : {-40.0, 9.0}) {
       const Result r = run(three_shafts(5, ring_torque, carrier_torque, "", 100, -30));
       ASSERT_TRUE(r.complete) << r.diagnosis;
-      const auto s = series(r, "speed.gear.sun"), g = series(r, "speed.gear.ring"), c = series(r, "speed.gear.carrier");
+      const auto s = series(r, "speed.gear.in"), g = series(r, "speed.gear.ring"), c = series(r, "speed.gear.out");
       for (std::size_t k = 0; k < s.size(); ++k) EXPECT_NEAR(s[k] - c[k], i0 * (g[k] - c[k]), 1e-10);
       EXPECT_NEAR(s.front(), 100, 1e-12);
       EXPECT_NEAR(g.front(), -30, 1e-12);
-      const auto a = series(r, "angle.gear.sun"), b = series(r, "angle.gear.ring"), d = series(r, "angle.gear.carrier");
+      const auto a = series(r, "angle.gear.in"), b = series(r, "angle.gear.ring"), d = series(r, "angle.gear.out");
       EXPECT_NEAR(a.back() - d.back(), i0 * (b.back() - d.back()), 1e-10);
       EXPECT_LT(r.energy.relative, 1e-11);
     }
