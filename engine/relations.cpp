@@ -20,14 +20,27 @@ std::string torque_name(const Network& network, const Network::Relation& relatio
   return relation.component + "." + node.label;
 }
 
-// The torques of a relation by their shafts: taken from the first, given to the others.
-void list_torques(const Network& network, const Network::Relation& relation, const GearTorque::Term& source,
-                  double taken_per_source, std::vector<GearTorque>& torques) {
+// The member by which the component is driven: its port "in", or what a gear of its own ties to it; else the first.
+int driving_member(const Network& network, const Network::Relation& relation) {
+  const auto ports = network.ports.find(relation.component);
+  if (ports == network.ports.end()) return 0;
+  const int in = ports->second.in;
+  for (int k = 0; k < relation.members(); ++k)
+    if (relation.node[at(k)] == in) return k;
+  for (const Network::Joint& joint : network.joints)
+    for (int k = 0; k < relation.members(); ++k)
+      if (joint.component == relation.component && joint.a == in && joint.b == relation.node[at(k)]) return k;
+  return 0;
+}
+
+// The torques of a relation by their shafts: taken from the driving one, given to the others.
+void list_torques(const Network& network, const Network::Relation& relation, int driving,
+                  const GearTorque::Term& source, double taken_per_source, std::vector<GearTorque>& torques) {
   for (int k = 0; k < relation.members(); ++k) {
     GearTorque::Term term = source;
-    const double gain = relation.gain[at(k)];
-    term.taken = (k == 0 ? 1 : -gain) * taken_per_source;
-    term.lost = k == 0 ? 0 : k == 1 ? gain : 1 + gain;
+    const double gain = relation.gain[at(k)], sense = k == driving ? -1 : 1;
+    term.taken = -sense * gain * taken_per_source;
+    term.lost = k == 0 ? 0 : sense * (k == 1 ? gain : 1 + gain);
     const std::string name = torque_name(network, relation, k);
     const auto known =
         std::find_if(torques.begin(), torques.end(), [&](const GearTorque& t) { return t.name == name; });
@@ -90,20 +103,24 @@ std::vector<GearTorque> simplify_relations(Network& network, const Effects& effe
   std::vector<GearTorque> torques;
   std::vector<Network::Relation> kept;
   std::vector<Network::Joint> joints;
+  std::vector<int> drives;
+  for (const Network::Relation& relation : network.relations) drives.push_back(driving_member(network, relation));
   std::size_t next = 0;
-  for (Network::Relation& relation : network.relations) {
+  for (std::size_t r = 0; r < network.relations.size(); ++r) {
+    Network::Relation& relation = network.relations[r];
     while (next < relation.joints_before) joints.push_back(std::move(network.joints[next++]));
     relation.lossy = relation.lossy && effects.gear_losses;
+    const int driving = drives[r];
     std::vector<int> moving;
     for (int k = 0; k < relation.members(); ++k)
       if (!stands[at(relation.node[at(k)])]) moving.push_back(k);
     if (relation.lossy || moving.size() != 2) {
-      list_torques(network, relation, {.relation = static_cast<int>(kept.size())}, 1, torques);
+      list_torques(network, relation, driving, {.relation = static_cast<int>(kept.size())}, 1, torques);
       kept.push_back(relation);
       continue;
     }
     const std::size_t a = at(moving[0]), b = at(moving[1]);
-    list_torques(network, relation, {.joint = static_cast<int>(joints.size())}, 1 / relation.gain[a], torques);
+    list_torques(network, relation, driving, {.joint = static_cast<int>(joints.size())}, 1 / relation.gain[a], torques);
     joints.push_back({.a = relation.node[a],
                       .b = relation.node[b],
                       .ratio = -relation.gain[b] / relation.gain[a],

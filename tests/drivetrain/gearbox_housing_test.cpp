@@ -105,7 +105,7 @@ TEST(GearboxHousing, StiffSupportTendsToTheRigidOne) {
   }
 }
 
-TEST(GearboxHousing, DISABLED_StartInEquilibriumDoesNotRing) {
+TEST(GearboxHousing, StartInEquilibriumDoesNotRing) {
   const Result r = run(test::with(test::with(elastic_bearing("[effects]\nelasticity = true\n"), ", ramp = \"5 s\"", ""),
                                   "run = {", "run = { start = { equilibrium = true, speed = \"10 rad/s\" },"),
                        false);
