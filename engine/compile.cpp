@@ -24,9 +24,13 @@ struct Merging {
   int groups = 0;
 };
 
+// Relations that a walk goes through, in their usual motion: to every member, or to those only that turn in it (not to
+// a gearbox's housing).
+enum class Through { none, turning, all };
+
 // Walks the joints that `is_rigid` admits, and the relations in their usual motion where they are asked for.
 template <class IsRigid>
-Merging merge(const Network& network, IsRigid is_rigid, bool through_relations = false) {
+Merging merge(const Network& network, IsRigid is_rigid, Through relations = Through::none) {
   const std::size_t n = network.nodes.size();
   std::vector<std::vector<std::size_t>> joints_at(n);
   for (std::size_t j = 0; j < network.joints.size(); ++j)
@@ -35,9 +39,12 @@ Merging merge(const Network& network, IsRigid is_rigid, bool through_relations =
       joints_at[at(network.joints[j].b)].push_back(j);
     }
   std::vector<std::vector<const Network::Relation*>> relations_at(n);
-  if (through_relations)
-    for (const Network::Relation& relation : network.relations)
-      for (int k = 0; k < relation.members(); ++k) relations_at[at(relation.node[at(k)])].push_back(&relation);
+  const auto is_walked = [&](const Network::Relation& relation, int k) {
+    return relations == Through::all || (relations == Through::turning && relation.usual[at(k)] != 0);
+  };
+  for (const Network::Relation& relation : network.relations)
+    for (int k = 0; k < relation.members(); ++k)
+      if (is_walked(relation, k)) relations_at[at(relation.node[at(k)])].push_back(&relation);
   Merging merging{std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
   for (std::size_t first = 0; first < n; ++first) {
     if (merging.group[first] >= 0) continue;
@@ -59,7 +66,7 @@ Merging merge(const Network& network, IsRigid is_rigid, bool through_relations =
             std::find(relation->node.begin(), relation->node.end(), static_cast<int>(node)) - relation->node.begin());
         for (int k = 0; k < relation->members(); ++k) {
           const std::size_t other = at(relation->node[at(k)]);
-          if (merging.group[other] >= 0) continue;
+          if (merging.group[other] >= 0 || !is_walked(*relation, k)) continue;
           merging.group[other] = merging.groups;
           const double usual = relation->usual[own];
           merging.gain[other] =
@@ -114,7 +121,7 @@ class Compiler {
   void check_tree() {
     if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
     const Merging all = merge(
-        net(), [](const Network::Joint&) { return true; }, true);
+        net(), [](const Network::Joint&) { return true; }, Through::all);
     const Merging joined = merge(net(), [](const Network::Joint&) { return true; });
     const bool loop = net().joints.size() + at(joined.groups) != net().nodes.size();
     if (all.groups > 1 || loop || !relations_are_independent(net(), joined.group))
@@ -135,7 +142,7 @@ class Compiler {
 
   void find_node_ratios() {
     const Merging all = merge(
-        net(), [](const Network::Joint&) { return true; }, true);
+        net(), [](const Network::Joint&) { return true; }, Through::all);
     model_.node_ratio = all.gain;
     const double reduction = all.gain[at(model_.reduction_node)];
     for (double& ratio : model_.node_ratio) ratio /= reduction == 0 ? 1 : reduction;
@@ -145,7 +152,8 @@ class Compiler {
   // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
   // effects are on: 1/J_red = 1/J_a + i²/J_b.
   void settle_relative_damping() {
-    const Merging finest = merge(net(), [](const Network::Joint& joint) { return !joint.element; });
+    const Merging finest = merge(
+        net(), [](const Network::Joint& joint) { return !joint.element; }, Through::turning);
     std::vector<double> inertia(at(finest.groups), 0.0);
     for (std::size_t n = 0; n < net().nodes.size(); ++n)
       inertia[at(finest.group[n])] +=

@@ -47,7 +47,6 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OfExample, testing::ValuesIn(example_scenes()),
 // With an effect off, the model has the states, Jacobian and guards of the scene that never had it, and runs bit for
 // bit the same.
 TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
-  if (GetParam() == "worm_hoist") GTEST_SKIP() << "open: without its losses the worm is not the worm without friction";
   const Scene scene = example(GetParam());
   for (const EffectFlag& flag : effect_flags()) {
     if (flag.unsaid != EffectFlag::Unsaid::where_given || !has_parameters(scene, flag)) continue;
