@@ -21,9 +21,9 @@ struct RunArguments {
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_study_options(command, arguments.study);
-  command.add_option(
-      "--effects", arguments.effects,
-      "none, elasticity, elasticity:COUPLING,…, joint_friction, or two joined by + (overrides the scene)");
+  command.add_option("--effects", arguments.effects,
+                     "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
+                     "some couplings; -NAME takes one away (overrides the scene)");
   command.add_option("--accuracy", arguments.accuracy,
                      "measured error of every figure over its scale (overrides the scene)");
   command.add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");

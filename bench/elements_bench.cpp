@@ -47,7 +47,7 @@ const ElementCase cases[] = {
     {"induction motor, two axes",
      "kind = \"induction motor\", rated_power = \"1 kW\", rated_speed = \"1440 rpm\", synchronous_speed = \"1500 "
      "rpm\", "
-     "breakdown_ratio = 2.5, frequency = \"50 Hz\", inertia = \"0 kg*m2\""},
+     "breakdown_ratio = 2.5, resistance_ratio = 1, frequency = \"50 Hz\", inertia = \"0 kg*m2\""},
     {"bearing, exact",
      "kind = \"bearing\", torque = \"2 N*m\", static_torque = \"3 N*m\", stribeck_speed = \"1 rad/s\""},
     {"bearing, LuGre",

@@ -181,6 +181,12 @@ void put_two_axis(const Section& s, const InductionMotor& kloss, Network& net, i
     faults.add("frequency", fmt::format("\"frequency\" asks for the two-axis model, which starting = \"{}\" does not "
                                         "know; drop one of them",
                                         s.text("starting")));
+  // Without R_s the direct part of the stator's flux, there from the moment of switching on, would never decay: it
+  // brakes and shakes at the supply's frequency for ever.
+  if (kloss.resistance_ratio <= 0 && !s.given("starting_ratio"))
+    faults.add("frequency",
+               "\"frequency\" asks for the two-axis model, whose stator must have a resistance; give "
+               "resistance_ratio = R_s/R_r′ > 0 (cage motors: about 1)");
   const double pairs = 2 * std::numbers::pi * s.number("frequency") / kloss.synchronous_speed;
   if (std::lround(pairs) < 1 || std::abs(pairs - static_cast<double>(std::lround(pairs))) > 1e-6 * pairs)
     faults.add("frequency", fmt::format("frequency = {:g} Hz at {:.6g} rpm makes {:.6g} pole pairs; must be a whole "

@@ -25,24 +25,31 @@ bool gives(const Section& section, const std::string& effect) {
   return false;
 }
 
-void add_elasticity(const std::string& text, const Scene& scene, Effects& effects) {
-  const std::string prefix = "elasticity:";
-  for (std::size_t begin = prefix.size(); begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name = text.substr(begin, end - begin);
-    const Section* section = scene.find(name);
-    if (!section || !section->kind->elastic) {
-      std::vector<std::string> allowed;
-      for (const Section& s : scene.components)
-        if (s.kind->elastic) allowed.push_back(s.name);
-      const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name)
-                                      : "is no component" + suggestion(name, allowed);
-      throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes(text), in_quotes(name), why,
-                                              allowed.empty() ? "none in this scene" : shortened_list(allowed)));
-    }
-    effects.elastic.push_back(name);
-    begin = end + 1;
+void switch_elasticity(const std::string& component, bool on, const Scene& scene, Effects& effects) {
+  const Section* section = scene.find(component);
+  std::vector<std::string> all;
+  for (const Section& s : scene.components)
+    if (s.kind->elastic) all.push_back(s.name);
+  if (!section || !section->kind->elastic) {
+    const std::string why = section ? fmt::format("is a {}, which is always rigid", section->kind->name)
+                                    : "is no component" + suggestion(component, all);
+    throw std::invalid_argument(fmt::format("effects {}: {} {}; allowed: {}", in_quotes("elasticity:" + component),
+                                            in_quotes(component), why,
+                                            all.empty() ? "none in this scene" : shortened_list(all)));
   }
+  if (on) {
+    effects.elastic.push_back(component);
+    return;
+  }
+  if (effects.all_elastic) effects.elastic = std::move(all);
+  effects.all_elastic = false;
+  std::erase(effects.elastic, component);
+}
+
+bool is_effect(const std::string& name) {
+  const auto flags = effect_flags();
+  return name == "all" || name == "elasticity" ||
+         std::any_of(flags.begin(), flags.end(), [&](const EffectFlag& f) { return name == f.name; });
 }
 
 // One name, switched on or off.
@@ -52,16 +59,22 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
     if (!on) effects.elastic.clear();
     return;
   }
-  if (on && name.starts_with("elasticity:")) return add_elasticity(name, scene, effects);
   const auto flags = effect_flags();
+  if (name == "all" && on) {
+    effects.all_elastic = true;
+    for (const EffectFlag& f : flags)
+      if (f.unsaid == EffectFlag::Unsaid::part_of_machine || has_parameters(scene, f)) effects.*(f.flag) = true;
+    return;
+  }
   const auto known = std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return name == f.name; });
   if (known == flags.end()) {
-    std::vector<std::string> names = {"none", "elasticity"};
+    std::vector<std::string> names = {"none", "all", "elasticity"};
     for (const EffectFlag& f : flags) names.emplace_back(f.name);
     const std::string near = suggestion(name, names);
-    names.insert(names.begin() + 2, "elasticity:COUPLING,…");
-    throw std::invalid_argument(fmt::format("effects {}{}; allowed: {}; several joined by +, or -NAME to take one away",
-                                            in_quotes(name), near, listed(names)));
+    names.insert(names.begin() + 3, "elasticity:COUPLING,…");
+    throw std::invalid_argument(
+        fmt::format("effects {}{}; allowed: {}; several joined by commas, or -NAME to take one away", in_quotes(name),
+                    near, listed(names)));
   }
   if (on && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene, *known))
     throw std::invalid_argument(fmt::format("effects {}: no component of the scene has parameters for it; give {}",
@@ -134,12 +147,24 @@ Effects parse_effects(const std::string& text, const Scene& scene) {
   if (text == "none") return {};
   Effects effects;
   if (text.starts_with('-')) effects = scene.effects;
+  const std::string prefix = "elasticity:";
+  bool couplings = false, on = true;  // what a name without a prefix of its own goes on with
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('+', begin), text.size());
-    const std::string one = text.substr(begin, end - begin);
-    const bool on = !one.starts_with('-');
-    switch_effect(on ? one : one.substr(1), on, scene, effects);
+    const std::size_t end = std::min(text.find_first_of("+,", begin), text.size());
+    std::string name = text.substr(begin, end - begin);
+    const bool goes_on = couplings && begin > 0 && text[begin - 1] == ',' && !name.starts_with('-') &&
+                         !is_effect(name) && !name.starts_with(prefix);
     begin = end + 1;
+    if (!goes_on) {
+      on = !name.starts_with('-');
+      if (!on) name.erase(0, 1);
+      couplings = name.starts_with(prefix);
+      if (couplings) name.erase(0, prefix.size());
+    }
+    if (couplings)
+      switch_elasticity(name, on, scene, effects);
+    else
+      switch_effect(name, on, scene, effects);
   }
   return effects;
 }

@@ -164,7 +164,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   const struct {
     std::string option, value, said;
   } cases[] = {
-      {"--effects", "elastic", "allowed: \"none\", \"elasticity\", \"elasticity:COUPLING"},
+      {"--effects", "elastic", "allowed: \"none\", \"all\", \"elasticity\", \"elasticity:COUPLING"},
       {"--effects", "elasticity:copling",
        "\"copling\" is no component — did you mean \"coupling\"?; allowed: \"coupling\""},
       {"--effects", "elasticity:fan", "\"fan\" is a load, which is always rigid; allowed: \"coupling\""},

@@ -128,15 +128,25 @@ TEST(Scene, CommandLineEffectsAreParsed) {
   EXPECT_EQ(parse_effects("none", scene).describe(), "none");
   EXPECT_TRUE(parse_effects("elasticity", scene).all_elastic);
   EXPECT_EQ(parse_effects("elasticity:coupling", scene).elastic, Texts{"coupling"});
+  EXPECT_EQ(parse_effects("elasticity,-elasticity:coupling", scene).describe(), "none");
+  const Scene press = test::scene_file("bench/scenes/press_with_everything.toml");
+  const Effects some = parse_effects("elasticity:motor_coupling,main_coupling,backlash,gravity", press);
+  EXPECT_EQ(some.elastic, (Texts{"motor_coupling", "main_coupling"}));
+  EXPECT_TRUE(some.backlash && some.gravity && !some.gear_losses);
+  EXPECT_EQ(parse_effects("elasticity,-elasticity:main_coupling", press).elastic, (Texts{"motor_coupling", "gearbox"}));
+  const Effects nearly_all = parse_effects("all,-transients", press);
+  EXPECT_TRUE(nearly_all.all_elastic && nearly_all.joint_friction && nearly_all.gear_losses && nearly_all.gravity);
+  EXPECT_FALSE(nearly_all.transients || nearly_all.mesh_variation);
+  EXPECT_EQ(parse_effects("-backlash", press).elastic, press.effects.elastic);
 }
 
 TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   const Scene scene = test::scene_from(base);
   EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }),
-            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"elasticity\", "
+            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"all\", \"elasticity\", "
             "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
             "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"gravity\" or \"variable_inertia\"; several "
-            "joined by +, or -NAME to take one away");
+            "joined by commas, or -NAME to take one away");
   EXPECT_NE(message_of([&] { parse_effects("backlash", scene); }).find("no component of the scene has parameters"),
             std::string::npos);
   EXPECT_EQ(parse_effects("-elasticity", scene).describe(), "none");
