@@ -221,6 +221,7 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
   std::vector<double>& torque = reaction_effective_torque_;
   std::vector<double>& inertia = reaction_effective_inertia_;
   constexpr int most_steps = 50;
+  double last_change = HUGE_VAL;
   for (int i = 0; i < most_steps; ++i) {
     react(nullptr);
     for (std::size_t s = 0; s < m.shafts.size(); ++s) {
@@ -235,7 +236,8 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
       change = std::max(
           change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
     }
-    if (!(change > 1e-14)) break;
+    if (!(change > 1e-14) || (change < 1e-12 && change >= 0.5 * last_change)) break;  // the second: round-off
+    last_change = change;
   }
   react(work_rate);
   for (std::size_t s = 0; s < m.shafts.size(); ++s) torque_[s] += reaction_torque_[s];

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -152,6 +152,8 @@ double SliderCrankForces::friction_loss() const {
 
 SliderCrankStatics::SliderCrankStatics(const SliderCrankData& data, const SliderCrankJoints& joints)
     : data_(data), joints_(joints), geometry_(data) {
+  static std::atomic<std::uint64_t> made = 0;
+  identity_ = ++made;
   validate(joints);
 }
 
@@ -193,7 +195,26 @@ SliderCrankStatics::Rates SliderCrankStatics::rates(double phi, double omega) co
 // q = law(reactions): the friction loads, each against its joint's motion.
 struct SliderCrankStatics::Law {
   using Loads = Eigen::Matrix<double, frictions, 1>;
-  using Slopes = Eigen::Matrix<double, frictions, reactions>;
+  // ∂q/∂reactions: each friction hangs on two reactions at most.
+  struct Slopes {
+    struct Entry {
+      int reaction = 0;
+      double value = 0;
+    };
+    Entry on[frictions][2];
+    template <class M>
+    Eigen::Matrix<double, frictions, M::ColsAtCompileTime> operator*(const M& m) const {
+      Eigen::Matrix<double, frictions, M::ColsAtCompileTime> product;
+      for (int k = 0; k < frictions; ++k)
+        product.row(k) = on[k][0].value * m.row(on[k][0].reaction) + on[k][1].value * m.row(on[k][1].reaction);
+      return product;
+    }
+    friend Slopes operator*(double s, Slopes d) {
+      for (auto& row : d.on)
+        for (Entry& entry : row) entry.value *= s;
+      return d;
+    }
+  };
 
   double circle[3];  // −sgn(rate) ρ of the revolute joints [m]
   double guide;      // −sgn(v) (f + k_r/R)
@@ -201,31 +222,30 @@ struct SliderCrankStatics::Law {
 
   Loads value(const Column& r) const {
     Loads q;
-    q[0] = circle[0] * std::hypot(r[main_x], r[main_y]);
-    q[1] = circle[1] * std::hypot(r[crank_x], r[crank_y]);
-    q[2] = circle[2] * std::hypot(r[slider_x], r[slider_y]);
+    for (int k = 0; k < 3; ++k) q[k] = circle[k] * size(r, k);
     q[3] = guide * bearing_sum(r);
     q[4] = guide * half_width * r[guide_n];
     return q;
   }
   Slopes slope(const Column& r) const {
-    Slopes d = Slopes::Zero();
+    Slopes d;
     for (int k = 0; k < 3; ++k) {
-      const double size = std::hypot(r[2 * k], r[2 * k + 1]);
-      if (size == 0) continue;
-      d(k, 2 * k) = circle[k] * r[2 * k] / size;
-      d(k, 2 * k + 1) = circle[k] * r[2 * k + 1] / size;
+      const double force = size(r, k);
+      if (force == 0) continue;
+      d.on[k][0] = {2 * k, circle[k] * r[2 * k] / force};
+      d.on[k][1] = {2 * k + 1, circle[k] * r[2 * k + 1] / force};
     }
     if (at_edges(r)) {
       const int side = sign(moment(r));
-      d(3, guide_m) = guide * side * 2 / length;
-      d(3, guide_n) = -guide * side * 2 / length * middle;
+      d.on[3][0] = {guide_m, guide * side * 2 / length};
+      d.on[3][1] = {guide_n, -guide * side * 2 / length * middle};
     } else {
-      d(3, guide_n) = guide * sign(r[guide_n]);
+      d.on[3][0] = {guide_n, guide * sign(r[guide_n])};
     }
-    d(4, guide_n) = guide * half_width;
+    d.on[4][0] = {guide_n, guide * half_width};
     return d;
   }
+  static double size(const Column& r, int k) { return std::sqrt(r[2 * k] * r[2 * k] + r[2 * k + 1] * r[2 * k + 1]); }
   double moment(const Column& r) const { return r[guide_m] - middle * r[guide_n]; }  // about the guide's middle
   bool at_edges(const Column& r) const { return length > 0 && 2 * std::abs(moment(r)) > length * std::abs(r[guide_n]); }
   double bearing_sum(const Column& r) const {
@@ -257,10 +277,58 @@ SliderCrankStatics::Law SliderCrankStatics::law_at(const CrankState& state) cons
   return law;
 }
 
+namespace {
+
+// LU of a matrix of the frictions, with partial pivoting: of a size that the compiler unrolls.
+class FrictionLu {
+ public:
+  static constexpr int n = SliderCrankStatics::frictions;
+  using Matrix = Eigen::Matrix<double, n, n>;
+  using Vector = Eigen::Matrix<double, n, 1>;
+
+  FrictionLu() : FrictionLu(Matrix::Identity()) {}
+  explicit FrictionLu(const Matrix& matrix) : lu_(matrix) {
+    for (int k = 0; k < n; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < n; ++i)
+        if (std::abs(lu_(i, k)) > std::abs(lu_(pivot, k))) pivot = i;
+      row_[k] = pivot;
+      if (pivot != k) {
+        for (int j = 0; j < n; ++j) std::swap(lu_(k, j), lu_(pivot, j));
+        determinant_ = -determinant_;
+      }
+      determinant_ *= lu_(k, k);
+      if (lu_(k, k) == 0) continue;
+      for (int i = k + 1; i < n; ++i) {
+        const double factor = lu_(i, k) /= lu_(k, k);
+        for (int j = k + 1; j < n; ++j) lu_(i, j) -= factor * lu_(k, j);
+      }
+    }
+  }
+  double determinant() const { return determinant_; }
+  Vector solve(Vector x) const {
+    for (int k = 0; k < n; ++k) std::swap(x[k], x[row_[k]]);
+    for (int k = 0; k < n; ++k)
+      for (int i = k + 1; i < n; ++i) x[i] -= lu_(i, k) * x[k];
+    for (int k = n; k-- > 0;) {
+      for (int j = k + 1; j < n; ++j) x[k] -= lu_(k, j) * x[j];
+      x[k] /= lu_(k, k);
+    }
+    return x;
+  }
+
+ private:
+  Matrix lu_;
+  int row_[n];
+  double determinant_ = 1;
+};
+
+}  // namespace
+
 struct SliderCrankStatics::Solution {
   Law::Loads q = Law::Loads::Zero();
-  Law::Slopes law_slope = Law::Slopes::Zero();
-  Eigen::Matrix<double, frictions, frictions> jacobian = Eigen::Matrix<double, frictions, frictions>::Identity();
+  Law::Slopes law_slope = {};
+  FrictionLu lu;  // of 1 − ∂law/∂q
   bool both_edges = false;
   double residual = 0;
   int iterations = 0;
@@ -269,38 +337,48 @@ struct SliderCrankStatics::Solution {
 // q = s · law(base + U q), led from s = 0 to 1. The solution wanted is the one that hangs together with the
 // frictionless one: along it the determinant of 1 − s ∂law/∂q keeps its sign; where it would vanish the joints jam.
 SliderCrankStatics::Solution SliderCrankStatics::solve_friction(const Table& unit, const Column& base, const Law& law,
-                                                                double phi) const {
+                                                                double phi, const Solution* near) const {
   Solution solution;
   if (law.none()) return solution;
-  const auto loads = unit.rightCols<frictions>();
-  double share = 0, step = 1;
-  constexpr double least_step = 1.0 / 4096;
+  const Eigen::Matrix<double, reactions, frictions> loads = unit.rightCols<frictions>();
   // Newton at one share; false where it does not converge to the branch wanted.
   const auto newton = [&](double s, Solution& at) {
+    double last = HUGE_VAL;
+    Law::Loads before = at.q;
     for (int i = 0; i < 40; ++i) {
       const Column r = base + loads * at.q;
       const Law::Loads wanted = s * law.value(r);
-      at.law_slope = s * law.slope(r);
-      at.jacobian.setIdentity();
-      at.jacobian -= at.law_slope * loads;
       const Law::Loads error = at.q - wanted;
       const double scale = std::max(wanted.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-      at.residual = error.cwiseAbs().maxCoeff() / scale;
-      at.both_edges = law.at_edges(r);
+      const double residual = error.cwiseAbs().maxCoeff() / scale;
+      if (!std::isfinite(residual)) return false;
+      // At the rounding floor a step no longer helps.
+      if (last < 1e-12 && residual >= last) {
+        at.q = before;
+        return at.lu.determinant() > 0;
+      }
       ++at.iterations;
-      const Eigen::PartialPivLU<Eigen::Matrix<double, frictions, frictions>> lu(at.jacobian);
-      const double determinant = lu.determinant();
-      if (!std::isfinite(at.residual) || !std::isfinite(determinant)) return false;
-      if (at.residual <= 4e-15) return determinant > 0;
-      if (determinant == 0) return false;
-      const double before = at.residual;
-      at.q -= lu.solve(error);
-      // At the rounding floor the step no longer helps.
-      const Law::Loads after = at.q - s * law.value(base + loads * at.q);
-      if (before < 1e-12 && after.cwiseAbs().maxCoeff() / scale >= before) return determinant > 0;
+      at.residual = residual;
+      at.both_edges = law.at_edges(r);
+      at.law_slope = s * law.slope(r);
+      at.lu = FrictionLu(FrictionLu::Matrix::Identity() - at.law_slope * loads);
+      if (!std::isfinite(at.lu.determinant())) return false;
+      if (residual <= 4e-15) return at.lu.determinant() > 0;
+      if (at.lu.determinant() == 0) return false;
+      before = at.q;
+      last = residual;
+      at.q -= at.lu.solve(error);
     }
     return false;
   };
+  if (near) {
+    solution = *near;
+    solution.iterations = 0;
+    if (newton(1, solution)) return solution;
+    solution = {};
+  }
+  double share = 0, step = 1;
+  constexpr double least_step = 1.0 / 4096;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
     Solution trial = solution;
@@ -385,16 +463,45 @@ void SliderCrankStatics::add_motion(const CrankState& state, SliderCrankForces& 
 // --- second problem ---
 
 // dq/dε = (1 − ∂law/∂q)⁻¹ (∂law/∂R) R_ε.
-SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_of(const Table& unit, const Law& law,
-                                                                   const CrankState& state) const {
-  const Solution solution = solve_friction(unit, load_column(unit, state), law, state.phi);
+SliderCrankStatics::FrictionTorque SliderCrankStatics::torque_of(const Table& unit, const Solution& solution) const {
   const auto row = unit.rightCols<frictions>().row(torque_m);
-  const Law::Loads dq = solution.jacobian.partialPivLu().solve(solution.law_slope * unit.col(acceleration_case));
+  const Law::Loads dq = solution.lu.solve(solution.law_slope * unit.col(acceleration_case));
   return {row.dot(solution.q), row.dot(dq)};
 }
 
+// The last position and speed asked about on this thread, and what was found there.
+struct SliderCrankStatics::Remembered {
+  std::uint64_t identity = 0;
+  CrankState state;
+  Table unit;
+  Law law;
+  bool solved = false;
+  Solution solution;
+  FrictionTorque torque;
+
+  bool is_of(std::uint64_t asked, const CrankState& s) const {
+    return identity == asked && state.phi == s.phi && state.omega == s.omega && state.direction == s.direction &&
+           state.at_rest == s.at_rest;
+  }
+};
+
 SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state) const {
-  return friction_of(unit_cases(state.phi), law_at(state), state);
+  static thread_local Remembered last;
+  if (!last.is_of(identity_, state)) {
+    last.identity = identity_;
+    last.unit = unit_cases(state.phi);
+    last.law = law_at(state);
+    last.solved = false;
+  } else if (last.solved && last.state.alpha == state.alpha && last.state.slider_force == state.slider_force) {
+    return last.torque;
+  }
+  last.state = state;
+  const Solution* near = last.solved ? &last.solution : nullptr;
+  last.solved = false;  // until it is: a jam throws
+  last.solution = solve_friction(last.unit, load_column(last.unit, state), last.law, state.phi, near);
+  last.solved = true;
+  last.torque = torque_of(last.unit, last.solution);
+  return last.torque;
 }
 
 double SliderCrankStatics::acceleration(CrankState state, double torque, double shaft_inertia) const {
@@ -408,7 +515,7 @@ double SliderCrankStatics::acceleration(CrankState state, double torque, double 
                     state.phi, inertia, shaft_inertia));
   const auto excess = [&](double alpha, double& slope) {  // M(ε) + J ε − torque
     state.alpha = alpha;
-    const FrictionTorque friction = friction_of(unit, law, state);
+    const FrictionTorque friction = torque_of(unit, solve_friction(unit, load_column(unit, state), law, state.phi));
     slope = inertia + friction.slope;
     return load_column(unit, state)[torque_m] + friction.torque + shaft_inertia * alpha - torque;
   };

@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "mechanisms/friction.h"
@@ -139,6 +140,7 @@ class SliderCrankStatics {
   double acceleration(CrankState state, double torque, double shaft_inertia = 0) const;
 
   // What friction adds to the balancing torque, with its derivative by ε; its power is lost. Throws as solve does.
+  // Asked again at the same position and speed, as Newton's method on ε does, it goes on from its last solution.
   struct FrictionTorque {
     double torque = 0, slope = 0;  // [N·m], [kg·m²]
   };
@@ -161,16 +163,19 @@ class SliderCrankStatics {
  private:
   struct Law;  // coefficients and directions at one state
   struct Solution;
-  FrictionTorque friction_of(const Table& unit, const Law& law, const CrankState& state) const;
+  struct Remembered;
   Law law_at(const CrankState& state) const;
   Column load_column(const Table& unit, const CrankState& state) const;
-  Solution solve_friction(const Table& unit, const Column& base, const Law& law, double phi) const;
+  FrictionTorque torque_of(const Table& unit, const Solution& solution) const;
+  Solution solve_friction(const Table& unit, const Column& base, const Law& law, double phi,
+                          const Solution* near = nullptr) const;
   void add_motion(const CrankState& state, SliderCrankForces& out) const;
   SliderCrankForces assemble(const Column& reaction, const Solution& solution, const CrankState& state) const;
 
   SliderCrankData data_;
   SliderCrankJoints joints_;
   SliderCrankGeometry geometry_;
+  std::uint64_t identity_;  // of these data, for what friction_torque remembers
 };
 
 }  // namespace kurbel
