@@ -64,10 +64,32 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& right) const {
   return root_capacity_.asDiagonal() * least_.solve(Eigen::VectorXd(right_.asDiagonal() * right));
 }
 
+// One row alone, the usual case of a gear with losses, needs no matrix. False where it has no diagonal.
+bool Constraints::solve_one(std::span<const double> inertia, std::span<double> alpha, double& multiplier) const {
+  const ConstraintRow& row = rows_.front();
+  double diagonal = 0;
+  for (const ShaftGain& g : row.motion)
+    if (at(g.shaft) < free_)
+      for (const ShaftGain& t : row.torque)
+        if (t.shaft == g.shaft) diagonal += g.gain * t.gain / inertia[at(g.shaft)];
+  if (diagonal == 0) return false;
+  multiplier = 0;
+  for (int pass = 0; pass < 2; ++pass) {  // twice: see below
+    double sum = 0;
+    for (const ShaftGain& g : row.motion) sum += g.gain * alpha[at(g.shaft)];
+    const double lambda = -sum / diagonal;
+    multiplier += lambda;
+    for (const ShaftGain& t : row.torque)
+      if (at(t.shaft) < free_) alpha[at(t.shaft)] += t.gain * lambda / inertia[at(t.shaft)];
+  }
+  return true;
+}
+
 void Constraints::solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
                         std::span<double> multiplier) {
   for (std::size_t s = 0; s < free_; ++s) alpha[s] = torque[s] / inertia[s];
   if (rows_.empty()) return;
+  if (rows_.size() == 1 && solve_one(inertia, alpha, multiplier[0])) return;
   factorise(inertia);
   std::fill_n(multiplier.begin(), rows_.size(), 0.0);
   right_side_.resize(ix(rows_.size()));

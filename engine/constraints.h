@@ -38,6 +38,7 @@ class Constraints {
   Eigen::MatrixXd mobility(std::span<const double> inertia, std::span<const int> shafts);
 
  private:
+  bool solve_one(std::span<const double> inertia, std::span<double> alpha, double& multiplier) const;
   void factorise(std::span<const double> inertia, bool symmetric = false);
   Eigen::VectorXd multipliers(const Eigen::VectorXd& right) const;
 
