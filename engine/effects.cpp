@@ -17,7 +17,7 @@ bool gives(const Section& section, const std::string& effect) {
     if (setting.given && section.kind) {
       const auto& keys = section.kind->keys;
       const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-      if (key != keys.end() && key->effect == effect) return true;
+      if (key != keys.end() && key->gives(effect)) return true;
     }
     for (const Section& nested : setting.sections)
       if (gives(nested, effect)) return true;
@@ -63,7 +63,8 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
   if (name == "all" && on) {
     effects.all_elastic = true;
     for (const EffectFlag& f : flags)
-      if (f.unsaid == EffectFlag::Unsaid::part_of_machine || has_parameters(scene, f)) effects.*(f.flag) = true;
+      if (f.unsaid == EffectFlag::Unsaid::part_of_machine || has_parameters(scene, f))
+        effects.*(f.flag) = f.flag != &Effects::multibody;  // the same physics at many times the cost
     return;
   }
   const auto known = std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return name == f.name; });
@@ -86,7 +87,7 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
 
 std::span<const EffectFlag> effect_flags() {
   using Unsaid = EffectFlag::Unsaid;
-  static constexpr std::array<EffectFlag, 9> flags = {{
+  static constexpr std::array<EffectFlag, 11> flags = {{
       {"joint_friction", &Effects::joint_friction, "joint friction", Unsaid::off,
        "friction in the joints of a slider-crank, found together with the reactions", "a joint's friction_coefficient"},
       {"backlash", &Effects::backlash, "backlash", Unsaid::where_given,
@@ -106,6 +107,11 @@ std::span<const EffectFlag> effect_flags() {
        "the gravity of a mechanism"},
       {"variable_inertia", &Effects::variable_inertia, "variable inertia", Unsaid::part_of_machine,
        "the reduced inertia of a mechanism varies with its angle; off: its mean", "a mechanism"},
+      {"load_edges", &Effects::load_edges, "load edges", Unsaid::part_of_machine,
+       "edges of a force over travel or angle, located as events; off: rounded, with the same work",
+       "the rounding of a mechanism's load"},
+      {"multibody", &Effects::multibody, "multibody in the loop", Unsaid::off,
+       "mechanisms evaluated body by body by Simbody at every step; off: by tables extracted from it", "a mechanism"},
   }};
   return flags;
 }

@@ -22,6 +22,8 @@ struct Effects {
   bool gear_losses = false;       // off: gears without losses
   bool gravity = true;            // weight of the mechanisms
   bool variable_inertia = true;   // I_r(φ) of the mechanisms; off: its mean
+  bool load_edges = true;         // of forces over travel or angle, as events; off: rounded
+  bool multibody = false;         // mechanisms evaluated by Simbody in the loop; off: by tables extracted from it
   bool locked = false;            // clutches count as locked: for studies of the rigid machine
 
   bool is_elastic(const std::string& component) const;
@@ -43,8 +45,9 @@ std::span<const EffectFlag> effect_flags();
 // A key that this effect needs stands somewhere in the scene.
 bool has_parameters(const Scene& scene, const EffectFlag& effect);
 
-// "none", or joined by "+": "elasticity" or "elasticity:motor_coupling,main_coupling", and names of flags; "-name"
-// takes one away from those of the scene. Throws std::invalid_argument.
+// "none", "all" (that the scene has parameters for), or names joined by commas: "elasticity" or
+// "elasticity:motor_coupling,main_coupling", and names of flags; "-name" takes one away, at the beginning of the list
+// from those of the scene. Throws std::invalid_argument.
 Effects parse_effects(const std::string& text, const Scene& scene);
 
 }  // namespace kurbel

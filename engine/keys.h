@@ -50,7 +50,11 @@ struct Key {
   bool required = false;
   std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
   const std::vector<Kind>* nested = nullptr;  // of sections
-  std::string effect = "";                    // giving it gives the scene parameters for this effect
+  std::string effect = "";                    // giving it gives the scene parameters for these effects, by spaces
+
+  bool gives(const std::string& asked) const {
+    return (" " + effect + " ").find(" " + asked + " ") != std::string::npos;
+  }
 };
 
 // How a kind of component stands in a machine.

@@ -402,7 +402,8 @@ class SceneReader {
       } else {
         scene_.effects.*(known->flag) = entry.value.flag;
         said_.insert(entry.key);
-        if (entry.value.flag && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene_, *known) && unreadable_.empty())
+        if (entry.value.flag && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene_, *known) &&
+            unreadable_.empty())
           refuse(entry.at, fmt::format("[effects]: {} = true, but no component has parameters for it; give {}, or drop "
                                        "the line",
                                        entry.key, known->parameters));

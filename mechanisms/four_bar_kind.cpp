@@ -34,7 +34,7 @@ Kind four_bar_kind() {
                  .domain = positive,
                  .doc = "crank length, from the crank axis to the crank pin",
                  .required = true,
-                 .effect = "variable_inertia"},
+                 .effect = "variable_inertia multibody"},
                 {.name = "coupler",
                  .unit = "m",
                  .domain = positive,

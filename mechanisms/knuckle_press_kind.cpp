@@ -40,7 +40,7 @@ Kind knuckle_press_kind() {
              .domain = positive,
              .doc = "crank radius r",
              .required = true,
-             .effect = "variable_inertia"},
+             .effect = "variable_inertia multibody"},
             {.name = "rod", .unit = "m", .domain = positive, .doc = "from the crank pin to the knee", .required = true},
             {.name = "bearing_x",
              .unit = "m",

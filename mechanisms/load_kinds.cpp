@@ -31,6 +31,14 @@ Key work_key(const char* fallback) {
           .choices = {"useful", "harmful", "driving"}};
 }
 
+Key rounding_key(const char* name, const char* unit) {
+  return {.name = name,
+          .unit = unit,
+          .domain = positive,
+          .doc = "width that edges are rounded over, of the same area, when the effect load_edges is off",
+          .effect = "load_edges"};
+}
+
 Account account_of(const Section& s) {
   const std::string& name = s.text("work");
   return name == "driving" ? Account::driving : name == "harmful" ? Account::harmful : Account::useful;
@@ -127,12 +135,38 @@ bool read_compressor(const Section& s, const Mechanism& mechanism, const std::st
   return true;
 }
 
+// The width that edges are rounded over when the effect load_edges is off; a smooth table has no edges.
+bool read_rounding(const Section& s, const Mechanism& mechanism, const std::string& what, Messages& messages,
+                   SliderLoad& load) {
+  const bool over_angle = load.period() > 0, rocks = mechanism.rocks();
+  for (const char* key : {"rounding", "rounding_angle"}) {
+    if (!s.given(key)) continue;
+    const double most = over_angle ? 0.5 * load.period() : mechanism.stroke();
+    load.rounding = 0.5 * s.number(key);
+    std::string wrong;
+    if (!rocks && over_angle != (std::string(key) == "rounding_angle"))
+      wrong = over_angle ? "the table is over the crank angle; give \"rounding_angle\""
+                         : "the table is over the travel; give \"rounding\"";
+    else if (!load.can_be_rounded())
+      wrong = fmt::format("\"{}\" is for straight pieces, and the table is smooth; drop it", key);
+    else if (2 * load.rounding > most)
+      wrong = fmt::format("{} = {:g} {}; must be at most {:g}", key, 2 * load.rounding,
+                          over_angle || rocks ? "rad" : "m", most);
+    if (wrong.empty()) continue;
+    messages.add(s.where(key), fmt::format("{}: {}", what, wrong));
+    return false;
+  }
+  return true;
+}
+
 bool read_load(const Section& s, const Mechanism& mechanism, const std::string& what, Messages& messages,
                SliderLoad& load) {
   const std::string& kind = s.kind->name;
   load.account = account_of(s);
-  if (kind == "press") return read_press(s, mechanism, what, messages, load);
-  if (kind == "table") return read_table(s, mechanism, what, messages, load);
+  if (kind == "press")
+    return read_press(s, mechanism, what, messages, load) && read_rounding(s, mechanism, what, messages, load);
+  if (kind == "table")
+    return read_table(s, mechanism, what, messages, load) && read_rounding(s, mechanism, what, messages, load);
   if (kind == "compressor") return read_compressor(s, mechanism, what, messages, load);
   const char* magnitude = mechanism.rocks() ? "torque" : "force";
   if (kind == "constant") load.law = ConstantForce{s.number(magnitude)};
@@ -184,6 +218,7 @@ const std::vector<Kind>& slider_load_kinds() {
                  .fallback = "\"0 mm\"",
                  .domain = not_negative,
                  .doc = "travel within which the force falls after break-through"},
+                rounding_key("rounding", "m"),
                 working_end_key(),
                 work_key("\"useful\"")}},
       {.name = "constant",
@@ -214,6 +249,8 @@ const std::vector<Kind>& slider_load_kinds() {
                         "720 deg for four strokes)",
                  .required = true,
                  .choices = {"travel", "angle"}},
+                rounding_key("rounding", "m"),
+                rounding_key("rounding_angle", "rad"),
                 working_end_key(),
                 work_key("\"useful\"")}},
       {.name = "compressor",
@@ -279,6 +316,7 @@ const std::vector<Kind>& rocker_load_kinds() {
                         "720 deg)",
                  .required = true,
                  .choices = {"swing", "angle"}},
+                rounding_key("rounding", "rad"),
                 swing_end_key(),
                 work_key("\"useful\"")}},
   };

@@ -127,7 +127,13 @@ std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) 
   changed.joint_friction = effects.joint_friction && mechanism_.joints;
   changed.weightless = !effects.gravity;
   changed.mean_inertia = !effects.variable_inertia;
-  if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia) return nullptr;
+  changed.in_the_loop = effects.multibody;
+  bool rounded = false;
+  if (!effects.load_edges)
+    for (SliderLoad& load : changed.loads)
+      if (load.can_be_rounded()) load = load.rounded(), rounded = true;
+  if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
+    return nullptr;
   return std::make_shared<MechanismMaker>(std::move(changed));
 }
 
@@ -166,6 +172,28 @@ SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, s
   return {phi, x, ratio * omega, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
 }
 
+MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
+  const Mechanism& m = p.mechanism;
+  if (m.in_the_loop) {
+    const ReducedSample s = m.bodies->sample(phi);
+    const bool mean = m.mean_inertia;
+    return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope, s.output_position,
+            s.output_velocity_ratio, s.gravity_torque};
+  }
+  const auto here = m.reduced->at(phi);
+  Reduced at{m.travel.mean_inertia, 0, 0, 0, 0};
+  if (!m.mean_inertia) {
+    const auto [inertia, slope] = here.inertia();
+    at.inertia = inertia, at.inertia_slope = slope;
+  }
+  if (p.has_weight) at.weight = here.gravity_torque().value;
+  if (!m.loads.empty()) {
+    const auto [x, ratio] = here.output_position();
+    at.position = x, at.ratio = ratio;
+  }
+  return at;
+}
+
 double MechanismPool::load_force(const Placed& p, const Instant& now) const {
   double sum = 0;
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
@@ -179,17 +207,15 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
   for (const Placed& p : placed_) {
     const double omega = p.at.gain * now.speed[p.at.shaft];
     const double phi = angle_of(p.at, now);
-    const auto here = p.mechanism.reduced->at(phi);
-    auto [inertia, slope] = here.inertia();
-    if (p.mechanism.mean_inertia) inertia = p.mechanism.travel.mean_inertia, slope = 0;
-    double torque = -0.5 * slope * omega * omega;
+    const Reduced here = reduced_at(p, phi);
+    const double inertia = here.inertia;
+    double torque = -0.5 * here.inertia_slope * omega * omega;
     if (p.has_weight) {
-      const double weight = here.gravity_torque().value;
-      torque += weight;
-      if (sums.work_rate) sums.work_rate[p.at.account] += weight * omega;
+      torque += here.weight;
+      if (sums.work_rate) sums.work_rate[p.at.account] += here.weight * omega;
     }
     if (!p.mechanism.loads.empty()) {
-      const auto [x, ratio] = here.output_position();
+      const double x = here.position, ratio = here.ratio;
       SliderState<double> s{phi, x, ratio * omega, 0, 0};
       s.travel = p.watches_travel ? now.mode[p.at.mode] * now.direction[p.at.shaft] : (s.v >= 0 ? 1 : -1);
       for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {

@@ -38,6 +38,7 @@ struct Mechanism {
   bool joint_friction = false;                       // is an effect that is on
   bool weightless = false;                           // the effect gravity is off
   bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
+  bool in_the_loop = false;                          // its bodies are evaluated at every step: the effect multibody
 
   bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
   bool has_weight() const;
@@ -109,6 +110,11 @@ class MechanismPool final : public ElementPool {
     int load;  // −1: the sign of x′
     int which;
   };
+  // What acts at an angle: from the tables, or from the bodies.
+  struct Reduced {
+    double inertia, inertia_slope, position, ratio, weight;
+  };
+  static Reduced reduced_at(const Placed& p, double phi);
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   double load_force(const Placed& p, const Instant& now) const;
   double load_force(const Placed& p, const Instant& now, double phi, double omega) const;

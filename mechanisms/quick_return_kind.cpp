@@ -40,7 +40,7 @@ Kind quick_return_kind() {
              .domain = positive,
              .doc = "crank radius r",
              .required = true,
-             .effect = "variable_inertia"},
+             .effect = "variable_inertia multibody"},
             {.name = "pivot_distance",
              .unit = "m",
              .domain = positive,

@@ -50,7 +50,7 @@ Kind slider_crank_kind() {
             .domain = positive,
             .doc = "crank radius r",
             .required = true,
-            .effect = "variable_inertia"},
+            .effect = "variable_inertia multibody"},
            {.name = "rod",
             .unit = "m",
             .domain = positive,

@@ -17,6 +17,7 @@
 #include "engine/dual.h"
 #include "engine/element.h"
 #include "mechanisms/compressor_force.h"
+#include "mechanisms/rounded_profile.h"
 #include "mechanisms/slider_state.h"
 
 namespace kurbel {
@@ -182,17 +183,61 @@ struct AngleForce {
   std::string mode_name(const SliderState<double>&) const { return {}; }
 };
 
+// PressForce with its edges rounded: the effect load_edges is off.
+struct RoundedPressForce {
+  static constexpr bool directional = true;
+  WorkingEnd end;
+  RoundedProfile profile;
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    if (!end.approached(s.travel)) return T(0.0);
+    return -static_cast<double>(end.side) * profile.value(end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    const double force = profile.value(end.distance(s.x));
+    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
+  }
+};
+
+// TravelForce or AngleForce with its edges rounded.
+struct RoundedTableForce {
+  WorkingEnd end;
+  RoundedProfile approach, retreat;  // retreat may be empty
+  double period = 0;                 // > 0: over the crank angle
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    const RoundedProfile& branch = retreat.empty() || end.approached(s.travel) ? approach : retreat;
+    return -static_cast<double>(end.side) * branch.value(period > 0 ? s.phi : end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    if (retreat.empty()) return {};
+    const double more = approach.value(end.distance(s.x)) - retreat.value(end.distance(s.x));
+    if (more <= 0) return {};
+    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+  }
+};
+
 struct SliderLoad {
-  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce>
+  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
+               RoundedPressForce, RoundedTableForce>
       law;
   std::string name;  // "press.load"
   Account account = Account::useful;
+  double rounding = 0;  // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
+
+  bool can_be_rounded() const;  // straight pieces, and a width is given
+  SliderLoad rounded() const;
 
   bool depends_on_travel() const {  // on the sign of the slider's speed
     return std::visit(
         [](const auto& l) {
           using L = std::decay_t<decltype(l)>;
-          if constexpr (std::is_same_v<L, TravelForce>) return !l.retreat.empty();
+          if constexpr (std::is_same_v<L, TravelForce> || std::is_same_v<L, RoundedTableForce>)
+            return !l.retreat.empty();
           if constexpr (std::is_same_v<L, CompressorForce>) return true;
           return Directional<L>;
         },
@@ -205,11 +250,36 @@ struct SliderLoad {
     return std::visit([](const auto& l) { return depends_on_speed(l); }, law);
   }
   double period() const {
-    const auto* over_angle = std::get_if<AngleForce>(&law);
-    return over_angle ? over_angle->curve.period() : 0;
+    if (const auto* over_angle = std::get_if<AngleForce>(&law)) return over_angle->curve.period();
+    const auto* rounded_table = std::get_if<RoundedTableForce>(&law);
+    return rounded_table ? rounded_table->period : 0;
   }
   double greatest_force() const;
 };
+
+inline bool SliderLoad::can_be_rounded() const {
+  if (!(rounding > 0)) return false;
+  if (const auto* l = std::get_if<TravelForce>(&law)) return l->approach.form() == Curve::Form::linear;
+  if (const auto* l = std::get_if<AngleForce>(&law)) return l->curve.form() == Curve::Form::linear;
+  return std::holds_alternative<PressForce>(law);
+}
+
+inline SliderLoad SliderLoad::rounded() const {
+  SliderLoad smooth = *this;
+  if (!can_be_rounded()) return smooth;
+  if (const auto* l = std::get_if<PressForce>(&law)) {
+    smooth.law =
+        RoundedPressForce{l->end, RoundedProfile(l->profile.knot, l->profile.left, l->profile.right, 0, 0, rounding)};
+  } else if (const auto* table = std::get_if<TravelForce>(&law)) {
+    smooth.law =
+        RoundedTableForce{table->end, RoundedProfile(table->approach, rounding),
+                          table->retreat.empty() ? RoundedProfile() : RoundedProfile(table->retreat, rounding)};
+  } else if (const auto* over_angle = std::get_if<AngleForce>(&law)) {
+    smooth.law =
+        RoundedTableForce{over_angle->end, RoundedProfile(over_angle->curve, rounding), {}, over_angle->curve.period()};
+  }
+  return smooth;
+}
 
 inline double SliderLoad::greatest_force() const {
   struct Greatest {
@@ -220,6 +290,10 @@ inline double SliderLoad::greatest_force() const {
     double operator()(const TravelForce& l) const { return std::max(l.approach.max_abs(), l.retreat.max_abs()); }
     double operator()(const AngleForce& l) const { return l.curve.max_abs(); }
     double operator()(const CompressorForce& l) const { return l.greatest(); }
+    double operator()(const RoundedPressForce& l) const { return l.profile.greatest(); }
+    double operator()(const RoundedTableForce& l) const {
+      return std::max(l.approach.greatest(), l.retreat.greatest());
+    }
   };
   return std::visit(Greatest{}, law);
 }

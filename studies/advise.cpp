@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/units.h"
+#include "studies/advise_screens.h"
 
 namespace kurbel {
 namespace {
@@ -20,20 +21,6 @@ constexpr double held_out_step = 0.2;        // loads and speeds ± 20 %
 // A set that leaves out less than its cost's noise is no gain.
 constexpr double same_time = 0.97;
 
-const std::string elasticity = "elasticity:";
-
-std::optional<std::size_t> channel_of(const Result& r, const std::string& name) {
-  if (!r.trajectory) return {};
-  const auto& channels = r.trajectory->channels();
-  for (std::size_t k = 0; k < channels.size(); ++k)
-    if (channels[k].name == name) return k;
-  return {};
-}
-
-double work_of(const Result& r, const std::string& line) {
-  const auto found = r.energy.by_line.find(line);
-  return found == r.energy.by_line.end() ? 0 : found->second;
-}
 class Adviser {
  public:
   Adviser(const Scene& scene, const AdviseOptions& options) : scene_(scene), options_(options) {
@@ -62,7 +49,7 @@ class Adviser {
       return std::move(a_);
     }
     check_figures();
-    screen();
+    a_.screens = screens_of(scene_, a_.units, a_.full, options_.within);
     if (a_.units.size() <= tried_completely)
       try_all();
     else
@@ -87,77 +74,6 @@ class Adviser {
       throw std::invalid_argument(
           fmt::format("--figures: no figure \"{}\"{}; see kurbel figures", name, suggestion(name, names)));
     }
-  }
-
-  // --- screens: from the full run alone ---
-  void screen() {
-    for (const EffectUnit& unit : a_.units) {
-      std::vector<Screen> screens;
-      if (unit.name.starts_with(elasticity))
-        screen_elasticity(unit.name.substr(elasticity.size()), screens);
-      else if (unit.name == "backlash")
-        screen_backlash(screens);
-      else if (unit.name == "gear_losses" || unit.name == "bearing_friction" || unit.name == "joint_friction")
-        screen_losses(screens);
-      a_.screens.push_back(std::move(screens));
-    }
-  }
-  // The twist's share of the energy that flows, and how far its torque swings about what it would be at rest.
-  void screen_elasticity(const std::string& component, std::vector<Screen>& screens) const {
-    const auto twist = channel_of(a_.full, "twist." + component), torque = channel_of(a_.full, "torque." + component);
-    const double driving = std::max(std::abs(work_of(a_.full, "driving")), 1e-300);
-    if (twist && torque) {
-      const TrajectoryRecorder& t = *a_.full.trajectory;
-      double activity = 0, mean = 0, largest = 0;
-      const std::size_t n = t.time().size();
-      for (std::size_t i = 0; i < n; ++i) {
-        const double m = t.value(i, *torque);
-        mean += m / static_cast<double>(n);
-        largest = std::max(largest, std::abs(m));
-        if (i > 0)
-          activity += std::abs(0.5 * (m + t.value(i - 1, *torque)) * (t.value(i, *twist) - t.value(i - 1, *twist)));
-      }
-      const double share = activity / driving;
-      screens.push_back(
-          {"activity", share,
-           fmt::format("∫|τ dθ| is {:.2g} of the driving work: {}", share,
-                       share > options_.within ? "it takes part in the motion" : "little goes through it"),
-           share > options_.within});
-      const double swing = mean != 0 ? largest / std::abs(mean) : HUGE_VAL;
-      screens.push_back({"swing", swing,
-                         fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
-                                     swing > 1.5 ? "it swings, or is shaken" : "it follows the mean"),
-                         swing > 1.5});
-    }
-  }
-  void screen_backlash(std::vector<Screen>& screens) const {
-    int reversals = 0;
-    std::string where;
-    for (std::size_t k = 0; a_.full.trajectory && k < a_.full.trajectory->channels().size(); ++k) {
-      const Channel& channel = a_.full.trajectory->channels()[k];
-      if (!channel.name.starts_with("spring_torque.")) continue;
-      int own = 0;
-      double last = 0;
-      for (std::size_t i = 0; i < a_.full.trajectory->time().size(); ++i) {
-        const double m = a_.full.trajectory->value(i, k);
-        if (m == 0) continue;
-        if (m * last < 0) ++own;
-        last = m;
-      }
-      if (own > 0) where = channel.name.substr(14);
-      reversals += own;
-    }
-    screens.push_back({"torque reversals", static_cast<double>(reversals),
-                       reversals
-                           ? fmt::format("the torque changes its sign {} times (in {}): flanks part", reversals, where)
-                           : std::string("no torque changes its sign: flanks stay in touch once closed"),
-                       reversals > 0});
-  }
-  void screen_losses(std::vector<Screen>& screens) const {
-    const double driving = std::max(std::abs(work_of(a_.full, "driving")), 1e-300);
-    const double share = std::abs(work_of(a_.full, "harmful")) / driving;
-    screens.push_back({"share of losses", share, fmt::format("harmful work is {:.2g} of the driving work", share),
-                       share > options_.within});
   }
 
   // --- runs ---

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/advise_screens.h"
 #include "studies/effect_study.h"
 
 namespace kurbel {
@@ -15,14 +16,6 @@ struct AdviseOptions {
   double within = 0.01;              // relative deviation allowed of every figure
   std::vector<std::string> figures;  // names or their beginnings; empty: all telling ones
   bool held_out = true;              // check other figures and operating points too
-};
-
-// A cheap look at one effect before any further run.
-struct Screen {
-  std::string name;     // "torque reversals"
-  double number = 0;    // what was found
-  std::string verdict;  // in words, with the number
-  bool needed = false;  // it expects the effect to matter at the tolerance
 };
 
 // A set that was run against the full model.

@@ -14,6 +14,9 @@ namespace {
 
 const std::string elasticity = "elasticity:";
 
+// The component of "gearbox.support".
+std::string base_name(const std::string& joint) { return joint.substr(0, joint.find('.')); }
+
 std::string joined_words(const std::vector<std::string>& words) {
   if (words.empty()) return "none";
   std::string text = words.front();
@@ -40,10 +43,19 @@ std::vector<std::string> scale(Section& section, const std::set<std::string>& ke
 
 std::vector<EffectUnit> effect_units(const Scene& scene) {
   std::vector<EffectUnit> units;
+  // A gearbox is elastic only with flanks or supports that are.
+  Effects all;
+  all.all_elastic = true;
+  const auto model = compile(scene, all);
+  std::set<std::string> elastic;
+  for (const ElasticJoint& joint : model->elastic)
+    elastic.insert(base_name(model->network.joints[static_cast<std::size_t>(joint.joint)].component));
   for (const Section& section : scene.components)
-    if (section.kind->elastic) units.push_back({elasticity + section.name, "elasticity of " + section.name});
+    if (section.kind->elastic && elastic.count(section.name))
+      units.push_back({elasticity + section.name, "elasticity of " + section.name});
   for (const EffectFlag& effect : effect_flags())
-    if (has_parameters(scene, effect)) units.push_back({effect.name, effect.words});
+    if (has_parameters(scene, effect) && (effect.flag != &Effects::multibody || scene.effects.multibody))
+      units.push_back({effect.name, effect.words});
   return units;
 }
 

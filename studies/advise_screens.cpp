@@ -1,0 +1,199 @@
+// advise_screens.cpp — what the run of the full model and its linearisation say about each effect before any other run.
+#include "studies/advise_screens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "studies/modes.h"
+
+namespace kurbel {
+namespace {
+
+const std::string elasticity = "elasticity:";
+
+constexpr double near_a_mode = 0.3;    // of the mode's frequency: an order as near as that makes it swing
+constexpr double part_of_mode = 0.05;  // of its potential energy: a joint with more takes part in it
+constexpr double audible = 0.01;       // of the strongest order: weaker ones excite nothing
+
+std::optional<std::size_t> channel_of(const Result& r, const std::string& name) {
+  if (!r.trajectory) return {};
+  const auto& channels = r.trajectory->channels();
+  for (std::size_t k = 0; k < channels.size(); ++k)
+    if (channels[k].name == name) return k;
+  return {};
+}
+
+double work_of(const Result& r, const std::string& line) {
+  const auto found = r.energy.by_line.find(line);
+  return found == r.energy.by_line.end() ? 0 : found->second;
+}
+double driving_work(const Result& r) { return std::max(std::abs(work_of(r, "driving")), 1e-300); }
+
+// The drive with every elastic element flexible and nothing else; none where it cannot be linearised.
+std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
+  Effects effects;
+  for (const EffectUnit& unit : units)
+    if (unit.name.starts_with(elasticity)) effects.elastic.push_back(unit.name.substr(elasticity.size()));
+  if (effects.elastic.empty()) return {};
+  try {
+    return find_modes(scene, effects, {});
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+class Screening {
+ public:
+  Screening(const Result& full, const std::optional<Modes>& modes, double within)
+      : full_(full), modes_(modes), within_(within) {
+    if (modes_) find_quasi_static();
+  }
+
+  std::vector<Screen> of(const EffectUnit& unit) {
+    if (unit.name.starts_with(elasticity)) return of_elasticity(unit.name.substr(elasticity.size()));
+    if (unit.name == "backlash") return {reversals()};
+    if (unit.name == "gear_losses" || unit.name == "bearing_friction" || unit.name == "joint_friction")
+      return {losses()};
+    return {};
+  }
+
+ private:
+  std::vector<Screen> of_elasticity(const std::string& component) const {
+    std::vector<Screen> screens;
+    const auto twist = channel_of(full_, "twist." + component), torque = channel_of(full_, "torque." + component);
+    if (twist && torque) {
+      const auto [share, swing] = activity_and_swing(*twist, *torque);
+      screens.push_back({"activity", share,
+                         fmt::format("∫|τ dθ| is {:.2g} of the driving work: {}", share,
+                                     share > within_ ? "it takes part in the motion" : "little goes through it"),
+                         share > within_});
+      screens.push_back({"swing", swing,
+                         fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
+                                     swing > 1.5 ? "it swings, or is shaken" : "it follows the mean"),
+                         swing > 1.5});
+    }
+    for (std::size_t j = 0; modes_ && j < modes_->joint_names.size(); ++j) {
+      if (modes_->joint_names[j] != component) continue;
+      if (const auto screen = orders_against_modes(j)) screens.push_back(*screen);
+      if (const auto screen = amplification(j)) screens.push_back(*screen);
+    }
+    return screens;
+  }
+
+  // ∫|τ dθ| over the driving work, and the largest torque over its mean.
+  std::pair<double, double> activity_and_swing(std::size_t twist, std::size_t torque) const {
+    const TrajectoryRecorder& t = *full_.trajectory;
+    double activity = 0, mean = 0, largest = 0;
+    const std::size_t n = t.time().size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double m = t.value(i, torque);
+      mean += m / static_cast<double>(n);
+      largest = std::max(largest, std::abs(m));
+      if (i > 0) activity += std::abs(0.5 * (m + t.value(i - 1, torque)) * (t.value(i, twist) - t.value(i - 1, twist)));
+    }
+    return {activity / driving_work(full_), mean != 0 ? largest / std::abs(mean) : HUGE_VAL};
+  }
+
+  // min |1 − rΩ/ω_n| over the orders that excite and the modes that this joint takes part in.
+  std::optional<Screen> orders_against_modes(std::size_t joint) const {
+    const double speed = std::abs(modes_->drive.at.speed);
+    double strongest = 0, nearest = HUGE_VAL, order = 0, frequency = 0, exciting = 0;
+    const Excitations& e = modes_->excitations;
+    for (std::size_t h = 1; h <= e.harmonics; ++h) strongest = std::max(strongest, e.strength(h, speed));
+    const auto consider = [&](double omega, double which) {
+      for (const Mode& mode : modes_->modes) {
+        if (mode.shares.joint[joint] < part_of_mode || omega <= 0) continue;
+        const double distance = std::abs(1 - omega / mode.omega);
+        if (distance < nearest) nearest = distance, order = which, frequency = mode.omega, exciting = omega;
+      }
+    };
+    if (speed > 0 && strongest > 0)
+      for (std::size_t h = 1; h <= e.harmonics; ++h)
+        if (e.strength(h, speed) > audible * strongest) consider(e.order(h) * speed, e.order(h));
+    for (const FrequencySource& source : e.by_frequency) consider(source.omega, 0);
+    if (!std::isfinite(nearest)) return {};
+    const double hertz = 1 / (2 * std::numbers::pi);
+    const std::string what = order > 0 ? fmt::format("order {:g} at {:.3g} Hz", order, exciting * hertz)
+                                       : fmt::format("the excitation of {:.3g} Hz", exciting * hertz);
+    return Screen{"orders against modes", nearest,
+                  fmt::format("{} comes nearest to its modes, {:.2g} of {:.3g} Hz away: {}", what, nearest,
+                              frequency * hertz, nearest < near_a_mode ? "it is excited" : "far from resonance"),
+                  nearest < near_a_mode};
+  }
+
+  // The same response with all joints 10⁴ times as stiff: what they transmit of the same torques when nothing twists.
+  void find_quasi_static() {
+    LinearDrive stiff = modes_->drive;
+    constexpr double factor = 1e4;
+    stiff.stiffness *= factor;
+    for (LinearDrive::Joint& joint : stiff.joints) joint.stiffness *= factor;
+    try {
+      quasi_static_ = respond(stiff, modes_->excitations);
+    } catch (const std::exception&) {
+    }
+  }
+  std::optional<Screen> amplification(std::size_t joint) const {
+    if (quasi_static_.joints.size() <= joint || modes_->here.joints.size() <= joint) return {};
+    const double swing = modes_->here.joints[joint].peak, still = quasi_static_.joints[joint].peak;
+    if (!(still > 0) || !std::isfinite(swing)) return {};
+    const double ratio = swing / still;
+    // What it adds to the greatest torque, mean included.
+    const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(swing - still) / (mean + still);
+    return Screen{"quasi-static amplification", ratio,
+                  fmt::format("the forced swing at the operating point is {:.3g} × the quasi-static one, {:.2g} of its "
+                              "torque: {}",
+                              ratio, share, share > within_ ? "elasticity changes it" : "it twists quasi-statically"),
+                  share > within_};
+  }
+
+  Screen reversals() const {
+    int count = 0;
+    std::string where;
+    for (std::size_t k = 0; full_.trajectory && k < full_.trajectory->channels().size(); ++k) {
+      const Channel& channel = full_.trajectory->channels()[k];
+      if (!channel.name.starts_with("spring_torque.")) continue;
+      int own = 0;
+      double last = 0;
+      for (std::size_t i = 0; i < full_.trajectory->time().size(); ++i) {
+        const double m = full_.trajectory->value(i, k);
+        if (m == 0) continue;
+        if (m * last < 0) ++own;
+        last = m;
+      }
+      if (own > 0) where = channel.name.substr(14);
+      count += own;
+    }
+    return {"torque reversals", static_cast<double>(count),
+            count ? fmt::format("the torque changes its sign {} times (in {}): flanks part", count, where)
+                  : std::string("no torque changes its sign: flanks stay in touch once closed"),
+            count > 0};
+  }
+  Screen losses() const {
+    const double share = std::abs(work_of(full_, "harmful")) / driving_work(full_);
+    return {"share of losses", share, fmt::format("harmful work is {:.2g} of the driving work", share),
+            share > within_};
+  }
+
+  const Result& full_;
+  const std::optional<Modes>& modes_;
+  double within_;
+  SpeedResponse quasi_static_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Screen>> screens_of(const Scene& scene, const std::vector<EffectUnit>& units,
+                                            const Result& full, double within) {
+  const std::optional<Modes> modes = frequency_domain(scene, units);
+  Screening screening(full, modes, within);
+  std::vector<std::vector<Screen>> screens;
+  for (const EffectUnit& unit : units) screens.push_back(screening.of(unit));
+  return screens;
+}
+
+}  // namespace kurbel
