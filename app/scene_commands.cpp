@@ -139,13 +139,12 @@ void add_scene_commands(CLI::App& app, int& code) {
   const auto [figures_command, listed_scene] =
       add("figures", "list the figures that runs of a scene yield", [](const Words& w) { return figures(w.first); });
   add_scene(*figures_command, listed_scene->first);
-  const auto [new_command, made] = add("new",
-                                       "write a commented scene to start from: press, pump, engine, compressor, "
-                                       "shaper, knuckle, rocker, chain, fan, conveyor, crane, winch, mixer or diesel",
+  const auto [new_command, made] = add("new", "write a commented scene to start from",
                                        [](const Words& w) { return new_scene(w.first, w.second); });
-  new_command->add_option(
-      "kind", made->first,
-      "press, pump, engine, compressor, shaper, knuckle, rocker, chain, fan, conveyor, crane, winch, mixer or diesel");
+  std::string kinds;
+  for (const SceneTemplate& scene : scene_templates())
+    kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", scene.name);
+  new_command->add_option("kind", made->first, kinds);
   new_command->add_option("file", made->second,
                           "file to write (default: KIND.toml); one that exists is never overwritten");
   const auto [keys_command, kind] = add("keys", "print the keys of one kind, or of a whole scene (Markdown)",

@@ -1,10 +1,20 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes.
 //
-//   kurbel_bench accuracy|scenes|effects|growth|elements|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|all [--out FOLDER]
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "bench/benches.h"
+
+namespace {
+
+// The program that callgrind runs stands beside this one.
+std::string counter_beside(const char* self) {
+  return (std::filesystem::path(self).parent_path() / "kurbel_count_evaluations").string();
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace kurbel::bench;
@@ -22,6 +32,8 @@ int main(int argc, char** argv) {
   if (wants("accuracy")) accuracy_of_problems(book);
   if (wants("scenes")) accuracy_of_scenes(book);
   if (wants("effects")) costs_of_effects(book);
+  if (wants("counts")) counts_of_instructions(book, counter_beside(argv[0]));
+  if (wants("advice")) advice_on_scenes(book);
   if (wants("growth")) {
     growth_with_size(book);
     costs_of_modes();
@@ -32,7 +44,7 @@ int main(int argc, char** argv) {
     costs_of_steady_cycles();
   }
   if (!any) {
-    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, growth, elements or all\n");
+    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

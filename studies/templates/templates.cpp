@@ -33,6 +33,14 @@ KURBEL_SCENE(crane, "series_motor_crane.toml")
 KURBEL_SCENE(winch, "hydraulic_winch.toml")
 KURBEL_SCENE(mixer, "air_motor_mixer.toml")
 KURBEL_SCENE(diesel, "six_cylinder_engine.toml")
+KURBEL_SCENE(drive, "press_drive.toml")
+KURBEL_SCENE(hoist, "worm_hoist.toml")
+KURBEL_SCENE(brake, "planetary_brake.toml")
+KURBEL_SCENE(mill, "belt_mill.toml")
+KURBEL_SCENE(genset, "diesel_generator.toml")
+KURBEL_SCENE(elevator, "inclined_conveyor.toml")
+KURBEL_SCENE(axle, "drive_axle.toml")
+KURBEL_SCENE(gears, "gear_test_rig.toml")
 
 namespace kurbel {
 
@@ -52,6 +60,15 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"winch", "hydraulic winch: constant flow, relief valve", winch()},
       {"mixer", "mixer with an air motor", mixer()},
       {"diesel", "six-cylinder engine by indicator diagram and firing order, with generator", diesel()},
+      {"drive", "press drive as built: clutch and brake, single stroke, overload protection", drive()},
+      {"hoist", "hoist with a worm gear that locks itself", hoist()},
+      {"brake", "planetary gear with a brake on its ring", brake()},
+      {"mill", "mill with a belt that slips at the start", mill()},
+      {"genset", "diesel generator: damper, rubber coupling, speed governor, load switched on", genset()},
+      {"elevator", "inclined conveyor: fluid coupling, one-way clutch, inching drive, progressive coupling",
+       elevator()},
+      {"axle", "driven axle: cardan shaft at an angle, differential", axle()},
+      {"gears", "spur gears with varying tooth stiffness, run up through resonance", gears()},
   };
   return templates;
 }

@@ -1,16 +1,16 @@
 // effects_test.cpp — what is off leaves no trace, any subset runs, and advice is only given on sets that were run.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include <algorithm>
 #include <filesystem>
+#include <numbers>
 
 #include "engine/equations.h"
 #include "engine/run.h"
 #include "studies/advise.h"
 #include "studies/effect_study.h"
 #include "tests/support/scenes.h"
+#include "tests/support/without_effect.h"
 
 namespace kurbel {
 namespace {
@@ -25,17 +25,6 @@ std::vector<std::string> example_scenes() {
   return names;
 }
 Scene example(const std::string& name) { return test::scene_file("scenes/" + name + ".toml"); }
-
-// Takes every key of this effect out of the scene.
-void erase_keys(Section& section, const std::string& effect) {
-  std::erase_if(section.settings, [&](const Setting& setting) {
-    const auto& keys = section.kind->keys;
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-    return key != keys.end() && key->gives(effect) && key->fallback.empty() && !key->required;
-  });
-  for (Setting& setting : section.settings)
-    for (Section& nested : setting.sections) erase_keys(nested, effect);
-}
 
 std::vector<double> end_of_run(const Model& model, double until) {
   Equations equations(std::shared_ptr<const Model>(std::shared_ptr<void>(), &model), false);
@@ -53,7 +42,7 @@ TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
   for (const EffectFlag& flag : effect_flags()) {
     if (flag.unsaid != EffectFlag::Unsaid::where_given || !has_parameters(scene, flag)) continue;
     Scene never = scene;
-    for (Section& section : never.components) erase_keys(section, flag.name);
+    test::erase_effect(never, flag.name);
     if (has_parameters(never, flag)) continue;  // a component that is nothing but the effect
     Effects off = scene.effects;
     off.*(flag.flag) = false;

@@ -1,0 +1,64 @@
+// count_evaluations.cpp — evaluates right-hand side and Jacobian of a scene with one effect off, for callgrind to
+// count.
+//
+//   kurbel_count_evaluations SCENE EFFECT off|without
+// "off": the effect is switched off; "without": besides, its keys are taken out of the scene. Only what runs inside
+// kurbel_counted_evaluations is to be counted:
+//   valgrind --tool=callgrind --toggle-collect=kurbel_counted_evaluations …
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "engine/equations.h"
+#include "engine/run.h"
+#include "studies/kinds.h"
+#include "tests/support/without_effect.h"
+
+namespace {
+
+using namespace kurbel;
+
+struct State {
+  double t;
+  std::vector<double> y;
+};
+
+}  // namespace
+
+extern "C" __attribute__((noinline)) double kurbel_counted_evaluations(Equations& equations,
+                                                                       const std::vector<State>& states,
+                                                                       std::vector<double>& rate,
+                                                                       std::vector<double>& values) {
+  double sum = 0;
+  for (const State& s : states) {
+    equations.flow(s.t, s.y, rate);
+    equations.jacobian(s.t, s.y, values);
+    sum += rate.front();
+  }
+  return sum;
+}
+
+int main(int argc, char** argv) {
+  if (argc != 4) return std::fprintf(stderr, "kurbel_count_evaluations SCENE EFFECT off|without\n"), 2;
+  try {
+    Scene scene = read_scene(argv[1], all_kinds());
+    const std::string effect = argv[2];
+    Effects effects = scene.effects;
+    for (const EffectFlag& flag : effect_flags())
+      if (effect == flag.name) effects.*(flag.flag) = false;
+    if (argv[3] == std::string("without")) test::erase_effect(scene, effect);
+    Equations equations(compile(scene, effects), false);
+    std::vector<State> states;
+    std::vector<double> y = equations.start(0);
+    for (int i = 0; i < 50; ++i) {  // around the start, in its modes
+      states.push_back({0, y});
+      for (std::size_t k = 0; k < y.size(); ++k) states.back().y[k] += 1e-9 * i * equations.error_control(1).scale[k];
+    }
+    std::vector<double> rate(y.size()), values(equations.jacobian_pattern().row.size());
+    std::printf("%.17g\n", kurbel_counted_evaluations(equations, states, rate, values));
+    return 0;
+  } catch (const std::exception& error) {
+    return std::fprintf(stderr, "%s\n", error.what()), 1;
+  }
+}

@@ -1,0 +1,26 @@
+// without_effect.h — a scene as if an effect had never been written into it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "engine/scene.h"
+
+namespace kurbel::test {
+
+// Takes every key that gives the effect its parameters out of a section and what is nested in it; required keys and
+// those with a default stay.
+inline void erase_effect(Section& section, const std::string& effect) {
+  std::erase_if(section.settings, [&](const Setting& setting) {
+    const auto& keys = section.kind->keys;
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
+    return key != keys.end() && key->gives(effect) && key->fallback.empty() && !key->required;
+  });
+  for (Setting& setting : section.settings)
+    for (Section& nested : setting.sections) erase_effect(nested, effect);
+}
+inline void erase_effect(Scene& scene, const std::string& effect) {
+  for (Section& section : scene.components) erase_effect(section, effect);
+}
+
+}  // namespace kurbel::test
