@@ -23,11 +23,8 @@ extern "C" void on_interrupt(int) {
   if (interrupt_seen.exchange(true)) _exit(exit_interrupted);
 }
 
-// results/SCENE, or results/SCENE/STUDY, unless asked otherwise: no study writes over another's report.
 std::filesystem::path folder_of(const StudyOptions& options) {
-  if (!options.out.empty()) return options.out;
-  const auto folder = std::filesystem::path("results") / std::filesystem::path(options.scene).stem();
-  return options.study.empty() ? folder : folder / options.study;
+  return options.out.empty() ? results_of(options.scene, options.study) : std::filesystem::path(options.out);
 }
 
 // A browser, where the desktop has one.
@@ -39,6 +36,11 @@ void open_in_browser(const std::string& path) {
 }
 
 }  // namespace
+
+std::filesystem::path results_of(const std::string& scene_file, const std::string& study) {
+  const auto folder = std::filesystem::path("results") / std::filesystem::path(scene_file).stem();
+  return study.empty() ? folder : folder / study;
+}
 
 const std::atomic<bool>& interrupted() { return interrupt_seen; }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <string>
 
 #include "engine/scene.h"
@@ -24,6 +25,8 @@ struct StudyOptions {
   std::string scene, out;
   bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
 };
+// results/SCENE, or results/SCENE/STUDY: no study writes over another's report.
+std::filesystem::path results_of(const std::string& scene_file, const std::string& study = "");
 void add_scene(CLI::App& command, std::string& scene);
 void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study = "");
 

@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "engine/model.h"
+#include "studies/known_accuracy.h"
 #include "studies/run_output.h"
 
 namespace kurbel::app {
@@ -51,6 +52,17 @@ void check_arguments(const RunArguments& arguments, const Scene& scene) {
   check_folder(arguments.study);
 }
 
+// Method and first tolerance by what an accuracy study of the same text measured, where one lies beside the results.
+void use_what_is_known(const Scene& scene, const Effects& effects, SimulateOptions& options) {
+  if (options.method || scene.run.method != "auto" || scene.run.model != "reduced") return;
+  const auto known = known_setting(results_of(scene.file, "accuracy") / "summary.json", scene, effects,
+                                   options.accuracy.value_or(scene.run.accuracy));
+  if (!known) return;
+  options.method = known->method;
+  options.first_tolerance = known->tolerance;
+  options.chosen_because = known->describe();
+}
+
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
   const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
@@ -61,7 +73,9 @@ int run(const RunArguments& arguments) {
   }
   check_arguments(arguments, scene);
   Progress progress(arguments.study.quiet);
-  const Result result = simulate(model, model->elastic.empty() ? "rigid" : "elastic", options_of(arguments, progress));
+  SimulateOptions options = options_of(arguments, progress);
+  use_what_is_known(scene, effects, options);
+  const Result result = simulate(model, model->elastic.empty() ? "rigid" : "elastic", options);
   return present(output_of(result), arguments.study);
 }
 

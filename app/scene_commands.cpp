@@ -139,8 +139,8 @@ void add_scene_commands(CLI::App& app, int& code) {
   const auto [figures_command, listed_scene] =
       add("figures", "list the figures that runs of a scene yield", [](const Words& w) { return figures(w.first); });
   add_scene(*figures_command, listed_scene->first);
-  const auto [new_command, made] = add("new", "write a commented scene to start from",
-                                       [](const Words& w) { return new_scene(w.first, w.second); });
+  const auto [new_command, made] =
+      add("new", "write a commented scene to start from", [](const Words& w) { return new_scene(w.first, w.second); });
   std::string kinds;
   for (const SceneTemplate& scene : scene_templates())
     kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", scene.name);

@@ -64,6 +64,7 @@ class AccuracyRun {
     scene_.run.method = "auto";
     study_.title = scene.title.empty() ? scene.file : scene.title;
     study_.scene_file = scene.file;
+    study_.scene_text = scene.text;
   }
 
   AccuracyStudy run() {

@@ -68,7 +68,7 @@ struct Omission {
 };
 
 struct AccuracyStudy {
-  std::string title, scene_file;
+  std::string title, scene_file, scene_text;
   std::vector<FollowedFigure> figures;
   std::size_t key = 0;             // of the figures
   std::vector<ModelLevel> levels;  // cheap ones first; `fullest` is the one that the others are judged by

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/units.h"
+#include "studies/known_accuracy.h"
 #include "studies/machine_info.h"
 #include "studies/text_table.h"
 
@@ -114,6 +115,7 @@ Json study_json(const AccuracyStudy& study) {
   Json j;
   j["title"] = study.title;
   j["scene"] = study.scene_file;
+  j["fingerprint"] = fingerprint(study.scene_text);
   j["complete"] = study.complete;
   if (!study.complete) j["diagnosis"] = study.diagnosis;
   j["findings"] = study.findings;

@@ -188,7 +188,8 @@ class Simulation {
                     model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(),
                     settings_.until));
     note_balanced_start();
-    double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
+    if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
+    double tolerance = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
     result_.runs = 1;
     while (options_.measure_error && fine->outcome.complete) {

@@ -17,7 +17,9 @@ struct SimulateOptions {
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress;
   std::function<void(const std::string&)> log = {};  // what was compiled, chosen, run
-  std::optional<double> budget = {};                 // processor time of one integration [s], if shorter than the scene's
+  std::optional<double> first_tolerance = {};        // the ladder begins there; default: accuracy/10
+  std::string chosen_because = {};                   // for people: who says so
+  std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's
 };
 
 // Throws SceneError where the scene makes no machine; a run that fails on its way is returned incomplete.

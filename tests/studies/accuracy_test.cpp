@@ -1,11 +1,14 @@
 // accuracy_test.cpp — what accuracy costs: errors fall with the tolerance, references are right, answers hold.
 #include "studies/accuracy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "studies/accuracy_output.h"
+#include "studies/known_accuracy.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -118,6 +121,43 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   const std::string page = html_of(output.report());
   EXPECT_NE(page.find("What is bought per time"), std::string::npos);
   EXPECT_NE(page.find("verner6 at 1e-08"), std::string::npos);
+}
+
+// A run takes the cheapest setting that the study found exact enough; of another text or model it knows nothing.
+TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
+  Scene scene = test::scene_file("scenes/six_inertia_chain.toml");
+  const AccuracyStudy study = measure_accuracy(scene, coarse());
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  const auto folder = std::filesystem::temp_directory_path() / "kurbel_known_accuracy";
+  std::filesystem::create_directories(folder);
+  const auto summary = folder / "summary.json";
+  std::ofstream(summary) << output_of(study).json;
+  double last = 0;
+  for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
+    const auto known = known_setting(summary, scene, scene.effects, accuracy);
+    ASSERT_TRUE(known) << accuracy;
+    EXPECT_LE(known->error, accuracy);
+    EXPECT_GE(known->seconds, last);
+    last = known->seconds;
+    for (const MeasuredSetting& s : study.settings) {
+      if (study.levels[s.level].effects != scene.effects.describe()) continue;
+      double error = s.trajectory_error;
+      for (const double e : s.numerical_error)
+        if (std::isfinite(e)) error = std::max(error, e);
+      EXPECT_TRUE(error > accuracy || s.seconds >= known->seconds) << study.name_of(s);
+    }
+    SimulateOptions options{.method = known->method, .accuracy = accuracy, .until = {}, .progress = {}};
+    options.first_tolerance = known->tolerance;
+    options.chosen_because = known->describe();
+    const Result r = simulate(scene, scene.effects, "known", options);
+    EXPECT_TRUE(r.accuracy_confirmed);
+    EXPECT_NE(std::find(r.notes.begin(), r.notes.end(), known->describe()), r.notes.end());
+  }
+  EXPECT_FALSE(known_setting(summary, scene, scene.effects, 1e-16));
+  EXPECT_FALSE(known_setting(folder / "absent.json", scene, scene.effects, 1e-3));
+  scene.text += "\n# changed";
+  EXPECT_FALSE(known_setting(summary, scene, scene.effects, 1e-3));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Accuracy, WhatDoesNotApplyIsNamedWithItsReason) {

@@ -1,0 +1,29 @@
+// known_accuracy.h — what `kurbel accuracy` measured of a scene, for the runs that come after it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/scene.h"
+
+namespace kurbel {
+
+// A method at a tolerance, and what it did to the scene's motion and figures.
+struct KnownSetting {
+  std::string method;
+  double tolerance = 0;
+  double error = 0;    // largest of the motion's and the figures' relative errors
+  double seconds = 0;  // processor time
+  std::string describe() const;
+};
+
+// Of a scene's text: FNV-1a, 64 bits, as hexadecimal digits.
+std::string fingerprint(const std::string& scene_text);
+
+// The cheapest setting of the model with these effects whose measured error is at most `accuracy`, from the summary
+// that `kurbel accuracy` wrote. Nothing where there is none, it is of another text, or no setting is exact enough.
+std::optional<KnownSetting> known_setting(const std::filesystem::path& summary, const Scene& scene,
+                                          const Effects& effects, double accuracy);
+
+}  // namespace kurbel
