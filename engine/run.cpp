@@ -165,7 +165,8 @@ class Loop {
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
     if (out_of_budget()) return false;
-    stepper_->step(limit());
+    const double until = limit();
+    stepper_->step(until);
     const StepLimit limited_by = stepper_->limited_by();
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
@@ -181,6 +182,7 @@ class Loop {
     }
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
+    if (t < until && !stepper_->at_edge()) note_step(t - stepper_->t_previous());
     if (t >= edge_) {
       std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
       const std::size_t known = out_.events.size();
@@ -199,6 +201,11 @@ class Loop {
     std::swap(guard_, guard_before_);
     watch_stiffness();
     return true;
+  }
+
+  void note_step(double h) {
+    double& smallest = out_.statistics.smallest_step;
+    if (smallest == 0 || h < smallest) smallest = h;
   }
 
   // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back

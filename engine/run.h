@@ -50,6 +50,7 @@ struct RunOptions {
 struct RunStatistics {
   StepperStatistics stepper;
   std::int64_t events = 0;
+  double smallest_step = 0;  // of those that no event, edge or end cut short [s]; 0: none
   double cpu_seconds = 0;
   std::string method;                // what ran
   std::string reason;                // and why
