@@ -37,6 +37,7 @@ class BenchBook {
   std::vector<BenchTarget> targets;
   std::vector<Table> tables;
   std::vector<Plot> plots;
+  std::vector<ReportSection> sections;  // of the page, as they are; their tables go into the JSON, too
 
   // Least time of the solvers that the filter takes; infinite: none reaches it.
   template <class Filter>
@@ -69,5 +70,6 @@ void costs_of_elements(BenchBook& book);     // per evaluation, and events a sec
 void costs_of_mechanisms();                  // elements: table against closed form, extraction, multibody
 void costs_of_modes();                       // growth of the eigenvalue problem
 void costs_of_steady_cycles();
+void hard_cases(BenchBook& book, const std::string& only);  // families or cases whose names hold this; "": all
 
 }  // namespace kurbel::bench

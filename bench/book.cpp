@@ -117,7 +117,13 @@ std::string BenchBook::json() const {
     j["curves"].push_back(std::move(curve));
   }
   j["tables"] = Json::array();
-  for (const Table& t : tables) j["tables"].push_back({{"title", t.title}, {"columns", t.columns}, {"rows", t.rows}});
+  const auto add = [&](const Table& t) {
+    j["tables"].push_back({{"title", t.title}, {"columns", t.columns}, {"rows", t.rows}});
+  };
+  for (const Table& t : tables) add(t);
+  for (const ReportSection& section : sections)
+    for (const Card& card : section.cards)
+      if (const Table* t = std::get_if<Table>(&card)) add(*t);
   j["targets"] = Json::array();
   for (const BenchTarget& t : targets)
     j["targets"].push_back({{"what", t.what}, {"target", t.wanted}, {"measured", t.measured}, {"met", t.met}});
@@ -140,6 +146,7 @@ Report BenchBook::report() const {
     for (const Plot& plot : plots) rest.cards.push_back(plot);
     for (const Table& table : tables) rest.cards.push_back(table);
   }
+  for (const ReportSection& section : sections) report.sections.push_back(section);
   report.footer = machine_info() + " · " + report_footer();
   return report;
 }

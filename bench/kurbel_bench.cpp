@@ -1,6 +1,7 @@
-// kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes.
+// kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
+// and whether the hard cases end right.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|all [--out FOLDER] [--only NAME]
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -19,9 +20,11 @@ std::string counter_beside(const char* self) {
 int main(int argc, char** argv) {
   using namespace kurbel::bench;
   const std::string part = argc > 1 ? argv[1] : "";
-  std::string folder = "results/bench";
-  for (int i = 2; i + 1 < argc; ++i)
+  std::string folder = "results/bench", only;  // only: hard cases whose names hold this
+  for (int i = 2; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--out") == 0) folder = argv[i + 1];
+    if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
+  }
   const bool all = part == "all";
   bool any = all;
   BenchBook book;
@@ -43,8 +46,9 @@ int main(int argc, char** argv) {
     costs_of_mechanisms();
     costs_of_steady_cycles();
   }
+  if (wants("hard")) hard_cases(book, only);
   if (!any) {
-    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements or all\n");
+    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

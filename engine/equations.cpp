@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/fp_traps.h"
+
 namespace kurbel {
 namespace {
 
@@ -180,8 +182,8 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
-  // Made in place: a copy reads by pairs what was just stored word by word, and the processor waits for that (a sixth of
-  // the whole right-hand side of a small machine).
+  // Made in place: a copy reads by pairs what was just stored word by word, and the processor waits for that (a sixth
+  // of the whole right-hand side of a small machine).
   ::new (&snapshot_.now) Instant(instant(t, y));
   ::new (&snapshot_.sums) Sums{torque_.data(),
                                inertia_.data(),
@@ -246,6 +248,7 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
 }
 
 void Equations::flow(double t, std::span<const double> y, std::span<double> ydot) {
+  [[maybe_unused]] const FpTraps traps{};
   const Model& m = *model_;
   double* const alpha = ydot.data() + speed_index(0);
   double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
@@ -371,6 +374,7 @@ const SparsityPattern& Equations::jacobian_pattern() {
 
 // Quadratures feed nothing back; their rows are left empty, so that they cost the factorisation nothing.
 void Equations::jacobian(double t, std::span<const double> y, std::span<double> values) {
+  [[maybe_unused]] const FpTraps traps{};
   const Model& m = *model_;
   const JacobianLayout& layout = m.jacobian;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/fp_traps.h"
+
 namespace kurbel {
 
 // Pools, contacts, operating sequence, in this order.
 void Equations::guards(double t, std::span<const double> y, std::span<double> g) {
+  [[maybe_unused]] const FpTraps traps{};
   const Model& m = *model_;
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);

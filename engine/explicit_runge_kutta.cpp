@@ -68,31 +68,40 @@ double sum_of(const Combination& combination, const Slopes& slopes, std::size_t 
   return sum;
 }
 
+struct ErrorNorm {
+  double value;
+  std::size_t state;  // where it is
+};
+
 // max |e_i| w_i. x − x is 0 for a number and NaN for anything else, so `poison` tells without a branch whether a value
 // was lost; a maximum alone would overlook NaN. Values out of control (w = 0) poison too: 0·∞ is NaN.
 template <std::size_t terms>
-double largest_error(std::size_t size, const Gathered<terms>& error, const double* w) {
+ErrorNorm largest_error(std::size_t size, const Gathered<terms>& error, const double* w) {
   double largest = 0, poison = 0;
+  std::size_t worst = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const double e = std::abs(error[i]) * w[i];
     poison += e - e;
+    worst = e > largest ? i : worst;
     largest = e > largest ? e : largest;
   }
-  return largest + poison;
+  return {largest + poison, worst};
 }
 
 // max e_i² / √(e_i² + 0.01 r_i²), state by state, so that a rough state cannot hide behind the smoothness of another.
 template <std::size_t terms, std::size_t rough_terms>
-double largest_corrected_error(std::size_t size, const Gathered<terms>& error, const Gathered<rough_terms>& rough,
-                               const double* w) {
+ErrorNorm largest_corrected_error(std::size_t size, const Gathered<terms>& error, const Gathered<rough_terms>& rough,
+                                  const double* w) {
   double largest = 0, poison = 0;
+  std::size_t worst = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const double e = error[i] * w[i], r = rough[i] * w[i];
     const double squared = e * e * (e * e) / (e * e + 0.01 * (r * r) + std::numeric_limits<double>::min());
     poison += squared - squared;
+    worst = squared > largest ? i : worst;
     largest = squared > largest ? squared : largest;
   }
-  return std::sqrt(largest) + poison;
+  return {std::sqrt(largest) + poison, worst};
 }
 
 std::size_t first_not_finite(const double* values, std::size_t size) {
@@ -214,13 +223,17 @@ void ExplicitRungeKutta::take(double h) {
 }
 
 double ExplicitRungeKutta::error_norm(double h) {
+  const auto keep = [&](const ErrorNorm& norm) {
+    worst_ = norm.state;
+    return norm.value;
+  };
   const auto estimate = [&]<std::size_t terms>() {
-    return largest_error(size_, Gathered<terms>(table_.error, slope_, h), weight_.data());
+    return keep(largest_error(size_, Gathered<terms>(table_.error, slope_, h), weight_.data()));
   };
   if (!table_.rough_error.empty()) {
     assert(table_.error.size() == 8 && table_.rough_error.size() == 8);
-    return largest_corrected_error(size_, Gathered<8>(table_.error, slope_, h),
-                                   Gathered<8>(table_.rough_error, slope_, h), weight_.data());
+    return keep(largest_corrected_error(size_, Gathered<8>(table_.error, slope_, h),
+                                        Gathered<8>(table_.rough_error, slope_, h), weight_.data()));
   }
   if (table_.error.size() == 4) return estimate.operator()<4>();
   if (table_.error.size() == 6) return estimate.operator()<6>();
@@ -240,6 +253,10 @@ bool ExplicitRungeKutta::end_slope_is_finite() const {
 void ExplicitRungeKutta::adapt(double error, const Aim& done, bool after_rejection) {
   double factor = safety * std::pow(error, -table_.integral_exponent);  // ∞ for an error of 0
   if (table_.proportional_exponent > 0) factor *= std::pow(previous_error_, table_.proportional_exponent);
+  limit_ = done.cut                                                      ? StepLimit::By::end
+           : held_by_stability()                                         ? StepLimit::By::stability
+           : !after_rejection && factor >= 0.999 * table_.largest_factor ? StepLimit::By::growth
+                                                                         : StepLimit::By::accuracy;
   factor = std::clamp(factor, table_.smallest_factor, after_rejection ? 1.0 : table_.largest_factor);
   const double h = done.h * factor;
   h_next_ = done.cut && !after_rejection ? std::max(h, h_next_) : h;
@@ -342,19 +359,13 @@ void ExplicitRungeKutta::fail(double h, double error) const {
     if (state == size_) continue;
     throw StepFailure(fmt::format("{}: after t = {:.17g} s the rate of state {} is {} however short the step",
                                   table_.name, t_previous_, state, slope_[stage][state]),
-                      t_previous_, state);
-  }
-  std::size_t worst = 0;
-  double largest = -1;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const double e = std::abs(sum_of(table_.error, slope_, i)) * weight_[i];
-    if (e > largest) largest = e, worst = i;
+                      t_previous_, state, true);
   }
   throw StepFailure(
       fmt::format("{}: at t = {:.17g} s the step had to shrink to {:.2g} s, and the error of state {} was "
                   "still {:.3g} times the tolerance; is there a jump in the equations?",
-                  table_.name, t_previous_, h, worst, error),
-      t_previous_, worst);
+                  table_.name, t_previous_, h, worst_, error),
+      t_previous_, worst_, false);
 }
 
 }  // namespace kurbel

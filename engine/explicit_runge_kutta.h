@@ -25,6 +25,7 @@ class ExplicitRungeKutta final : public Stepper {
   std::span<const double> ydot() const override { return {slope_[table_.stages], size_}; }
   std::span<const double> ydot_previous() const override { return {slope_[0], size_}; }
   bool held_by_stability() const override { return stiff_steps_ >= stiff_steps_to_tell; }
+  StepLimit limited_by() override { return {limit_, worst_}; }
 
  private:
   static constexpr int stiff_steps_to_tell = 15;  // in a row, and
@@ -68,6 +69,8 @@ class ExplicitRungeKutta final : public Stepper {
   double step_end_ = 0;  // of the last step as it was accepted
   double h_next_ = 0;    // 0: not known yet
   double previous_error_ = 1e-4;
+  std::size_t worst_ = 0;  // state with the largest error in the last step tried
+  StepLimit::By limit_ = StepLimit::By::end;
   int stiff_steps_ = 0, mild_steps_ = 0;
   bool started_ = false;
 };

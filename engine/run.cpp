@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/diagnosis.h"
 #include "engine/work_stepper.h"
 
 namespace kurbel {
@@ -76,14 +77,12 @@ class Loop {
       start();
       while (!out_.stopped && stepper_->t() < options_.until && advance()) {
       }
-      out_.complete = out_.diagnosis.empty();
+      out_.complete = !broken_;
     } catch (const StepFailure& failure) {
-      fail(
-          failure.time,
-          fmt::format("{}; worst: {}. Try another method, a looser accuracy, or a smaller stiffness or load step there",
-                      failure.what(), equations_.state_name(failure.state)));
+      broken_ = {failure.not_finite ? Breakdown::Kind::not_finite : Breakdown::Kind::collapse, failure.time,
+                 failure.what(), failure.state};
     } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
-      fail(stepper_ ? stepper_->t() : 0, error.what());
+      broken_ = {.t = stepper_ ? stepper_->t() : 0, .why = error.what()};
     }
     finish();
     return std::move(out_);
@@ -136,6 +135,7 @@ class Loop {
   void start() {
     const double t = options_.from ? options_.from->t : 0;
     const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
+    out_.limits.begin(system_.size(), guard_.size());
     make(method_, t, y);
     for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
   }
@@ -165,16 +165,24 @@ class Loop {
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
     if (out_of_budget()) return false;
-    stepper_->step(limit());
+    const double until = limit();
+    stepper_->step(until);
+    const StepLimit limited_by = stepper_->limited_by();
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
+    if (fired.empty()) {
+      out_.limits.count(limited_by, stepper_->at_edge() ? StepLimits::Bound::edge : bound_);
+    } else {
+      out_.limits.count_event(fired.front());
+    }
     if (!at_begin_ && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
       for (Observer* observer : observers_) observer->step(view_);
       view_.set_anew(false);
     }
     const double t = stepper_->t();
     if (!fired.empty()) return pass_event(t, fired);
+    if (t < until && !stepper_->at_edge()) note_step(t - stepper_->t_previous());
     if (t >= edge_) {
       std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
       const std::size_t known = out_.events.size();
@@ -195,17 +203,26 @@ class Loop {
     return true;
   }
 
+  void note_step(double h) {
+    double& smallest = out_.statistics.smallest_step;
+    if (smallest == 0 || h < smallest) smallest = h;
+  }
+
   // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back
   // unseen.
-  double limit() const {
+  double limit() {
     double t = std::min(options_.until, edge_);
+    bound_ = edge_ <= options_.until ? StepLimits::Bound::edge : StepLimits::Bound::until;
     if (stepper_->ends_on_edges()) return t;
     const Model& m = equations_.model();
     for (const TrackedAngle& angle : m.angles) {
       const auto shaft = static_cast<std::size_t>(angle.shaft);
       if ((!m.shafts[shaft].variable && equations_.guard_count() == 0) || shaft >= m.free_shafts) continue;
       const double omega = std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
-      if (omega > 0) t = std::min(t, stepper_->t() + 0.5 * M_PI / omega);
+      const double quarter = stepper_->t() + 0.5 * M_PI / omega;
+      if (!(omega > 0) || !(quarter < t)) continue;
+      t = quarter;
+      bound_ = StepLimits::Bound::turn;
     }
     return t;
   }
@@ -319,9 +336,13 @@ class Loop {
     events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
     last_event_ = time;
     if (events_here_ > most_events_at_once) {
-      fail(time, fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge "
+      broken_ = {
+          .kind = Breakdown::Kind::restless,
+          .t = time,
+          .why = fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge "
                              "(rise) or its friction",
-                             most_events_at_once));
+                             most_events_at_once),
+          .element = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : ""};
       return false;
     }
     ++out_.statistics.events;
@@ -411,20 +432,20 @@ class Loop {
 
   bool out_of_budget() {
     if (options_.interrupted && options_.interrupted->load()) {
-      fail(stepper_->t(), "interrupted");
+      broken_ = {.t = stepper_->t(), .why = "interrupted"};
       return true;
     }
     if (++checks_ % 64 != 0) return false;
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
     if (cpu_now() - begin_ < options_.budget) return false;
     const double h = stepper_->t() - stepper_->t_previous();
-    fail(stepper_->t(), fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). "
-                                    "Raise `budget`, loosen `accuracy`, or switch an effect off",
-                                    options_.budget, h));
+    broken_ = {.kind = Breakdown::Kind::budget,
+               .t = stepper_->t(),
+               .why = fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). "
+                                  "Raise `budget`, loosen `accuracy`, or switch an effect off",
+                                  options_.budget, h)};
     return true;
   }
-
-  void fail(double t, const std::string& why) { out_.diagnosis = fmt::format("stopped at t = {:.9g} s: {}", t, why); }
 
   void add_statistics() {
     const StepperStatistics& s = stepper_->statistics();
@@ -444,6 +465,7 @@ class Loop {
       out_.state.assign(stepper_->y().begin(), stepper_->y().end());
     }
     out_.statistics.cpu_seconds = cpu_now() - begin_;
+    if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
   }
 
   Equations& equations_;
@@ -454,6 +476,8 @@ class Loop {
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
   RunOutcome out_;
+  std::optional<Breakdown> broken_;
+  StepLimits::Bound bound_ = StepLimits::Bound::until;
   std::vector<double> guard_, guard_before_, probe_, work_, state_;
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;

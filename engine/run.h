@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/equations.h"
+#include "engine/step_limits.h"
 #include "engine/stepper.h"
 
 namespace kurbel {
@@ -43,14 +44,17 @@ struct RunOptions {
   // Ends where this falls through zero (of order one), located exactly; it must not begin at zero.
   std::function<double(double t, std::span<const double> y)> stop = {};
   RunExtension* extension = nullptr;
+  double accuracy = 0;  // that the tolerance was made from, for advice in words; 0: the scene's
 };
 
 struct RunStatistics {
   StepperStatistics stepper;
   std::int64_t events = 0;
+  double smallest_step = 0;  // of those that no event, edge or end cut short [s]; 0: none
   double cpu_seconds = 0;
-  std::string method;  // what ran
-  std::string reason;  // and why
+  std::string method;                // what ran
+  std::string reason;                // and why
+  std::vector<LimitedSteps> limits;  // what kept the steps short, ranked; where a study asks
 };
 
 // The state of a run just after an accepted step, for observers. Between t_previous and t the solution is smooth.
@@ -89,12 +93,13 @@ class Observer {
 struct RunOutcome {
   bool complete = false;
   bool stopped = false;   // at the zero of RunOptions::stop
-  std::string diagnosis;  // of an incomplete run: when, where, why, what to try
+  std::string diagnosis;  // of an incomplete run: when, where, why, what happened last, what to try
   double t = 0;
   std::vector<double> state;
   std::vector<Event> events;
   std::vector<std::string> regularised;  // what lost its events because they found no rest
   RunStatistics statistics;
+  StepLimits limits;
 };
 
 // Never throws for a run that fails on its way: the outcome says so and keeps what was computed.

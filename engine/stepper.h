@@ -43,10 +43,23 @@ struct StepperStatistics {
 
 // The step size fell to round-off, a value became non-finite, or a solver gave up. `state` is the worst state's index.
 struct StepFailure : std::runtime_error {
-  StepFailure(const std::string& what, double time, std::size_t state)
-      : std::runtime_error(what), time(time), state(state) {}
+  StepFailure(const std::string& what, double time, std::size_t state, bool not_finite)
+      : std::runtime_error(what), time(time), state(state), not_finite(not_finite) {}
   double time;
   std::size_t state;
+  bool not_finite;
+};
+
+// What kept a step from being longer.
+struct StepLimit {
+  enum class By {
+    accuracy,   // the error of `state`
+    stability,  // of an explicit method; `state` has the largest error then
+    growth,     // steps grow only so fast after a start
+    end         // it had to end there
+  };
+  By by = By::end;
+  std::size_t state = 0;
 };
 
 // One integrator at work. After step() the solution is known at t_previous() and t(), and between them by
@@ -76,6 +89,8 @@ class Stepper {
   virtual bool at_edge() const { return false; }
   // True while the step size is held down by stability rather than by accuracy (explicit methods on stiff equations).
   virtual bool held_by_stability() const { return false; }
+  // Of the last step() as it was accepted, before any retake().
+  virtual StepLimit limited_by() { return {}; }
 
   const StepperStatistics& statistics() const { return statistics_; }
 

@@ -135,6 +135,10 @@ class SundialsStepper : public Stepper {
   std::span<const double> y_previous() const override { return y_previous_; }
   std::span<const double> ydot() const override { return known(slope_, t_, y_); }
   std::span<const double> ydot_previous() const override { return known(slope_previous_, t_previous_, y_previous_); }
+  StepLimit limited_by() override {
+    if (cut_) return {};
+    return {StepLimit::By::accuracy, worst_state()};
+  }
 
  protected:
   // The library's calls, by the name they have there.
@@ -189,6 +193,7 @@ class SundialsStepper : public Stepper {
   std::int64_t& flow_calls_ = statistics_.flow_calls;  // counts those too
 
   bool has_dense_output_ = false;
+  bool cut_ = false;  // the last step was shorter than accuracy asks
   bool started_ = false;
   long failed_attempts_ = 0;
   std::optional<std::size_t> lost_state_;  // first state whose rate was not finite in this step
@@ -271,6 +276,7 @@ void SundialsStepper::advance(double t_limit) {
 
   // A step cut short says nothing against the step wished for before.
   check(get_current_step(good_step_));
+  cut_ = t_ == t_stop && rejected == 0 && t_ - t_previous_ < wished;
   if (t_ == t_stop && rejected == 0) good_step_ = std::max(good_step_, wished);
 }
 
@@ -285,6 +291,7 @@ void SundialsStepper::jump(double t_limit) {
   const std::span<const double> f = ydot_previous();
   for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += (t_limit - t_) * f[i];
   t_ = t_limit;
+  cut_ = true;
   has_dense_output_ = false;
   restart_ = true;
 }
@@ -419,12 +426,12 @@ void SundialsStepper::fail(int flag) {
     throw StepFailure(fmt::format("after t = {:.17g} s the rate of state {} is not a finite number however short the "
                                   "step{}",
                                   t_previous_, *lost_state_, library),
-                      t_previous_, *lost_state_);
+                      t_previous_, *lost_state_, true);
   }
   const std::size_t worst = worst_state();
   throw StepFailure(
       fmt::format("after t = {:.17g} s {}; the worst state is {}{}", t_previous_, explanation(flag), worst, library),
-      t_previous_, worst);
+      t_previous_, worst, false);
 }
 
 std::size_t SundialsStepper::worst_state() {

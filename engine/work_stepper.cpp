@@ -165,7 +165,7 @@ void WorkStepper::step(double t_limit) {
   by_angle_ = angle;
   std::copy(y_.begin(), y_.end(), y_previous_.begin());
   t_previous_ = t_;
-  at_edge_ = false;
+  at_edge_ = landed_ = false;
   try {
     if (by_angle_) step_over_angle(t_limit);
   } catch (const StepFailure&) {  // a torque so steep that it brings the machine to rest within the step
@@ -249,6 +249,7 @@ void WorkStepper::land(double t) {
   }
   t_ = t;
   at_edge_ = false;
+  landed_ = true;
   motion_.state(over_angle_.t(), over_angle_.y(), y_);
   motion_.end(over_angle_.t(), y_);
 }
@@ -267,6 +268,13 @@ void WorkStepper::interpolate(double t, std::span<double> y) {
   const double turned = turned_at(t);
   over_angle_.interpolate(turned, x_);
   motion_.state(turned, x_, y);
+}
+
+// Over the angle the states are T and t; an error of either is one of the speed.
+StepLimit WorkStepper::limited_by() {
+  if (!by_angle_) return over_time_.limited_by();
+  if (landed_) return {};
+  return {over_angle_.limited_by().by, equations_.speed_index(0)};
 }
 
 void WorkStepper::count() {

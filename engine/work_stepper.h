@@ -71,6 +71,7 @@ class WorkStepper final : public Stepper {
   std::span<const double> ydot_previous() const override { return slope(t_previous_, y_previous_, ydot_previous_); }
   bool ends_on_edges() const override { return true; }
   bool at_edge() const override { return at_edge_; }
+  StepLimit limited_by() override;
 
  private:
   bool regular(double least_angle);
@@ -87,6 +88,7 @@ class WorkStepper final : public Stepper {
   MotionOverAngle motion_;
   ExplicitRungeKutta over_time_, over_angle_;
   bool by_angle_ = false, begun_ = false, at_edge_ = false;  // begun: the variable in use was started
+  bool landed_ = false;                                      // the last step over the angle ended at a time
   double t_ = 0, t_previous_ = 0, edge_ = 0;                 // edge: next one, as angle turned
   std::vector<double> y_, y_previous_, x_;
   mutable std::vector<double> ydot_, ydot_previous_;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace kurbel {
@@ -140,11 +141,18 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {
   return std::make_unique<SampledBodies>(std::move(planar));
 }
 
+// Simbody moves moments to the centre of mass and refuses what rounding leaves below nothing there, by an absolute
+// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added.
+MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin) {
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * about_origin.getMoments()[2];
+  return MassProperties(mass, com, about_origin + Inertia(rounding));
+}
+
 SimTK::Body::Rigid pivoted_link(const LinkBody& link) {
   const double central = std::fmax(0, link.inertia - link.mass * link.com * link.com);
   if (link.mass == 0) return SimTK::Body::Rigid(MassProperties(1, Vec3(0), flat(central)));
   const Vec3 com(link.com, 0, 0);
-  return SimTK::Body::Rigid(MassProperties(link.mass, com, flat(central) + Inertia(com, link.mass)));
+  return SimTK::Body::Rigid(massive(link.mass, com, flat(central) + Inertia(com, link.mass)));
 }
 
 SimTK::Body::Rigid floating_link(const LinkBody& link, const char* what, double point_mass, double end_x) {
@@ -153,8 +161,8 @@ SimTK::Body::Rigid floating_link(const LinkBody& link, const char* what, double 
   if (mass == 0 && link.inertia == 0) return SimTK::Body::Rigid(MassProperties(0, Vec3(0), Inertia(0)));
   if (mass == 0)
     throw std::invalid_argument(fmt::format("{} = {} kg m2 without any mass; give it a mass", what, link.inertia));
-  return SimTK::Body::Rigid(MassProperties(mass, (link.mass * com + point_mass * end) / mass,
-                                           flat(link.inertia) + Inertia(com, link.mass) + Inertia(end, point_mass)));
+  return SimTK::Body::Rigid(massive(mass, (link.mass * com + point_mass * end) / mass,
+                                    flat(link.inertia) + Inertia(com, link.mass) + Inertia(end, point_mass)));
 }
 
 void close_pin(MobilizedBody& plane_body, const Vec3& place, MobilizedBody& follower, const Vec3& station) {

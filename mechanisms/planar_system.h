@@ -67,6 +67,8 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar);
 
 // --- bodies: flat links along their x axis, joints at their ends ---
 
+// What a link weighs, with what rounding may take from its moments when they are moved to its centre of mass.
+SimTK::MassProperties massive(double mass, const SimTK::Vec3& com, const SimTK::Inertia& about_origin);
 // On a fixed bearing: inertia about it. Simbody refuses inertia without mass; mass on the bearing neither moves nor has
 // a torque, so a massless link is given one.
 SimTK::Body::Rigid pivoted_link(const LinkBody& link);

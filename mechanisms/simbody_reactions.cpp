@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mechanisms/planar_system.h"
+
 namespace kurbel {
 
 using SimTK::Inertia;
@@ -23,7 +25,7 @@ Inertia flat(double about_z) { return Inertia(about_z / 2, about_z / 2, about_z)
 
 MassProperties link(double mass, double com_x, double central_inertia) {
   const Vec3 com(com_x, 0, 0);
-  return {mass, com, flat(central_inertia) + Inertia(com, mass)};
+  return massive(mass, com, flat(central_inertia) + Inertia(com, mass));
 }
 
 // Simbody refuses inertia without mass; mass on the axis neither moves nor has weight that a reaction would show, so it

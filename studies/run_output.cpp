@@ -25,6 +25,8 @@ std::string heading(const Result& r) {
                   r.effects == "none" ? "no effects on" : "effects: " + r.effects, r.statistics.method);
   text += fmt::format("  {}; {} steps, {:.3g} ms of processor time a run, {} run{}\n", r.statistics.reason,
                       r.statistics.stepper.steps, 1e3 * r.statistics.cpu_seconds, r.runs, r.runs == 1 ? "" : "s");
+  if (const std::string limits = told(r.statistics.limits); !limits.empty())
+    text += fmt::format("  what kept the steps short: {}\n", limits);
   if (!r.complete) text += fmt::format("  INCOMPLETE: {}\n", r.diagnosis);
   return text;
 }
@@ -132,6 +134,10 @@ Json result_json(const Result& r) {
                      {"cpu_seconds", r.statistics.cpu_seconds},
                      {"cpu_seconds_all_runs", r.cpu_total},
                      {"runs", r.runs}};
+  j["statistics"]["limits"] = Json::array();
+  for (const LimitedSteps& l : r.statistics.limits)
+    j["statistics"]["limits"].push_back(
+        {{"element", l.element}, {"by", l.by}, {"states", l.states}, {"steps", l.steps}, {"share", l.share}});
   j["notes"] = r.notes;
   return j;
 }

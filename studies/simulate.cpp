@@ -256,7 +256,8 @@ class Simulation {
                        .budget = settings_.budget,
                        .interrupted = options_.interrupted,
                        .progress = {},
-                       .work_tables = work_tables()};
+                       .work_tables = work_tables(),
+                       .accuracy = settings_.accuracy};
     if (options_.progress)
       options.progress = [&](double fraction) {
         options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
@@ -335,6 +336,7 @@ class Simulation {
     result_.periods = run.periods;
     result_.cycles = run.cycles.cycles();
     result_.statistics = run.outcome.statistics;
+    result_.statistics.limits = limits_of(run.outcome);
     result_.trajectory = run.trajectory;
     result_.model = model_;
     fill_energy(*run.energy);
@@ -342,6 +344,15 @@ class Simulation {
     note_stall(run.outcome);
     for (const std::string& what : run.outcome.regularised)
       result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");
+  }
+  // What kept the steps short; nothing where the equations cannot be evaluated at the end.
+  std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {
+    if (outcome.state.empty()) return {};
+    try {
+      return outcome.limits.ranked(equations_, outcome.t, outcome.state);
+    } catch (const std::runtime_error&) {
+      return {};
+    }
   }
   // A reduction link that is held at the end although something drives.
   void note_stall(const RunOutcome& outcome) {

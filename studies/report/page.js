@@ -131,14 +131,16 @@
     const kind = column => column < table.textColumns ? 'text' : '';
     table.columns.forEach((text, i) => make('th', kind(i), text, head));
     const body = make('tbody', '', null, element);
-    for (const row of table.rows) {
+    table.rows.forEach((row, r) => {
       const line = make('tr', '', null, body);
       row.forEach((text, i) => {
-        const cell = make('td', kind(i), '', line);
+        const tone = table.tones ? table.tones[r][i] : '';
+        const cell = make('td', [kind(i), tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        if (table.hints && table.hints[r][i]) cell.title = table.hints[r][i];
         // Long names break behind their dots and underscores.
         text.split(/(?<=[._])/).forEach((piece, k) => { if (k && kind(i)) make('wbr', '', null, cell); cell.append(piece); });
       });
-    }
+    });
   }
   function addFormula(formula, card) {
     make('h3', '', formula.title, card);

@@ -153,6 +153,13 @@ void write(Writer& w, const Plot& plot) {
   });
 }
 
+std::vector<std::string> classes_of(const std::vector<Tone>& tones) {
+  constexpr const char* classes[] = {"", "good", "fair", "aside", "bad"};
+  std::vector<std::string> names;
+  for (const Tone tone : tones) names.emplace_back(classes[static_cast<std::size_t>(tone)]);
+  return names;
+}
+
 void write(Writer& w, const Table& table) {
   w.field("kind", "table");
   w.field("title", table.title);
@@ -161,6 +168,14 @@ void write(Writer& w, const Table& table) {
   w.field("columns", table.columns);
   w.key("rows");
   w.list(table.rows, [&](const std::vector<std::string>& row) { w.value(row); });
+  if (!table.tones.empty()) {
+    w.key("tones");
+    w.list(table.tones, [&](const std::vector<Tone>& row) { w.value(classes_of(row)); });
+  }
+  if (!table.hints.empty()) {
+    w.key("hints");
+    w.list(table.hints, [&](const std::vector<std::string>& row) { w.value(row); });
+  }
 }
 
 void write(Writer& w, const Formula& formula) {

@@ -59,12 +59,18 @@ struct Plot {
   bool bars = false;        // harmonics and the like
 };
 
+// The ground of a table's cell, where cells are verdicts.
+enum class Tone { none, good, fair, aside, bad };
+
 struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
   bool folded = false;           // shown on demand; always in print
   std::size_t text_columns = 1;  // leading ones; the others are numbers, on the right
+  // Per cell as the rows, or none at all; words for those who point at a cell.
+  std::vector<std::vector<Tone>> tones = {};
+  std::vector<std::vector<std::string>> hints = {};
 };
 
 struct Formula {

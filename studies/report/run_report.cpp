@@ -238,10 +238,29 @@ void add_machine_and_plots(Report& report, const Results& results) {
             most_torque_plots, all)});
 }
 
+// What kept the steps short, ranked.
+Table limits_table(const Result& r) {
+  constexpr std::size_t most = 12, most_states = 3;
+  Table table{.title = fmt::format("What kept the steps short, {} model", r.label),
+              .columns = {"element", "by", "states", "steps", "share"},
+              .rows = {}};
+  for (const LimitedSteps& l : r.statistics.limits) {
+    if (table.rows.size() == most) break;
+    std::string states;
+    for (std::size_t k = 0; k < l.states.size() && k < most_states; ++k) states += (k ? ", " : "") + l.states[k];
+    if (l.states.size() > most_states) states += ", …";
+    table.rows.push_back({l.element.empty() ? "—" : l.element, l.by, states, std::to_string(l.steps),
+                          fmt::format("{:.1f} %", 100 * l.share)});
+  }
+  return table;
+}
+
 void add_background(Report& report, const Results& results) {
   ReportSection& audit = report.add("Energy, cost, events");
   if (results.back()->energy.checks > 0) audit.cards.push_back(energy_table(results));
   audit.cards.push_back(statistics_table(results));
+  for (const Result* r : results)
+    if (!r->statistics.limits.empty()) audit.cards.push_back(limits_table(*r));
   for (const Result* r : results)
     if (!r->events.empty()) audit.cards.push_back(events_table(*r));
   ReportSection& model = report.add("What was on, what was merged, and why");

@@ -1,0 +1,20 @@
+// families.cpp — the list of families.
+#include "tests/hard/families.h"
+
+#include <iterator>
+
+namespace kurbel::hard {
+
+const std::vector<HardCase>& all_cases() {
+  static const std::vector<HardCase> cases = [] {
+    std::vector<HardCase> all;
+    for (const auto family : {dead_centre_cases, change_point_cases}) {
+      std::vector<HardCase> some = family();
+      all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+    }
+    return all;
+  }();
+  return cases;
+}
+
+}  // namespace kurbel::hard

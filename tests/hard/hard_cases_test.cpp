@@ -1,0 +1,46 @@
+// hard_cases_test.cpp — every hard case ends with the right answer or with the words that belong there. All methods,
+// each at one accuracy that changes from case to case; kurbel_bench hard runs them all at all accuracies.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/hard/families.h"
+
+namespace kurbel::hard {
+namespace {
+
+// Methods of low order need ten times the steps for three digits more: they are asked for less.
+double accuracy_for(std::size_t which_case, std::size_t which_method, const std::string& method) {
+  const bool low_order = method == "esdirk3" || method == "bdf" || method == "esdirk" || method == "multibody";
+  const std::size_t count = low_order ? 3 : all_accuracies().size();
+  return all_accuracies()[(which_case + 3 * which_method) % count];
+}
+
+class HardCases : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(HardCases, EndRight) {
+  const HardCase& hard_case = all_cases()[GetParam()];
+  for (std::size_t m = 0; m < all_methods().size(); ++m) {
+    const std::string& method = all_methods()[m];
+    const double accuracy = accuracy_for(GetParam(), m, method);
+    const CaseOutcome outcome = run_case(hard_case, method, accuracy);
+    EXPECT_TRUE(outcome.verdict != Verdict::failed && outcome.verdict != Verdict::unfinished) << fmt::format(
+        "{} at {:.0e}, {}: {}; error {:.2e}, {:.2e} allowed; {} steps, {:.3g} s of processor time", method, accuracy,
+        hard_case.parameter, outcome.words, outcome.error, outcome.allowed, outcome.steps, outcome.cpu_seconds);
+  }
+}
+
+std::vector<std::size_t> numbers() {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < all_cases().size(); ++i) all.push_back(i);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, HardCases, ::testing::ValuesIn(numbers()), [](const auto& which) {
+  const HardCase& hard_case = all_cases()[which.param];
+  return hard_case.family + "_" + hard_case.name;
+});
+
+}  // namespace
+}  // namespace kurbel::hard
