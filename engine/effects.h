@@ -22,6 +22,8 @@ struct Effects {
   bool gear_losses = false;       // off: gears without losses
   bool gravity = true;            // weight of the mechanisms
   bool variable_inertia = true;   // I_r(φ) of the mechanisms; off: its mean
+  bool joint_clearance = false;   // of the slider-crank; off: its joints are ideal
+  bool flexible_rod = false;      // of the slider-crank; off: its rod is rigid
   bool locked = false;            // clutches count as locked: for studies of the rigid machine
 
   bool is_elastic(const std::string& component) const;
@@ -37,6 +39,8 @@ struct EffectFlag {
   Unsaid unsaid;           // off; on where the scene has parameters for it; on even in the rigid machine
   const char* adds;        // what it simulates
   const char* parameters;  // what a scene needs for it
+  const char* states;      // what it adds to the state and to the events
+  const char* matters;     // when it matters
 };
 std::span<const EffectFlag> effect_flags();
 

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/network.h"
 #include "mechanisms/reduced_mechanism.h"
+#include "mechanisms/slider_crank_dynamics.h"
 #include "mechanisms/slider_crank_forces.h"
 #include "mechanisms/slider_loads.h"
 
@@ -38,6 +40,8 @@ struct Mechanism {
   bool joint_friction = false;                       // is an effect that is on
   bool weightless = false;                           // the effect gravity is off
   bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
+  std::vector<JointClearance> clearances = {};       // of a slider-crank, as the scene gives them
+  std::optional<RodFlexibility> flexibility = {};    // of its rod
 
   bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
   bool has_weight() const;
@@ -45,7 +49,7 @@ struct Mechanism {
   double output_scale() const { return 0.5 * stroke(); }  // of x′
 };
 
-class MechanismMaker final : public ShaftElementMaker {
+class MechanismMaker : public ShaftElementMaker {
  public:
   explicit MechanismMaker(Mechanism mechanism) : mechanism_(std::move(mechanism)) {}
   const Mechanism& mechanism() const { return mechanism_; }
