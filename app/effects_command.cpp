@@ -10,9 +10,11 @@ namespace kurbel::app {
 namespace {
 
 int list_effects() {
-  fmt::print("elasticity — couplings and shafts twist; needs: a stiffness; unless mentioned: off\n");
+  fmt::print("elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where an excitation "
+             "meets a mode, and for starts and blows; unless mentioned: off\n");
   for (const EffectFlag& effect : effect_flags())
-    fmt::print("{} — {}; needs: {}; unless mentioned: {}\n", effect.name, effect.adds, effect.parameters,
+    fmt::print("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
+               effect.parameters, effect.states, effect.matters,
                effect.unsaid == EffectFlag::Unsaid::off           ? "off"
                : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
                                                                   : "on, even in the rigid machine");

@@ -195,10 +195,13 @@ class Compiler {
     }
     if (model_.effects.locked) release_brakes();
     bool any = false;
-    for (Network::ShaftElement& e : net().elements)
-      if (auto changed = e.element->with(model_.effects)) {
-        any = any || e.element->cycle() > 0;
-        e.element = std::move(changed);
+    for (Network::ShaftElement& e : net().elements) try {
+        if (auto changed = e.element->with(model_.effects)) {
+          any = any || e.element->cycle() > 0;
+          e.element = std::move(changed);
+        }
+      } catch (const std::invalid_argument& cannot) {  // effects that it cannot have together
+        messages_.add(location_of(e.component), fmt::format("\"{}\": {}", e.component, cannot.what()));
       }
     for (std::size_t e = net().elements.size(); e-- > 0;)
       if (net().elements[e].element == no_element()) {

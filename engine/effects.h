@@ -24,6 +24,8 @@ struct Effects {
   bool variable_inertia = true;   // I_r(φ) of the mechanisms; off: its mean
   bool load_edges = true;         // of forces over travel or angle, as events; off: rounded
   bool multibody = false;         // mechanisms evaluated by Simbody in the loop; off: by tables extracted from it
+  bool joint_clearance = false;   // of the slider-crank; off: its joints are ideal
+  bool flexible_rod = false;      // of the slider-crank; off: its rod is rigid
   bool locked = false;            // clutches count as locked: for studies of the rigid machine
 
   bool is_elastic(const std::string& component) const;
@@ -39,6 +41,8 @@ struct EffectFlag {
   Unsaid unsaid;           // off; on where the scene has parameters for it; on even in the rigid machine
   const char* adds;        // what it simulates
   const char* parameters;  // what a scene needs for it
+  const char* states;      // what it adds to the state and to the events
+  const char* matters;     // when it matters
 };
 std::span<const EffectFlag> effect_flags();
 

@@ -47,6 +47,8 @@ class JacobianPattern {
   virtual int twist(int connection) const = 0;
   virtual int speed(int shaft) const = 0;  // −1: prescribed
   virtual int own(int slot) const = 0;     // an element's own state
+  // The rate in this row moves with the acceleration of a shaft, too: slot for ∂rate/∂alpha.
+  virtual int follower(int row, int shaft) = 0;
 };
 
 // Everything that can be asked of the machine at one instant. Pointers are valid until the next evaluation.
@@ -91,6 +93,15 @@ class ElementPool {
   // Joint friction and the like: torques at the accelerations alpha per shaft; the equations find both together.
   virtual bool reacts() const { return false; }
   virtual void add_reactions(const Instant&, const double* /*alpha*/, Reactions&) const {}
+
+  // Further degrees of freedom, coupled to a shaft by inertia: add() gives the shaft what is left of inertia and torque
+  // when they follow freely, and their own rates come from the acceleration that the shaft then has (per shaft).
+  virtual bool follows() const { return false; }
+  virtual void follow(const Instant&, const double* /*alpha*/, double* /*own_rate*/) const {}
+  // Kinetic energy beyond ½ (variable inertia) ω².
+  virtual double further_kinetic_energy(const Instant&) const { return 0; }
+  // Own states at rest relative to the shaft under what acts, where the machine starts in equilibrium.
+  virtual void balance(const Instant&, const double* /*alpha*/, double* /*own*/) const {}
 
   virtual int guard_count() const { return 0; }
   // Every law of the pool changes at fixed angles of its shaft alone, for either direction: load edges.

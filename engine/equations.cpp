@@ -59,6 +59,9 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
       per_shaft->assign(model_->shafts.size(), 0);
     reaction_element_.assign(elements, 0);
   }
+  for (const auto& pool : model_->pools)
+    if (pool->follows()) following_.push_back(pool.get());
+  if (!following_.empty()) followed_alpha_.assign(shafts, 0);
   element_inertia_.assign(elements, 0);
   balance_.assign(nodes, 0);
   node_angle_.assign(nodes, 0);
@@ -199,6 +202,7 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
     for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
     for (const int s : variable_)
       if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
+    if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
     return;
   }
   add_known_contact_torques();
@@ -206,6 +210,15 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   find_accelerations(t, free_torque_, inertia_, alpha);
   if (!reacting_.empty()) settle_reactions(t, alpha, work_rate);
   publish_contacts(work_rate);
+  if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
+}
+
+// What is coupled to the shafts by inertia accelerates with them.
+void Equations::let_follow(double t, const double* alpha, double* own_rate) {
+  const Model& m = *model_;
+  std::copy(alpha, alpha + m.free_shafts, followed_alpha_.begin());
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) followed_alpha_[s] = prescribed_acceleration(s, t);
+  for (const ElementPool* pool : following_) pool->follow(snapshot_.now, followed_alpha_.data(), own_rate);
 }
 
 // I α = M + M_r(α) by Newton's method: M_r′ counts as inertia.
@@ -378,6 +391,7 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
   const Model& m = *model_;
   const JacobianLayout& layout = m.jacobian;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
   slot_.assign(layout.slot_position.size(), 0.0);
   for (const auto& pool : m.pools) pool->add_jacobian(snapshot_.now, alpha_.data(), slot_.data());
   std::fill(values.begin(), values.end(), 0.0);
@@ -392,6 +406,8 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
                        ? 0.0
                        : 1 / (inertia_[at(s)] + (reacting_.empty() ? 0.0 : reaction_slope_[at(s)]));
   }
+  for (const JacobianLayout::Follower& follower : layout.followers)
+    for (const auto& [from, to] : follower.entries) values[to] += slot_[follower.slot] * values[from];
   for (const auto& [position, value] : layout.constant) values[position] += value;
 }
 
@@ -478,6 +494,7 @@ double Equations::kinetic_energy(double t, std::span<const double> y) {
   double sum = 0;
   for (std::size_t s = 0; s < model_->shafts.size(); ++s)
     sum += 0.5 * inertia_[s] * snapshot_.now.speed[s] * snapshot_.now.speed[s];
+  for (const ElementPool* pool : following_) sum += pool->further_kinetic_energy(snapshot_.now);
   return sum;
 }
 

@@ -133,6 +133,7 @@ class Equations final : public OdeSystem {
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
                 double* own_rate = nullptr);
   void settle_reactions(double t, double* alpha, double* work_rate);
+  void let_follow(double t, const double* alpha, double* own_rate);
   void refuse_impossible_slip(double t, std::span<const double> y);
   void members_follow(std::span<double> y, std::vector<char> given, double t);
   void find_joint_torques(const double* alpha);
@@ -233,6 +234,9 @@ class Equations final : public OdeSystem {
   std::vector<const ElementPool*> reacting_;
   std::vector<double> reaction_alpha_, reaction_torque_, reaction_slope_, reaction_element_;
   std::vector<double> reaction_effective_torque_, reaction_effective_inertia_, reaction_next_;
+  // further degrees of freedom of elements; empty where there are none
+  std::vector<const ElementPool*> following_;
+  std::vector<double> followed_alpha_;
   Snapshot snapshot_{};
 
   // Jacobian: the model's layout with the quadratures' empty diagonal appended

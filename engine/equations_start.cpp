@@ -157,6 +157,11 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   if (equilibrium) balance_twists(y, t);
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
+  if (equilibrium && !following_.empty()) {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    for (const ElementPool* pool : following_)
+      pool->balance(snapshot_.now, followed_alpha_.data(), y.data() + own_begin());
+  }
   settle_contacts(t, y, still, {}, nullptr);
   refuse_impossible_slip(t, y);
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());

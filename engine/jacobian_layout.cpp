@@ -24,7 +24,15 @@ class Recorder final : public JacobianPattern {
   int own(int slot) const override {
     return static_cast<int>(model_.angle_count() + model_.twist_count() + model_.free_shafts) + slot;
   }
+  int follower(int row, int shaft) override {
+    followers.push_back({row, shaft, entry(-1, -1)});
+    return followers.back().slot;
+  }
+  struct Follower {
+    int row, shaft, slot;
+  };
   std::vector<std::pair<int, int>> places;  // column, row
+  std::vector<Follower> followers;
 
  private:
   const Model& model_;
@@ -91,6 +99,19 @@ JacobianLayout lay_out_jacobian(const Model& model) {
       for (const int s : shafts) slots.push_back(record.entry(record.speed(s), column));
     layout.coupled.push_back(std::move(group));
   }
+  // Rows that follow a shaft's acceleration have all columns of its speed's row.
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> followed;  // slots, per follower
+  for (const Recorder::Follower& follower : record.followers) {
+    auto& slots = followed.emplace_back();
+    const int speed = record.speed(follower.shaft);
+    if (speed < 0) continue;
+    std::map<int, int> slot_of_column;
+    for (std::size_t k = 0; k < record.places.size(); ++k)
+      if (record.places[k].second == speed && record.places[k].first >= 0)
+        slot_of_column.emplace(record.places[k].first, static_cast<int>(k));
+    for (const auto& [column, slot] : slot_of_column)
+      slots.emplace_back(static_cast<std::size_t>(slot), static_cast<std::size_t>(record.entry(follower.row, column)));
+  }
   const int states = static_cast<int>(model.state_count());
   for (int i = 0; i < states; ++i) record.entry(i, i);  // KLU needs every diagonal entry, zeros too
 
@@ -128,6 +149,12 @@ JacobianLayout lay_out_jacobian(const Model& model) {
   for (std::size_t g = 0; g < layout.coupled.size(); ++g)
     for (const int slot : coupled_slots[g])
       layout.coupled[g].position.push_back(layout.slot_position[static_cast<std::size_t>(slot)]);
+  for (std::size_t f = 0; f < followed.size(); ++f) {
+    JacobianLayout::Follower follower{static_cast<std::size_t>(record.followers[f].slot), {}};
+    for (const auto& [from, to] : followed[f])
+      follower.entries.emplace_back(layout.slot_position[from], layout.slot_position[to]);
+    layout.followers.push_back(std::move(follower));
+  }
   return layout;
 }
 

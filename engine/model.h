@@ -108,6 +108,12 @@ struct JacobianLayout {
     std::vector<std::size_t> position;  // stored entry of [column][shaft]
   };
   std::vector<Coupled> coupled;
+  // Rows of own states that move with the acceleration of a shaft: row += gain · row of the shaft's speed.
+  struct Follower {
+    std::size_t slot = 0;                                      // of the gain
+    std::vector<std::pair<std::size_t, std::size_t>> entries;  // stored entries: of the speed's row, of its own
+  };
+  std::vector<Follower> followers;
 };
 
 struct Model {

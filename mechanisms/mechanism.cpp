@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/scene.h"
+#include "mechanisms/deforming_mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -122,6 +123,7 @@ std::vector<std::pair<std::string, Account>> MechanismMaker::further_accounts() 
   return accounts;
 }
 
+// A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.
 std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) const {
   Mechanism changed = mechanism_;
   changed.joint_friction = effects.joint_friction && mechanism_.joints;
@@ -132,6 +134,10 @@ std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) 
   if (!effects.load_edges)
     for (SliderLoad& load : changed.loads)
       if (load.can_be_rounded()) load = load.rounded(), rounded = true;
+  if (!effects.joint_clearance) changed.clearances.clear();
+  if (!effects.flexible_rod) changed.flexibility.reset();
+  if ((!changed.clearances.empty() || changed.flexibility) && !changed.mean_inertia)
+    return std::make_shared<DeformingMechanismMaker>(std::move(changed));
   if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
     return nullptr;
   return std::make_shared<MechanismMaker>(std::move(changed));

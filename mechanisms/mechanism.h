@@ -5,11 +5,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/network.h"
 #include "mechanisms/reduced_mechanism.h"
+#include "mechanisms/slider_crank_dynamics.h"
 #include "mechanisms/slider_crank_forces.h"
 #include "mechanisms/slider_loads.h"
 
@@ -39,6 +41,8 @@ struct Mechanism {
   bool weightless = false;                           // the effect gravity is off
   bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
   bool in_the_loop = false;                          // its bodies are evaluated at every step: the effect multibody
+  std::vector<JointClearance> clearances = {};       // of a slider-crank, as the scene gives them
+  std::optional<RodFlexibility> flexibility = {};    // of its rod
 
   bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
   bool has_weight() const;
@@ -46,7 +50,7 @@ struct Mechanism {
   double output_scale() const { return 0.5 * stroke(); }  // of x′
 };
 
-class MechanismMaker final : public ShaftElementMaker {
+class MechanismMaker : public ShaftElementMaker {
  public:
   explicit MechanismMaker(Mechanism mechanism) : mechanism_(std::move(mechanism)) {}
   const Mechanism& mechanism() const { return mechanism_; }

@@ -76,7 +76,7 @@ std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts) {
 }
 
 void build_mechanism(const Section& s, const MechanismData& data, const DataFaults& faults, Network& net,
-                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints) {
+                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints, Deformation deformation) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
@@ -93,6 +93,8 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
   }
   mechanism->phase = s.number("phase");
   mechanism->joints = std::move(joints);
+  mechanism->clearances = std::move(deformation.clearances);
+  mechanism->flexibility = deformation.flexibility;
   read_loads(s, *mechanism, messages);
   const double phase = mechanism->phase;
   net.put_made(node, s.name, std::make_shared<MechanismMaker>(std::move(*mechanism)), {}, phase);

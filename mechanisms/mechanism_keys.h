@@ -6,6 +6,7 @@
 
 #include "engine/keys.h"
 #include "engine/network.h"
+#include "mechanisms/deformation_keys.h"
 #include "mechanisms/mechanism.h"
 
 namespace kurbel {
@@ -22,8 +23,9 @@ Key load_key(const std::string& doc, const std::vector<Kind>& kinds);
 std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts);
 
 // Adds the component: its node first, so that others may refer to it, then the element with its loads. What `faults`
-// holds, and what Simbody refuses, goes into the messages. Joints: of a slider-crank, with friction.
+// holds, and what Simbody refuses, goes into the messages. Joints, deformation: of a slider-crank.
 void build_mechanism(const Section& section, const MechanismData& data, const DataFaults& faults, Network& net,
-                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints = nullptr);
+                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints = nullptr,
+                     Deformation deformation = {});
 
 }  // namespace kurbel

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mechanisms/deformation_keys.h"
 #include "mechanisms/joint_keys.h"
 #include "mechanisms/kinds.h"
 #include "mechanisms/load_kinds.h"
@@ -35,7 +36,7 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   if (check_joints(s, messages) && faults.empty())
     if (const SliderCrankJoints given = slider_crank_joints(s); !given.frictionless())
       joints = std::make_shared<SliderCrankStatics>(d, given);
-  build_mechanism(s, d, faults, net, messages, std::move(joints));
+  build_mechanism(s, d, faults, net, messages, std::move(joints), read_deformation(s, d, messages));
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ Kind slider_crank_kind() {
            phase_key(),
            load_key("force on the slider, or a list of them", slider_load_kinds())},
       .build = build_slider_crank};
-  kind.keys = joined({kind.keys, slider_crank_joint_keys()});
+  kind.keys = joined({kind.keys, slider_crank_joint_keys(), slider_crank_deformation_keys()});
   return kind;
 }
 
