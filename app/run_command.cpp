@@ -1,6 +1,7 @@
 // run_command.cpp — run one model of a scene, or compare two.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -63,6 +64,13 @@ void use_what_is_known(const Scene& scene, const Effects& effects, SimulateOptio
   options.chosen_because = known->describe();
 }
 
+// Clutches that slip are no springs.
+std::string label_of(const Model& model) {
+  const bool springs = std::any_of(model.elastic.begin(), model.elastic.end(),
+                                   [](const ElasticJoint& e) { return !e.slips && !e.springless; });
+  return springs ? "elastic" : "rigid";
+}
+
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
   const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
@@ -75,7 +83,7 @@ int run(const RunArguments& arguments) {
   Progress progress(arguments.study.quiet);
   SimulateOptions options = options_of(arguments, progress);
   use_what_is_known(scene, effects, options);
-  const Result result = simulate(model, model->elastic.empty() ? "rigid" : "elastic", options);
+  const Result result = simulate(model, label_of(*model), options);
   return present(output_of(result), arguments.study);
 }
 
