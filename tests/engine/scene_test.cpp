@@ -142,11 +142,12 @@ TEST(Scene, CommandLineEffectsAreParsed) {
 
 TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   const Scene scene = test::scene_from(base);
-  EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }),
-            "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"all\", \"elasticity\", "
-            "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
-            "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"gravity\" or \"variable_inertia\"; several "
-            "joined by commas, or -NAME to take one away");
+  EXPECT_EQ(
+      message_of([&] { parse_effects("elastisity", scene); }),
+      "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"all\", \"elasticity\", "
+      "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
+      "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"joint_clearance\", \"flexible_rod\", \"gravity\", "
+      "\"variable_inertia\", \"load_edges\" or \"multibody\"; several joined by commas, or -NAME to take one away");
   EXPECT_NE(message_of([&] { parse_effects("backlash", scene); }).find("no component of the scene has parameters"),
             std::string::npos);
   EXPECT_EQ(parse_effects("-elasticity", scene).describe(), "none");

@@ -31,8 +31,8 @@ double convolved(double x, double w) {
   std::sort(cuts.begin(), cuts.end());
   double sum = 0;
   for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
-    const int n = 200;
-    const double a = cuts[c], b = cuts[c + 1], h = (b - a) / n, inset = 1e-14 * (b - a);
+    const int n = 4000;
+    const double a = cuts[c], b = cuts[c + 1], h = (b - a) / n, inset = 1e-10 * (b - a);
     for (int i = 0; i <= n; ++i) {
       const double u = std::clamp(a + h * i, a + inset, b - inset);
       sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * h / 3 * sharp(x - w * u) * kernel(u);
