@@ -115,7 +115,7 @@ void judge_answer(const HardCase& hard_case, const Result& result, CaseOutcome& 
   const Judgement found = judge(hard_case, result);
   out.error = found.error;
   const double told = allowed_ratio * result.measured_accuracy;
-  if (found.uncertainty > 0.5 * out.allowed) {
+  if (found.uncertainty > out.allowed) {
     out.words = fmt::format("the truth of {} itself is known to {:.1e} only", found.what, found.uncertainty);
   } else if (found.error <= out.allowed) {
     out.verdict = Verdict::passed;
