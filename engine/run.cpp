@@ -145,7 +145,7 @@ class Loop {
     if (stepper_) add_statistics();
     ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
                                               : equations_.error_control(options_.tolerance);
-    if (method == Method::adams || method == Method::bdf) control_quadratures(control);
+    if (is_of_sundials(method)) control_quadratures(control);
     if (method == Method::work_equation) {
       stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
     } else {
@@ -156,8 +156,14 @@ class Loop {
     restart(t, y);
   }
 
+  static bool is_of_sundials(Method method) {
+    return method == Method::esdirk_32 || method == Method::esdirk_43 || method == Method::esdirk_54 ||
+           method == Method::bdf || method == Method::adams;
+  }
+
   // A multistep method that meets a motion of low degree goes on with steps of any length, in which works and squares,
-  // of higher degree, are lost.
+  // of higher degree, are lost. And Newton's iteration ends when the states have converged, with the rates of the
+  // quadratures still those of the iterate before: far off behind an impact on a stiff flank.
   void control_quadratures(ErrorControl& control) const {
     const Model& m = equations_.model();
     if (!equations_.audit()) return;

@@ -62,6 +62,14 @@ const std::string growth =
 
 }  // namespace
 
+HardCase free_crank_over(double turns) {
+  return free_crank(fmt::format("FreeCrankOver{:.0f}Turns", turns), 0, 0, turns);
+}
+
+HardCase undamped_chain_over(double cycles) {
+  return chain(fmt::format("UndampedChainOver{:.0f}Cycles", cycles), cycles);
+}
+
 std::vector<HardCase> long_run_cases() {
   std::vector<HardCase> cases;
   const auto shortened = [](HardCase c, const std::vector<const char*>& methods, const HardCase& by) {

@@ -89,8 +89,10 @@ std::vector<HardCase> stiffness_cases() {
   std::vector<HardCase> cases;
   for (const int decades : {0, 2, 4, 6, 8, 10}) cases.push_back(stiffness_ratio(decades));
   for (const int decades : {-3, -6, -9, 3, 6, 9}) cases.push_back(inertia_ratio(decades));
-  LinearChain chain{.inertia = {1, 1e-12, 1}, .stiffness = {1000, 3000}, .torque = 20};
-  chain.damping = {damping(0.02, 1000, 1, 1e-12), damping(0.02, 3000, 1e-12, 1)};
+  const LinearChain chain{.inertia = {1, 1e-12, 1},
+                          .stiffness = {1000, 3000},
+                          .damping = {damping(0.02, 1000, 1, 1e-12), damping(0.02, 3000, 1e-12, 1)},
+                          .torque = 20};
   cases.push_back(chain_case("AlmostMasslessShaftThatRings", "J = 1e-12 kg·m², ζ = 0.02", chain, 0.002));
   cases.push_back(almost_massless());
   cases.push_back(massless());
