@@ -198,6 +198,40 @@ Table summary(const std::vector<CaseMatrix>& matrices) {
   return table;
 }
 
+// Errors at one local tolerance over 10 … 1e4 cycles, and the exponents p of N^p that they grow with at the end.
+Table growth_of_errors(const std::string& title, HardCase (*machine)(double cycles)) {
+  constexpr std::array counts = {10.0, 100.0, 1e3, 1e4};
+  Table table{.title = title,
+              .columns = {"method", "error at N = 10", "100", "1000", "1e4", "grows as", "energy at N = 10", "100",
+                          "1000", "1e4", "grows as"},
+              .rows = {}};
+  const auto exponent = [&](const std::vector<double>& errors) {
+    return fmt::format("N^{:.2f}", std::log10(errors.back() / errors[errors.size() - 2]));
+  };
+  for (const char* method : {"work", "dopri5", "verner6", "dop853", "fehlberg8", "adams", "esdirk", "bdf"}) {
+    std::vector<double> errors, energies;
+    try {
+      for (const double count : counts) {
+        const HardCase hard_case = machine(count);
+        const Result r = hard::single_run(hard_case, method, 1e-7);
+        double worst = 0;
+        for (const hard::Truth& truth : hard_case.truths) worst = std::max(worst, truth.judge(r).error);
+        errors.push_back(worst);
+        energies.push_back(r.energy.relative);
+      }
+    } catch (const std::invalid_argument&) {  // the work equation knows no twist
+      continue;
+    }
+    std::vector<std::string> row = {method};
+    for (const double e : errors) row.push_back(fmt::format("{:.1e}", e));
+    row.push_back(exponent(errors));
+    for (const double e : energies) row.push_back(fmt::format("{:.1e}", e));
+    row.push_back(exponent(energies));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 CaseMatrix run_all(const HardCase& hard_case) {
   CaseMatrix matrix{&hard_case, {}};
   for (const std::string& method : hard::all_methods()) {
@@ -229,6 +263,12 @@ void hard_cases(BenchBook& book, const std::string& only) {
       }
   }
   book.tables.push_back(summary(matrices));
+  if (std::string("LongRun").find(only) == 0) {
+    book.tables.push_back(growth_of_errors(
+        "Growth of errors over N turns of a free slider-crank at local tolerances of 1e-8", hard::free_crank_over));
+    book.tables.push_back(growth_of_errors(
+        "Growth of errors over N cycles of an undamped chain at local tolerances of 1e-8", hard::undamped_chain_over));
+  }
   book.target("hard cases: cells without the right answer or the right words", "0", fmt::format("{} of {}", red, cells),
               red == 0);
   for (const std::string& family : families_of(matrices)) {

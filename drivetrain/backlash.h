@@ -103,7 +103,7 @@ struct Backlash {
     switch (std::abs(x.mode)) {
       case 1:  // k p + c ṗ ≥ 0 and, without pulling, c ṗ ≤ k p
         g[0] = (spring + damper) / torque_scale;
-        g[1] = law == ContactLaw::no_pulling ? (spring - damper) / torque_scale : 1;
+        g[1] = law == ContactLaw::no_pulling && damping > 0 ? (spring - damper) / torque_scale : 1;
         break;
       case 2:  // the damper would do more than the spring
         g[0] = p / twist_scale;
@@ -124,7 +124,8 @@ struct Backlash {
     switch (std::abs(x.mode)) {
       case 1:
         if (law == ContactLaw::hunt_crossley) return which == 0 ? static_cast<int>(apart) : 3 * side;
-        return which == 0 ? 3 * side : 2 * side;
+        if (which != 0) return 2 * side;
+        return damping > 0 ? 3 * side : static_cast<int>(apart);  // without damping the torque ends with the contact
       case 2:
         return which == 0 ? static_cast<int>(apart) : side;
       default:

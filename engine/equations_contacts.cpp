@@ -17,8 +17,9 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double nothing = 1e-12;  // of a scale: a torque or speed within round-off
-constexpr double creep = 1e-4;     // of the speed scale: where a regularised contact reaches three quarters
+constexpr double nothing = 1e-12;     // of a scale: a torque or speed within round-off
+constexpr double leaves_rest = 1e-9;  // of the speed scale: a prescribed motion that begins without acceleration
+constexpr double creep = 1e-4;        // of the speed scale: where a regularised contact reaches three quarters
 constexpr double least_capacity = 1e-6, most_capacity = 1e3;  // of the torque scale, for sharing
 constexpr std::size_t few_contacts = 7;                       // so many are enumerated
 constexpr int most_changes = 200;
@@ -364,6 +365,17 @@ void Equations::tie_speeds(double t, std::span<double> y) {
 void Equations::settle_contacts(double t, std::span<double> y, const std::vector<std::size_t>& stopped,
                                 const std::vector<std::pair<std::size_t, int>>& forced, std::vector<Event>* log) {
   if (contacts_.empty()) return;
+  // What is moved as prescribed and just stands still slips the way it is about to go.
+  const Instant now = instant(t, y);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Contact& contact = contacts_[c];
+    if (!is_prescribed(contact)) continue;
+    double v = slip_speed(contact, now) / contact.speed_scale;
+    if (std::abs(v) > nothing) continue;
+    v = 0;
+    for (const ShaftGain& g : contact.motion) v += g.gain * prescribed_acceleration(at(g.shaft), t);
+    sense(c) = v > 0 ? 1 : v < 0 ? -1 : 0;
+  }
   std::vector<int> before(contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) before[c] = sense(c);
   std::set<std::size_t> open;
@@ -498,7 +510,9 @@ void Equations::contact_guards(double t, std::span<const double> y, double* g) {
     const int direction = sense(c);
     if (direction != 0) {
       own[0] = direction * slip_speed(contact, now) / contact.speed_scale;
-    } else if (!is_prescribed(contact)) {
+    } else if (is_prescribed(contact)) {
+      own[0] = leaves_rest - std::abs(slip_speed(contact, now)) / contact.speed_scale;
+    } else {
       const Hold hold = limits(c);
       own[0] = std::min(1e6, (hold.high - contact_torque_[c]) / contact.torque_scale);
       own[1] = std::min(1e6, (contact_torque_[c] - hold.low) / contact.torque_scale);

@@ -32,7 +32,8 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
         int& sign = loss_sign_[static_cast<std::size_t>(lossy_[local - 2 * contacts_.size()])];
         sign = -sign;
       } else if (is_prescribed(contacts_[contact])) {
-        sense(contact) = -sense(contact);
+        const double v = slip_speed(contacts_[contact], instant(t, y));
+        sense(contact) = sense(contact) != 0 ? -sense(contact) : v > 0 ? 1 : -1;
       } else if (sense(contact) != 0) {
         stopped.push_back(contact);
       } else {

@@ -68,7 +68,8 @@ class Loop {
         system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
         view_(equations, system_.size()),
         guard_(equations.guard_count() + (options.stop ? 1 : 0)),
-        guard_before_(guard_.size()) {}
+        guard_before_(guard_.size()),
+        may_dip_(guards_beyond_angles(equations)) {}
 
   RunOutcome run() {
     begin_ = cpu_now();
@@ -142,8 +143,9 @@ class Loop {
 
   void make(Method method, double t, std::span<const double> y) {
     if (stepper_) add_statistics();
-    const ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
-                                                    : equations_.error_control(options_.tolerance);
+    ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
+                                              : equations_.error_control(options_.tolerance);
+    if (is_of_sundials(method)) control_quadratures(control);
     if (method == Method::work_equation) {
       stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
     } else {
@@ -152,6 +154,24 @@ class Loop {
     method_ = method;
     view_.watch(*stepper_);
     restart(t, y);
+  }
+
+  static bool is_of_sundials(Method method) {
+    return method == Method::esdirk_32 || method == Method::esdirk_43 || method == Method::esdirk_54 ||
+           method == Method::bdf || method == Method::adams;
+  }
+
+  // A multistep method that meets a motion of low degree goes on with steps of any length, in which works and squares,
+  // of higher degree, are lost. And Newton's iteration ends when the states have converged, with the rates of the
+  // quadratures still those of the iterate before: far off behind an impact on a stiff flank.
+  void control_quadratures(ErrorControl& control) const {
+    const Model& m = equations_.model();
+    if (!equations_.audit()) return;
+    for (std::size_t k = 0; k < m.accounts.size(); ++k) control.scale[equations_.work_index(k)] = m.torque_scale;
+    for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
+      for (const bool spring : {false, true})
+        control.scale[equations_.square_index(i, spring)] =
+            m.torque_joints[i].torque_scale * m.torque_joints[i].torque_scale / m.speed_scale;
   }
 
   void restart(double t, std::span<const double> y) {
@@ -169,6 +189,7 @@ class Loop {
     stepper_->step(until);
     const StepLimit limited_by = stepper_->limited_by();
     find_guards(stepper_->t(), stepper_->y(), guard_);
+    if (may_dip_) end_at_dip();
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
     if (fired.empty()) {
@@ -239,6 +260,71 @@ class Loop {
     probe_.resize(guard_.size());
     find_guards(t, work_, probe_);
     return probe_[which];
+  }
+
+  // Guards of speeds and torques: those of angles cannot come back within a quarter turn.
+  static bool guards_beyond_angles(const Equations& equations) {
+    std::size_t of_angle = 0;
+    for (const auto& pool : equations.model().pools)
+      if (pool->guards_are_of_angle()) of_angle += pool->guard_count();
+    return equations.guard_count() > of_angle;
+  }
+
+  // A guard that falls at the step's begin and rises at its end was lowest between them. Where it was below zero there,
+  // the step is taken again to end at that place: long steps on a smooth motion pass a stop or a breakaway unseen.
+  void end_at_dip() {
+    const double t0 = stepper_->t_previous(), t1 = stepper_->t(), h = t1 - t0, part = 1e-3;
+    find_slopes(t0, stepper_->y_previous(), stepper_->ydot_previous(), guard_before_, part * h, slope_begin_);
+    find_slopes(t1, stepper_->y(), stepper_->ydot(), guard_, -part * h, slope_end_);
+    double first = HUGE_VAL;
+    for (std::size_t i = 0; i < guard_.size(); ++i) {
+      const double ends = std::min(guard_before_[i], guard_[i]);
+      if (!(slope_begin_[i] < 0 && slope_end_[i] > 0) || ends < 0) continue;
+      if (lowest_of_cubic(guard_before_[i], guard_[i], h * slope_begin_[i], h * slope_end_[i]) > 0.25 * ends) continue;
+      const double lowest = lowest_place(i, t0, t1);
+      if (guard_at(lowest, i) < fired_below) first = std::min(first, lowest);
+    }
+    if (!(first < t1)) return;
+    stepper_->retake(first);
+    find_guards(stepper_->t(), stepper_->y(), guard_);
+  }
+
+  void find_slopes(double t, std::span<const double> y, std::span<const double> rate, const std::vector<double>& here,
+                   double dt, std::vector<double>& slope) {
+    work_.assign(y.begin(), y.end());
+    for (std::size_t i = 0; i < work_.size(); ++i) work_[i] += dt * rate[i];
+    slope.resize(guard_.size());
+    find_guards(t + dt, work_, slope);
+    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = (slope[i] - here[i]) / dt;
+  }
+
+  // Hermite's cubic over [0, 1] that falls at 0 and rises at 1, at its minimum.
+  static double lowest_of_cubic(double begin, double end, double slope_begin, double slope_end) {
+    const double a = 2 * (begin - end) + slope_begin + slope_end, b = 3 * (end - begin) - 2 * slope_begin - slope_end;
+    // 3 a x² + 2 b x + slope_begin = 0, the root where it rises; written without cancellation
+    const double root = std::sqrt(std::max(0.0, b * b - 3 * a * slope_begin));
+    const double x = std::clamp(b > 0 ? -slope_begin / (b + root) : (root - b) / (3 * a), 0.0, 1.0);
+    return begin + x * (slope_begin + x * (b + x * a));
+  }
+
+  // By the golden section on the continuous solution.
+  double lowest_place(std::size_t i, double a, double b) {
+    constexpr double golden = 0.6180339887498949;
+    double left = b - golden * (b - a), right = a + golden * (b - a);
+    double at_left = guard_at(left, i), at_right = guard_at(right, i);
+    for (int k = 0; k < 60 && b - a > 1e-9 * std::abs(b); ++k) {
+      if (std::min(at_left, at_right) < 1e3 * fired_below) break;  // surely below
+      if (at_left < at_right) {
+        b = std::exchange(right, left);
+        at_right = at_left;
+        at_left = guard_at(left = b - golden * (b - a), i);
+      } else {
+        a = std::exchange(left, right);
+        at_left = at_right;
+        at_right = guard_at(right = a + golden * (b - a), i);
+      }
+    }
+    return at_left < at_right ? left : right;
   }
 
   // Goes back to the first guard that fired within the step; returns all that fire there, none if the step was smooth.
@@ -478,7 +564,8 @@ class Loop {
   RunOutcome out_;
   std::optional<Breakdown> broken_;
   StepLimits::Bound bound_ = StepLimits::Bound::until;
-  std::vector<double> guard_, guard_before_, probe_, work_, state_;
+  std::vector<double> guard_, guard_before_, probe_, work_, state_, slope_begin_, slope_end_;
+  bool may_dip_;
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
   double explicit_step_ = 0, trial_begin_ = 0;

@@ -311,7 +311,10 @@ class Simulation {
       const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(),
                                       [&](const Figure& f) { return f.name == figure.name; });
       if (other == coarse.figures.end()) continue;
-      const double difference = std::abs(figure.value - other->value);
+      // Of two equal peaks of opposite sign either may be the larger one.
+      const bool magnitude = figure.name.starts_with("peak_");
+      const double difference =
+          magnitude ? std::abs(std::abs(figure.value) - std::abs(other->value)) : std::abs(figure.value - other->value);
       if (figure.scale > 0) worst = std::max(worst, difference / figure.scale);
       figure.error = difference + figure.resolution;
     }

@@ -66,6 +66,91 @@ HardCase beside_folded(double off) {
   const Motion m = away_from_folded(off, until), shifted = away_from_folded(off * (1 + 1e-6), until);
   c.condition = pi * std::abs(shifted.angle - m.angle) / (1e-6 * off);
   c.condition_words = "the start angle π + ε holds its last digit only: ∂φ(T)/∂ε, measured on the closed form";
+  HardCase shortened = c;
+  const double short_time = 0.6 * until;
+  shortened.scene = scene(short_time);
+  shortened.truths = {at(short_time)};
+  shortened.excluded.clear();
+  if (off > 1e-3) c.variants["multibody"] = std::make_shared<HardCase>(std::move(shortened));
+  return c;
+}
+
+// Exactly on a dead centre the force has no lever: a balance, which the program must say.
+HardCase on_dead_centre(const std::string& end, double angle) {
+  return {
+      .family = family,
+      .name = "OnThe" + end + "EndAForceHasNoLeverAndThatIsSaid",
+      .parameter = fmt::format("{:.6g} rad", angle),
+      .scene = crank_scene("", fmt::format("{{ kind = \"constant\", force = {} }}", quantity(force, "N")), angle, 1),
+      .refusal = {"starts at rest where no torque moves it"}};
+}
+
+// --- a torque M against a force F that opposes motion: nothing holds on the dead centre itself, and beyond it the
+// crank stalls where the work is used up, M (φ − φ₀) = F |x(φ) − x(φ₀)|, and is held there ---
+HardCase stalls(double part, double start, const std::string& end) {
+  const double torque = part * force * crank.radius;
+  const auto balance = [&](long double away) {
+    return torque * away - force * std::abs(crank.position(start + away) - crank.position(start));
+  };
+  const auto angle = static_cast<double>(start + bisect(balance, 1e-3L * part, 0.5L * pi));
+  return {.family = family,
+          .name = fmt::format("StallsBesideThe{}EndUnder{:.0f}PerMilleOfTheForce", end, 1000 * part),
+          .parameter = fmt::format("M = {:g} F r", part),
+          .scene =
+              crank_scene(fmt::format("motor = {{ kind = \"torque source\", torque = {} }}\n", quantity(torque, "N*m")),
+                          fmt::format("{{ kind = \"opposing\", force = {} }}", quantity(force, "N")), start, 3,
+                          "\"motor\", \"crank\""),
+          .truths = {
+              closed_form("M (φ − φ₀) = F |x(φ) − x(φ₀)|", {{"final_angle.crank", angle}, {"final_speed.crank", 0}})}};
+}
+
+// --- static friction: a bearing that holds M_s and rubs with M_k; M = part · M_s ---
+//     ½ I_r ω² = (M − M_k) (φ − φ₀) = (M − M_k) s², t = ∫ 2 √(I_r/(2 (M − M_k))) ds
+HardCase with_bearing(double part, double start, const std::string& end) {
+  const double holds = 20, rubs = 12, torque = part * holds, turned = 7.5;
+  double until = 1, angle = start, speed = 0;
+  if (part > 1) {
+    const double net = torque - rubs;
+    until = static_cast<double>(
+        simpson([&](long double s) { return 2 * std::sqrt(crank.reduced_inertia(start + s * s) / (2 * net)); }, 0.0L,
+                std::sqrt(static_cast<long double>(turned)), 4000));
+    angle = start + turned;
+    speed = static_cast<double>(std::sqrt(2 * net * turned / crank.reduced_inertia(angle)));
+  }
+  return {.family = family,
+          .name = fmt::format("{}TheStaticFrictionOnThe{}End{}", part > 1 ? "Overcomes" : "IsHeldBy", end,
+                              std::abs(part - 1) < 1e-5 ? "ByAMillionth" : ""),
+          .parameter = fmt::format("M = {:.7g} M_s", part),
+          .scene = crank_scene(
+              fmt::format("motor = {{ kind = \"torque source\", torque = {} }}\nbearing = {{ kind = \"bearing\", on = "
+                          "\"crank\", torque = {}, static_torque = {} }}\neffects = {{ bearing_friction = true }}\n",
+                          quantity(torque, "N*m"), quantity(rubs, "N*m"), quantity(holds, "N*m")),
+              "", start, until, "\"motor\", \"crank\""),
+          .truths = {closed_form("½ I ω² = (M − M_k) Δφ, and t = ∫dφ/ω with φ = φ₀ + s²",
+                                 {{"final_angle.crank", angle}, {"final_speed.crank", speed}})}};
+}
+
+// --- friction in the main bearing, loaded by the slider's force F alone: it holds M ≤ ρ F, ρ = r_b sin(atan f) ---
+HardCase with_joint_friction(double part) {
+  const double journal = 0.04, coefficient = 0.15;
+  const double limit = journal * std::sin(std::atan(coefficient)) * force;
+  const auto scene = crank_scene(
+      fmt::format("motor = {{ kind = \"torque source\", torque = {} }}\neffects = {{ joint_friction = true }}\n",
+                  quantity(part * limit, "N*m")),
+      fmt::format("{{ kind = \"constant\", force = {} }}, main_bearing = {{ radius = {}, friction = 0.05, "
+                  "static_friction = {} }}",
+                  quantity(-force, "N"), quantity(journal, "m"), coefficient),
+      0, 0.3, "\"motor\", \"crank\"");
+  HardCase c{.family = family,
+             .name = fmt::format("JointFriction{}OnTheExtendedEnd{}", part > 1 ? "IsOvercome" : "Holds",
+                                 std::abs(part - 1) < 1e-5 ? "ByAMillionth" : ""),
+             .parameter = fmt::format("M = {:.7g} ρ F", part),
+             .scene = scene};
+  if (part > 1) {
+    c.truths = {converged(scene, {"final_angle.crank", "final_speed.crank"})};
+  } else {
+    c.truths = {closed_form("it does not move", {{"final_angle.crank", 0}, {"final_speed.crank", 0}})};
+  }
   return c;
 }
 
@@ -74,6 +159,17 @@ HardCase beside_folded(double off) {
 std::vector<HardCase> dead_centre_cases() {
   std::vector<HardCase> cases;
   for (const double off : {1e-2, 1e-5, 1e-9}) cases.push_back(beside_folded(off));
+  cases.push_back(on_dead_centre("Extended", 0));
+  cases.push_back(on_dead_centre("Folded", pi));
+  for (const double part : {0.3, 0.01}) {
+    cases.push_back(stalls(part, 0, "Extended"));
+    cases.push_back(stalls(part, pi, "Folded"));
+  }
+  for (const double part : {1.2, 1 + 1e-6, 1 - 1e-6}) {
+    cases.push_back(with_bearing(part, 0, "Extended"));
+    cases.push_back(with_bearing(part, pi, "Folded"));
+  }
+  for (const double part : {1.2, 1 + 1e-6, 1 - 1e-6}) cases.push_back(with_joint_friction(part));
   return cases;
 }
 

@@ -9,6 +9,15 @@ namespace kurbel::hard {
 
 std::vector<HardCase> dead_centre_cases();
 std::vector<HardCase> change_point_cases();
+std::vector<HardCase> stiffness_cases();
+std::vector<HardCase> rigid_limit_cases();
+std::vector<HardCase> long_run_cases();
+std::vector<HardCase> backlash_cases();
+std::vector<HardCase> stick_slip_cases();
+
+// Undamped machines of any length, for the growth of errors.
+HardCase free_crank_over(double turns);
+HardCase undamped_chain_over(double cycles);
 
 // All of them, in this order; made once.
 const std::vector<HardCase>& all_cases();

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/result.h"
@@ -57,9 +58,11 @@ struct HardCase {
   std::string condition_words = "";  // how it was measured
   std::vector<std::string> refusal =
       {};  // words of the diagnosis or refusal that is the right end; empty: an answer is
-  std::map<std::string, std::string> excluded = {};                      // method: the reason
+  std::map<std::string, std::string> excluded = {};  // method: the reason
+  // method: the finest accuracy that it is asked for, and why not more.
+  std::map<std::string, std::pair<double, std::string>> finest = {};
   std::map<std::string, std::shared_ptr<const HardCase>> variants = {};  // method: a shortened case for it
-  double budget = 20;                                                    // processor time of an integration [s]
+  double budget = 10;                                                    // processor time of an integration [s]
 };
 
 enum class Verdict {
@@ -89,6 +92,9 @@ const std::vector<double>& all_accuracies();  // 1e-3 … 1e-10
 
 // The error that a passed cell may have over the accuracy asked for.
 inline constexpr double allowed_ratio = 20;
+
+// One run at the local tolerance that belongs to the accuracy, without the tighter one that measures its error.
+Result single_run(const HardCase& hard_case, const std::string& method, double accuracy);
 
 CaseOutcome run_case(const HardCase& hard_case, const std::string& method, double accuracy);
 
