@@ -9,6 +9,12 @@ namespace kurbel::hard {
 
 std::vector<HardCase> dead_centre_cases();
 std::vector<HardCase> change_point_cases();
+std::vector<HardCase> blow_cases();
+std::vector<HardCase> motor_cases();
+std::vector<HardCase> resonance_cases();
+std::vector<HardCase> time_scale_cases();
+std::vector<HardCase> event_cases();
+std::vector<HardCase> extreme_cases();
 
 // All of them, in this order; made once.
 const std::vector<HardCase>& all_cases();
