@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <numbers>
 #include <utility>
@@ -19,6 +20,18 @@ std::size_t at(int index) { return static_cast<std::size_t>(index); }
 // 4π as two doubles: 10⁶ wraps lose no digit.
 constexpr double two_turns = 4 * std::numbers::pi;
 constexpr double two_turns_rest = 4 * 1.2246467991473532e-16;
+
+// A universal joint's θ = φ_a − φ_b swings by degrees whatever its spring carries: no step can hold it more exactly
+// than it is rounded.
+double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance) {
+  const Network::Joint& joint = m.network.joints[at(elastic.joint)];
+  if (!joint.element || !joint.element->uses_angle()) return elastic.twist_scale;
+  constexpr int positions = 16;
+  double swing = 0;
+  for (int k = 0; k < positions; ++k)
+    swing = std::max(swing, std::abs(joint.element->rest_twist(2 * std::numbers::pi * k / positions)));
+  return std::max(elastic.twist_scale, 16 * std::numeric_limits<double>::epsilon() * swing / tolerance);
+}
 
 }  // namespace
 
@@ -415,7 +428,7 @@ ErrorControl Equations::error_control(double tolerance) const {
   const Model& m = *model_;
   ErrorControl control{tolerance, {}};
   for (const TrackedAngle& angle : m.angles) control.scale.push_back(std::max(1.0, m.scale_ratio[at(angle.node)]));
-  for (const ElasticJoint& joint : m.elastic) control.scale.push_back(joint.twist_scale);
+  for (const ElasticJoint& joint : m.elastic) control.scale.push_back(twist_scale(m, joint, tolerance));
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
   for (const OwnStatePlace& own : m.own_states) control.scale.push_back(own.state.scale);
   control.scale.resize(size(), 0.0);

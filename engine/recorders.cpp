@@ -385,11 +385,14 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
 
 void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) { check(t, y, equations); }
 
-// At ends of steps: between them the dense output of some methods is of lower order than their steps.
+// At the end of the step in which checks fall due: dense output is of a lower order than the steps it lies between.
 void EnergyAudit::step(StepView& view) {
-  if (checked >= checks_) return;
-  const double next = checked + 1 == checks_ ? until_ : until_ * checked / (checks_ - 1);
-  if (view.t() >= std::min(next, until_)) check(view.t(), view.y(), view.equations());
+  const auto due = [&](int k) { return k + 1 == checks_ ? until_ : until_ * k / (checks_ - 1); };
+  int next = checked;
+  while (next < checks_ && due(next) <= view.t()) ++next;
+  if (next == checked) return;
+  check(view.t(), view.y(), view.equations());
+  checked = next;  // counts those that fell due together
 }
 
 double EnergyAudit::relative() const {

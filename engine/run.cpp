@@ -10,6 +10,7 @@
 #include <cmath>
 #include <ctime>
 #include <deque>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -145,7 +146,7 @@ class Loop {
     if (stepper_) add_statistics();
     ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
                                               : equations_.error_control(options_.tolerance);
-    if (is_of_sundials(method)) control_quadratures(control);
+    if (is_of_library(method)) control_quadratures(control);
     if (method == Method::work_equation) {
       stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
     } else {
@@ -156,28 +157,32 @@ class Loop {
     restart(t, y);
   }
 
-  static bool is_of_sundials(Method method) {
+  static bool is_of_library(Method method) {
     return method == Method::esdirk_32 || method == Method::esdirk_43 || method == Method::esdirk_54 ||
            method == Method::bdf || method == Method::adams;
   }
 
-  // A multistep method that meets a motion of low degree goes on with steps of any length, in which works and squares,
-  // of higher degree, are lost. And Newton's iteration ends when the states have converged, with the rates of the
-  // quadratures still those of the iterate before: far off behind an impact on a stiff flank.
+  // Newton's iteration leaves off when the states that are under control stand still, with quadratures one iterate
+  // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
   void control_quadratures(ErrorControl& control) const {
-    const Model& m = equations_.model();
     if (!equations_.audit()) return;
-    for (std::size_t k = 0; k < m.accounts.size(); ++k) control.scale[equations_.work_index(k)] = m.torque_scale;
+    const Model& m = equations_.model();
+    for (std::size_t k = 0; k < m.accounts.size(); ++k) {
+      double& scale = control.scale[equations_.work_index(k)];
+      if (scale == 0) scale = m.torque_scale;  // per radian
+    }
     for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
-      for (const bool spring : {false, true})
-        control.scale[equations_.square_index(i, spring)] =
-            m.torque_joints[i].torque_scale * m.torque_joints[i].torque_scale / m.speed_scale;
+      for (const bool spring : {false, true}) {
+        double& scale = control.scale[equations_.square_index(i, spring)];
+        if (scale == 0) scale = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
+      }
   }
 
   void restart(double t, std::span<const double> y) {
     state_.assign(y.begin(), y.end());
     stepper_->start(t, state_);
     view_.set_anew(true);
+    slopes_known_ = false;
     find_guards(t, state_, guard_before_);
     edge_ = equations_.next_edge(t);
   }
@@ -186,10 +191,14 @@ class Loop {
   bool advance() {
     if (out_of_budget()) return false;
     const double until = limit();
-    stepper_->step(until);
+    try {
+      stepper_->step(until);
+    } catch (const StepFailure& failure) {
+      if (failure.not_finite || !leave_implicit(failure.what())) throw;
+      return true;
+    }
     const StepLimit limited_by = stepper_->limited_by();
     find_guards(stepper_->t(), stepper_->y(), guard_);
-    if (may_dip_) end_at_dip();
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
     if (fired.empty()) {
@@ -220,6 +229,7 @@ class Loop {
       return true;
     }
     std::swap(guard_, guard_before_);
+    std::swap(guard_slope_, guard_slope_before_);
     watch_stiffness();
     return true;
   }
@@ -270,70 +280,67 @@ class Loop {
     return equations.guard_count() > of_angle;
   }
 
-  // A guard that falls at the step's begin and rises at its end was lowest between them. Where it was below zero there,
-  // the step is taken again to end at that place: long steps on a smooth motion pass a stop or a breakaway unseen.
-  void end_at_dip() {
-    const double t0 = stepper_->t_previous(), t1 = stepper_->t(), h = t1 - t0, part = 1e-3;
-    find_slopes(t0, stepper_->y_previous(), stepper_->ydot_previous(), guard_before_, part * h, slope_begin_);
-    find_slopes(t1, stepper_->y(), stepper_->ydot(), guard_, -part * h, slope_end_);
-    double first = HUGE_VAL;
+  // A guard that is negative at a place within the step.
+  struct Below {
+    std::size_t guard;
+    double t, value;
+  };
+
+  // dg/dt from a small step along the slope.
+  void find_guard_slopes(double t, std::span<const double> y, std::span<const double> ydot, std::span<const double> g,
+                         double delta, std::vector<double>& slopes) {
+    work_.resize(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) work_[i] = y[i] + delta * ydot[i];
+    slopes.resize(guard_.size());
+    find_guards(t + delta, work_, slopes);
+    for (std::size_t i = 0; i < guard_.size(); ++i) slopes[i] = (slopes[i] - g[i]) / delta;
+  }
+
+  // Guards that are positive at both ends of the step but negative in between: where the cubic through values and
+  // slopes dips towards zero, the dense output is asked.
+  void add_dips(std::vector<Below>& below) {
+    if (!may_dip_ || stepper_->ends_on_edges()) return;
+    const double t0 = stepper_->t_previous(), h = stepper_->t() - t0;
+    if (!(h > 1e-9 * std::abs(t0))) return;
+    if (!slopes_known_)
+      find_guard_slopes(t0, stepper_->y_previous(), stepper_->ydot_previous(), guard_before_, 1e-5 * h,
+                        guard_slope_before_);
+    find_guard_slopes(stepper_->t(), stepper_->y(), stepper_->ydot(), guard_, -1e-5 * h, guard_slope_);
+    slopes_known_ = true;
     for (std::size_t i = 0; i < guard_.size(); ++i) {
-      const double ends = std::min(guard_before_[i], guard_[i]);
-      if (!(slope_begin_[i] < 0 && slope_end_[i] > 0) || ends < 0) continue;
-      if (lowest_of_cubic(guard_before_[i], guard_[i], h * slope_begin_[i], h * slope_end_[i]) > 0.25 * ends) continue;
-      const double lowest = lowest_place(i, t0, t1);
-      if (guard_at(lowest, i) < fired_below) first = std::min(first, lowest);
-    }
-    if (!(first < t1)) return;
-    stepper_->retake(first);
-    find_guards(stepper_->t(), stepper_->y(), guard_);
-  }
-
-  void find_slopes(double t, std::span<const double> y, std::span<const double> rate, const std::vector<double>& here,
-                   double dt, std::vector<double>& slope) {
-    work_.assign(y.begin(), y.end());
-    for (std::size_t i = 0; i < work_.size(); ++i) work_[i] += dt * rate[i];
-    slope.resize(guard_.size());
-    find_guards(t + dt, work_, slope);
-    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = (slope[i] - here[i]) / dt;
-  }
-
-  // Hermite's cubic over [0, 1] that falls at 0 and rises at 1, at its minimum.
-  static double lowest_of_cubic(double begin, double end, double slope_begin, double slope_end) {
-    const double a = 2 * (begin - end) + slope_begin + slope_end, b = 3 * (end - begin) - 2 * slope_begin - slope_end;
-    // 3 a x² + 2 b x + slope_begin = 0, the root where it rises; written without cancellation
-    const double root = std::sqrt(std::max(0.0, b * b - 3 * a * slope_begin));
-    const double x = std::clamp(b > 0 ? -slope_begin / (b + root) : (root - b) / (3 * a), 0.0, 1.0);
-    return begin + x * (slope_begin + x * (b + x * a));
-  }
-
-  // By the golden section on the continuous solution.
-  double lowest_place(std::size_t i, double a, double b) {
-    constexpr double golden = 0.6180339887498949;
-    double left = b - golden * (b - a), right = a + golden * (b - a);
-    double at_left = guard_at(left, i), at_right = guard_at(right, i);
-    for (int k = 0; k < 60 && b - a > 1e-9 * std::abs(b); ++k) {
-      if (std::min(at_left, at_right) < 1e3 * fired_below) break;  // surely below
-      if (at_left < at_right) {
-        b = std::exchange(right, left);
-        at_right = at_left;
-        at_left = guard_at(left = b - golden * (b - a), i);
-      } else {
-        a = std::exchange(left, right);
-        at_left = at_right;
-        at_right = guard_at(right = a + golden * (b - a), i);
+      const double g0 = guard_before_[i], g1 = guard_[i], down = h * guard_slope_before_[i], up = h * guard_slope_[i];
+      if (!(g0 > at_root && g1 > at_root && down < 0 && up > 0)) continue;
+      // g0 + down x + (3 (g1 − g0) − 2 down − up) x² + (down + up − 2 (g1 − g0)) x³
+      const double b = 3 * (g1 - g0) - 2 * down - up, c = down + up - 2 * (g1 - g0);
+      const double root = std::sqrt(std::max(0.0, b * b - 3 * c * down));
+      double x = -down / (b + root);  // of its minimum
+      if (!(x > 0 && x < 1)) continue;
+      const double lowest = g0 + x * (down + x * (b + x * c));
+      if (lowest > 0.2 * (std::max(g0, g1) - lowest)) continue;  // far off, even for a step that the cubic is poor at
+      double value = guard_at(t0 + x * h, i);
+      // Towards the true minimum by parabolas.
+      for (int k = 0; k < 3 && value > fired_below; ++k) {
+        constexpr double dx = 1e-2;
+        const double before = guard_at(t0 + (x - dx) * h, i), after = guard_at(t0 + (x + dx) * h, i);
+        const double bend = before - 2 * value + after;
+        if (!(bend > 0)) break;
+        const double better = std::clamp(x + 0.5 * dx * (before - after) / bend, dx, 1 - dx);
+        if (std::abs(better - x) < 1e-6) break;
+        x = better;
+        value = guard_at(t0 + x * h, i);
       }
+      if (value < fired_below) below.push_back({i, t0 + x * h, value});
     }
-    return at_left < at_right ? left : right;
   }
 
   // Goes back to the first guard that fired within the step; returns all that fire there, none if the step was smooth.
   std::vector<std::size_t> locate_event() {
     std::vector<std::size_t> fired;
     for (int round = 0; round < 8; ++round) {
-      std::vector<std::size_t> below;
+      std::vector<Below> below;
       for (std::size_t i = 0; i < guard_.size(); ++i)
-        if (guard_[i] < fired_below) below.push_back(i);
+        if (guard_[i] < fired_below) below.push_back({i, stepper_->t(), guard_[i]});
+      add_dips(below);
       if (below.empty()) return fired;
       const double t0 = stepper_->t_previous(), t1 = stepper_->t();
       // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was
@@ -341,13 +348,13 @@ class Loop {
       fired.clear();
       std::vector<double> from(below.size(), t0), value(below.size());
       for (std::size_t k = 0; k < below.size(); ++k) {
-        value[k] = guard_before_[below[k]];
+        value[k] = guard_before_[below[k].guard];
         for (const double part : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6}) {
           if (value[k] > at_root) break;
           from[k] = t0 + part * (t1 - t0);
-          value[k] = guard_at(from[k], below[k]);
+          value[k] = guard_at(from[k], below[k].guard);
         }
-        if (value[k] <= 0) fired.push_back(below[k]);
+        if (value[k] <= 0) fired.push_back(below[k].guard);
       }
       if (!fired.empty()) {
         at_begin_ = true;
@@ -356,12 +363,13 @@ class Loop {
       double first = t1;
       std::vector<double> root(below.size());
       for (std::size_t k = 0; k < below.size(); ++k) {
-        const std::size_t i = below[k];
-        root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], t1, guard_[i], 1e-14);
+        const std::size_t i = below[k].guard;
+        root[k] =
+            find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], below[k].t, below[k].value, 1e-14);
         first = std::min(first, root[k]);
       }
       for (std::size_t k = 0; k < below.size(); ++k)
-        if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k]);
+        if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k].guard);
       land_on(first, fired.front());
       find_guards(stepper_->t(), stepper_->y(), guard_);
       // What is at its root now counts as fired; another guard may have fired before it.
@@ -506,6 +514,14 @@ class Loop {
                               mean, explicit_step_));
   }
 
+  // Implicit steps that were only tried give way to explicit ones, for good, where they fail. False: none were tried.
+  bool leave_implicit(const std::string& why) {
+    if (options_.method != "auto" || method_ != Method::esdirk_43) return false;
+    held_needed_ = std::numeric_limits<int>::max();
+    change_method(Method::dormand_prince_853, fmt::format("implicit steps failed: {}", why));
+    return true;
+  }
+
   void change_method(Method method, const std::string& reason) {
     const double t = stepper_->t();
     const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
@@ -564,8 +580,9 @@ class Loop {
   RunOutcome out_;
   std::optional<Breakdown> broken_;
   StepLimits::Bound bound_ = StepLimits::Bound::until;
-  std::vector<double> guard_, guard_before_, probe_, work_, state_, slope_begin_, slope_end_;
-  bool may_dip_;
+  std::vector<double> guard_, guard_before_, guard_slope_, guard_slope_before_, probe_, work_, state_;
+  bool slopes_known_ = false;  // guard_slope_before_ is that of the step's begin
+  bool may_dip_;               // some guard may fall below zero and rise again within a step
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
   double explicit_step_ = 0, trial_begin_ = 0;

@@ -19,17 +19,16 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class Blame {
  public:
   Blame(Equations& equations, double t, std::span<const double> y)
-      : equations_(equations), m_(equations.model()), pattern_(equations.jacobian_pattern()) {
+      : m_(equations.model()), pattern_(equations.jacobian_pattern()) {
     values_.resize(pattern_.row.size());
     equations.jacobian(t, y.first(equations.size()), values_);
-    scale_ = equations.error_control(1).scale;
     begin_twists_ = m_.angle_count();
     begin_speeds_ = begin_twists_ + m_.twist_count();
     begin_own_ = begin_speeds_ + m_.free_shafts;
   }
 
   std::string of(std::size_t state) {
-    if (state >= m_.state_count()) return {};
+    if (state >= m_.state_count()) return of_quadrature(state - m_.state_count());
     if (state >= begin_own_) return m_.own_states[state - begin_own_].component;
     if (state >= begin_speeds_) return of_speed(state);
     if (state >= begin_twists_) return joint(state - begin_twists_);
@@ -37,9 +36,15 @@ class Blame {
   }
 
  private:
+  std::string of_quadrature(std::size_t k) const {
+    if (k < m_.accounts.size()) return m_.accounts[k].name;
+    const std::size_t torque = (k - m_.accounts.size()) / 2;
+    return torque < m_.torque_joints.size() ? m_.torque_joints[torque].component : std::string();
+  }
   std::string joint(std::size_t elastic) const { return m_.network.joints[at(m_.elastic[elastic].joint)].component; }
 
-  // |∂(rate of i)/∂(state j)| in scales; the diagonal less what dampers towards other shafts put there.
+  // The rate at which the speed answers itself through state j, √|J_ij J_ji|: of a spring its natural frequency; and
+  // |J_ii| less what dampers towards other shafts put there.
   std::string of_speed(std::size_t state) {
     const std::size_t shaft = state - begin_speeds_;
     if (shaft >= m_.free_shafts) return m_.node_label(m_.shafts[shaft].reference);
@@ -47,7 +52,7 @@ class Blame {
     std::string largest = own_label(shaft);
     double most = 0, own = 0, towards_others = 0;
     for (const auto& [column, value] : rows_[state]) {
-      const double size = scale_[column] > 0 ? std::abs(value) * scale_[column] / scale_[state] : 0;
+      const double size = column == state ? std::abs(value) : std::sqrt(std::abs(value * entry(column, state)));
       std::string name;
       if (column == state || column < begin_twists_) {
         own += column == state ? size : 0;
@@ -79,6 +84,11 @@ class Blame {
     }
     return {};
   }
+  double entry(std::size_t row, std::size_t column) const {
+    for (const auto& [c, value] : rows_[row])
+      if (c == column) return value;
+    return 0;
+  }
   void sort_by_rows() {
     rows_.resize(pattern_.size);
     for (std::size_t column = 0; column < pattern_.size; ++column)
@@ -87,10 +97,9 @@ class Blame {
             column, values_[static_cast<std::size_t>(k)]);
   }
 
-  Equations& equations_;
   const Model& m_;
   const SparsityPattern& pattern_;
-  std::vector<double> values_, scale_;
+  std::vector<double> values_;
   std::vector<std::vector<std::pair<std::size_t, double>>> rows_;
   std::size_t begin_twists_ = 0, begin_speeds_ = 0, begin_own_ = 0;
 };

@@ -56,7 +56,7 @@ class StepLimits {
 };
 
 // The element whose law moves a state most: its own for a twist or an element's own state; for the speed or the angle
-// of a shaft the spring, damper or circuit with the largest entry in the Jacobian's row, in the scales of the states.
+// of a shaft the spring, damper or circuit that it answers fastest through, by the exact Jacobian.
 std::string element_behind(Equations& equations, std::size_t state, double t, std::span<const double> y);
 
 // "c3: accuracy 61 %, stability 12 % (twist of c3); events of clutch 9 %"; nothing for a run without steps.

@@ -100,7 +100,7 @@ Owned<N_Vector> vector_over(std::vector<double>& values, SUNContext context) {
 std::string explanation(int flag) {
   static_assert(ARK_ERR_FAILURE == CV_ERR_FAILURE && ARK_CONV_FAILURE == CV_CONV_FAILURE &&
                 ARK_LSETUP_FAIL == CV_LSETUP_FAIL && ARK_LSOLVE_FAIL == CV_LSOLVE_FAIL &&
-                ARK_TOO_CLOSE == CV_TOO_CLOSE);
+                ARK_TOO_CLOSE == CV_TOO_CLOSE && ARK_TOO_MUCH_ACC == CV_TOO_MUCH_ACC);
   switch (flag) {
     case CV_ERR_FAILURE:
       return "however short the step, its error stayed above the tolerance";
@@ -110,6 +110,8 @@ std::string explanation(int flag) {
       return "the linear system of the implicit equations could not be factorised";
     case CV_LSOLVE_FAIL:
       return "the linear system of the implicit equations could not be solved";
+    case CV_TOO_MUCH_ACC:
+      return "the tolerance asks for more digits than the states have";
     case CV_TOO_CLOSE:
       return "the end of the step is within round-off of its beginning";
     default:

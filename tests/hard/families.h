@@ -14,6 +14,12 @@ std::vector<HardCase> rigid_limit_cases();
 std::vector<HardCase> long_run_cases();
 std::vector<HardCase> backlash_cases();
 std::vector<HardCase> stick_slip_cases();
+std::vector<HardCase> blow_cases();
+std::vector<HardCase> motor_cases();
+std::vector<HardCase> resonance_cases();
+std::vector<HardCase> time_scale_cases();
+std::vector<HardCase> event_cases();
+std::vector<HardCase> extreme_cases();
 
 // Undamped machines of any length, for the growth of errors.
 HardCase free_crank_over(double turns);
