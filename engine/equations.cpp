@@ -183,8 +183,8 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
-  // Made in place: a copy reads by pairs what was just stored word by word, and the processor waits for that (a sixth of
-  // the whole right-hand side of a small machine).
+  // Made in place: a copy reads by pairs what was just stored word by word, and the processor waits for that (a sixth
+  // of the whole right-hand side of a small machine).
   ::new (&snapshot_.now) Instant(instant(t, y));
   ::new (&snapshot_.sums) Sums{torque_.data(),
                                inertia_.data(),

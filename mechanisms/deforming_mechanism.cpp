@@ -39,7 +39,8 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   const Eigen::Index n = mass.rows() - 1;
   const Eigen::LLT<Eigen::MatrixXd> further(mass.bottomRightCorner(n, n));
   if (further.info() != Eigen::Success || !(further.rcond() > 1e-14)) return -1;
-  return mass(0, 0) - mass.topRightCorner(1, n).transpose().col(0).dot(further.solve(mass.bottomLeftCorner(n, 1)).col(0));
+  return mass(0, 0) -
+         mass.topRightCorner(1, n).transpose().col(0).dot(further.solve(mass.bottomLeftCorner(n, 1)).col(0));
 }
 
 std::string joint_word(const JointClearance& joint) {
@@ -54,9 +55,9 @@ std::string joint_word(const JointClearance& joint) {
 
 DeformingMechanismMaker::DeformingMechanismMaker(Mechanism given) : MechanismMaker(std::move(given)) {
   const Mechanism& m = mechanism();
-  const std::string what = m.clearances.empty()  ? "a flexible rod"
-                           : m.flexibility       ? "joint clearance and a flexible rod"
-                                                 : "joint clearance";
+  const std::string what = m.clearances.empty() ? "a flexible rod"
+                           : m.flexibility      ? "joint clearance and a flexible rod"
+                                                : "joint clearance";
   if (m.joint_friction)
     throw std::invalid_argument(what +
                                 " and joint_friction cannot both be on: reactions with friction are those of ideal "
@@ -75,8 +76,9 @@ DeformingMechanismMaker::DeformingMechanismMaker(Mechanism given) : MechanismMak
     least_inertia_ = std::min(least_inertia_, inertia_felt(*dynamics_, 2 * std::numbers::pi * i / n));
   if (least_inertia_ < 0)
     throw std::invalid_argument(
-        what + " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
-               "rod_mass · rod²/12) and slider_mass");
+        what +
+        " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
+        "rod_mass · rod²/12) and slider_mass");
 }
 
 // Scales: gaps, a ten thousandth of the length for bending, and a hundredth of that for stretching; rates by what an
@@ -132,7 +134,8 @@ std::string DeformingMechanismMaker::describe() const {
   const RodModes& rod = dynamics_->rod();
   if (rod.count() > 0) {
     text += fmt::format("; rod of {}: {} bending mode{}", m.name, rod.bending, rod.bending == 1 ? "" : "s");
-    if (rod.bending > 0) text += fmt::format(", the first at {:.6g} Hz between its pins", rod.frequency(1) / (2 * M_PI));
+    if (rod.bending > 0)
+      text += fmt::format(", the first at {:.6g} Hz between its pins", rod.frequency(1) / (2 * M_PI));
     if (rod.axial) text += ", and stretching";
   }
   return text;
@@ -222,11 +225,9 @@ DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, co
   for (std::size_t k = 0; k < p.further(); ++k) force(ix(k)) = -h[free[1 + k]];
   const Matrix further = mass.bottomRightCorner(n, n);
   const Eigen::LLT<Matrix> factors(further);
-  const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling),
-               alone = factors.solve(force);
+  const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling), alone = factors.solve(force);
   Solved solved{mass(0, 0) - coupling.dot(by_alpha), -h[free[0]] - coupling.dot(alone), {}, {}};
-  for (std::size_t k = 0; k < p.further(); ++k)
-    solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
+  for (std::size_t k = 0; k < p.further(); ++k) solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
   return solved;
 }
 
@@ -586,9 +587,8 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
       add(word + "_penetration", "m", [greatest](const Snapshot& s) { return greatest(s, false); });
     }
     if (placed.dynamics->rod().bending == 0) continue;
-    add("rod_deflection", "m", [this, i, here](const Snapshot& s) {
-      return placed_[i].dynamics->deflection(here(s), 0.5);
-    });
+    add("rod_deflection", "m",
+        [this, i, here](const Snapshot& s) { return placed_[i].dynamics->deflection(here(s), 0.5); });
     const RodFlexibility& rod = *placed.mechanism.flexibility;
     if (rod.edge > 0)
       add("rod_bending_stress", "Pa", [this, i, here, rod](const Snapshot& s) {

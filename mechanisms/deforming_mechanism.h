@@ -18,6 +18,8 @@ class DeformingMechanismMaker final : public MechanismMaker {
   // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
   explicit DeformingMechanismMaker(Mechanism mechanism);
 
+  const SliderCrankDynamics& dynamics() const { return *dynamics_; }
+
   bool directional() const override { return false; }
   double least_inertia() const override { return least_inertia_; }
   bool uses_speed() const override { return true; }
@@ -63,8 +65,8 @@ class DeformingMechanismPool final : public ElementPool {
     Mechanism mechanism;
     std::shared_ptr<const SliderCrankDynamics> dynamics;
     ShaftPorts at;
-    bool watches_travel = false;  // some load depends on the direction of travel
-    std::vector<int> own_slot = {};  // per free coordinate but φ, and input: of its rate's rate
+    bool watches_travel = false;       // some load depends on the direction of travel
+    std::vector<int> own_slot = {};    // per free coordinate but φ, and input: of its rate's rate
     std::vector<int> shaft_slot = {};  // per input
     std::vector<int> rate_slot = {}, follower_slot = {};
 

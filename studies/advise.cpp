@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/units.h"
+#include "mechanisms/deforming_mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -99,6 +100,10 @@ class Adviser {
         screen_backlash(screens);
       else if (unit.name == "gear_losses" || unit.name == "bearing_friction" || unit.name == "joint_friction")
         screen_losses(screens);
+      else if (unit.name == "joint_clearance")
+        screen_clearance(screens);
+      else if (unit.name == "flexible_rod")
+        screen_rod(screens);
       a_.screens.push_back(std::move(screens));
     }
   }
@@ -158,6 +163,34 @@ class Adviser {
     const double share = std::abs(work_of(a_.full, "harmful")) / driving;
     screens.push_back({"share of losses", share, fmt::format("harmful work is {:.2g} of the driving work", share),
                        share > options_.within});
+  }
+
+  void screen_clearance(std::vector<Screen>& screens) const {
+    double impacts = 0;
+    for (const Figure& f : a_.full.figures)
+      if (f.name.starts_with("impacts.")) impacts += f.value;
+    screens.push_back({"impacts", impacts,
+                       impacts > 0 ? fmt::format("the joints are hit {:.0f} times after flight", impacts)
+                                   : std::string("no joint is hit after flight: they stay in touch"),
+                       impacts > 0});
+  }
+  // The rod under its own inertia, which goes mostly once and twice a turn.
+  void screen_rod(std::vector<Screen>& screens) const {
+    double fastest = 0;
+    for (const Figure& f : a_.full.figures)
+      if (f.name.starts_with("max_speed.") || f.name.starts_with("min_speed."))
+        fastest = std::max(fastest, std::abs(f.value));
+    for (const Network::ShaftElement& e : a_.full.model->network.elements) {
+      const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get());
+      if (!maker || maker->dynamics().rod().bending == 0) continue;
+      const double ratio = maker->dynamics().rod().frequency(1) / std::max(fastest, 1e-300);
+      const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
+      screens.push_back({"rod frequency", ratio,
+                         fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it amplifies by "
+                                     "{:.2g}",
+                                     e.component, ratio, more),
+                         more > options_.within});
+    }
   }
 
   // --- runs ---
