@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "engine/model.h"
+#include "mechanisms/deforming_mechanism.h"
 #include "studies/run_output.h"
 
 namespace kurbel::app {
@@ -61,7 +62,8 @@ int run(const RunArguments& arguments) {
   }
   check_arguments(arguments, scene);
   Progress progress(arguments.study.quiet);
-  const Result result = simulate(model, model->elastic.empty() ? "rigid" : "elastic", options_of(arguments, progress));
+  const bool rigid = model->elastic.empty() && further_coordinates(*model) == 0;
+  const Result result = simulate(model, rigid ? "rigid" : "elastic", options_of(arguments, progress));
   return present(output_of(result), arguments.study);
 }
 

@@ -152,6 +152,14 @@ std::vector<std::pair<std::string, Account>> DeformingMechanismMaker::further_ac
   return accounts;
 }
 
+std::size_t further_coordinates(const Model& model) {
+  std::size_t sum = 0;
+  for (const Network::ShaftElement& e : model.network.elements)
+    if (const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get()))
+      sum += maker->dynamics().free().size() - 1;
+  return sum;
+}
+
 void DeformingMechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
   pools.of<DeformingMechanismPool>().place(mechanism(), dynamics_, ports);
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model.h"
 #include "mechanisms/mechanism.h"
 #include "mechanisms/slider_crank_dynamics.h"
 
@@ -34,6 +35,9 @@ class DeformingMechanismMaker final : public MechanismMaker {
   std::shared_ptr<const SliderCrankDynamics> dynamics_;
   double least_inertia_ = 0;
 };
+
+// Degrees of freedom of a model that mechanisms have besides their cranks.
+std::size_t further_coordinates(const Model& model);
 
 // Modes of a placed one: sign of the slider's speed, the piece of each load, each contact.
 class DeformingMechanismPool final : public ElementPool {

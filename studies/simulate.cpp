@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/work_equation.h"
+#include "mechanisms/deforming_mechanism.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
 #include "studies/report/trace.h"
@@ -203,8 +204,8 @@ class Simulation {
   // Tolerances are tightened until two runs agree within the accuracy.
   Result run() {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
-                    model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(),
-                    settings_.until));
+                    model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
+                    model_->effects.describe(), settings_.until));
     note_balanced_start();
     double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
@@ -341,7 +342,7 @@ class Simulation {
     result_.complete = run.outcome.complete;
     result_.diagnosis = run.outcome.diagnosis;
     result_.effects = m.effects.describe();
-    result_.coordinates = m.free_shafts + m.twist_count();
+    result_.coordinates = m.free_shafts + m.twist_count() + further_coordinates(m);
     result_.states = m.state_count();
     result_.explanation = m.explain();
     result_.until = settings_.until;

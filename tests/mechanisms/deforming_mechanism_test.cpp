@@ -298,6 +298,45 @@ coupling = { kind = "coupling", stiffness = "2 kN*m/rad", damping_ratio = 0.05 }
   }
 }
 
+// A locked clutch ties flywheel and crank: the rod follows the acceleration that the tie gives.
+TEST(FlexibleRod, FollowsAShaftThatAClutchTies) {
+  const std::string drive = R"(
+motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "70 rad/s", inertia = "0.05 kg*m2" }
+clutch = { kind = "clutch", torque = "400 N*m", static_torque = "500 N*m" }
+)";
+  const Scene scene =
+      scene_from(crank("gravity = \"9.81 m/s2\"\n" + flexible, sixty, "\"motor\", \"clutch\", \"crank\"", drive));
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, false);
+  const RunOutcome at =
+      integrate(equations, {.tolerance = 1e-9, .method = "dop853", .until = 4.3e-3, .progress = {}}, {});
+  ASSERT_TRUE(at.complete) << at.diagnosis;
+  EXPECT_EQ(at.state[equations.speed_index(0)], at.state[equations.speed_index(1)]);  // locked
+  expect_exact_jacobian(equations, at.state, 3e-7, equations.speed_index(0));
+  EXPECT_LT(run(scene, false).energy.relative, 1e-8);
+}
+
+// A brake that holds the crank leaves the rod on two supports: it rings there at its own frequency, by the closed form.
+TEST(FlexibleRod, RingsWhileABrakeHoldsTheCrank) {
+  const std::string rod =
+      "rod_flexibility = { modulus = \"200 GPa\", height = \"8 mm\", width = \"8 mm\", modes = 1, stretching = false }";
+  const std::string text =
+      crank("gravity = \"9.81 m/s2\"\n" + rod, "until = \"20 ms\"\naccuracy = 1e-8", "\"brake\", \"crank\"",
+            "brake = { kind = \"brake\", torque = \"400 N*m\", static_torque = \"500 N*m\" }\n");
+  const Result r = run(text, false);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  // Under its weight from straight on: q = q₀ (1 − cos ω t), q₀ = −μ g (2 l/π)/k about the beam's first mode.
+  const double inertia = std::pow(8e-3, 4) / 12, l = 0.15, mass = 0.3, pi = std::numbers::pi;
+  const double stiffness = 200e9 * inertia * std::pow(pi, 4) / (2 * l * l * l),
+               omega = std::sqrt(stiffness / (mass / 2));
+  const double still = -mass * 9.81 * 2 / pi / stiffness;
+  const std::vector<double> q = series(r, "bending_1.crank"), speed = series(r, "speed.crank");
+  for (std::size_t row = 0; row < q.size(); ++row) {
+    EXPECT_EQ(speed[row], 0);
+    EXPECT_NEAR(q[row], still * (1 - std::cos(omega * r.trajectory->time()[row])), 1e-6 * std::fabs(still));
+  }
+}
+
 TEST(FlexibleRod, ARodWithoutMassIsTold) {
   const std::string text = crank(flexible, sixty), mass = "rod_mass = \"0.3 kg\"";
   try {
