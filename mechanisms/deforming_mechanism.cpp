@@ -26,6 +26,7 @@ constexpr bool has_pieces = requires(const L& l, SliderState<double> s) {
   l.first_mode(s);
 };
 
+// What the crank feels while nothing deforms; negative: the masses cannot be those of bodies.
 double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   SliderCrankDynamics::Vector z{}, w{};
   z[SliderCrankDynamics::phi] = phi;
@@ -37,10 +38,15 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
     for (std::size_t i = 0; i < free.size(); ++i) mass(ix(i), ix(k)) = column[free[i]];
   }
   const Eigen::Index n = mass.rows() - 1;
-  const Eigen::LLT<Eigen::MatrixXd> further(mass.bottomRightCorner(n, n));
-  if (further.info() != Eigen::Success || !(further.rcond() > 1e-14)) return -1;
-  return mass(0, 0) -
-         mass.topRightCorner(1, n).transpose().col(0).dot(further.solve(mass.bottomLeftCorner(n, 1)).col(0));
+  Eigen::MatrixXd further = mass.bottomRightCorner(n, n);
+  const Eigen::VectorXd scale = further.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return -1;
+  further = scale.cwiseInverse().asDiagonal() * further * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> factors(further);
+  if (factors.info() != Eigen::Success || !(factors.rcond() > 1e-12)) return -1;
+  const Eigen::VectorXd coupling = mass.bottomLeftCorner(n, 1).col(0).cwiseQuotient(scale);
+  const double felt = mass(0, 0) - coupling.dot(factors.solve(coupling));
+  return felt < -1e-9 * mass(0, 0) ? -1 : std::max(felt, 0.0);
 }
 
 std::string joint_word(const JointClearance& joint) {
