@@ -316,25 +316,39 @@ clutch = { kind = "clutch", torque = "400 N*m", static_torque = "500 N*m" }
   EXPECT_LT(run(scene, false).energy.relative, 1e-8);
 }
 
-// A brake that holds the crank leaves the rod on two supports: it rings there at its own frequency, by the closed form.
+// A brake that holds the crank leaves the rod on two supports. Under its weight, as the beam's first mode carries it:
+// q₀ = −μ g (2 l/π)/k.
+struct HeldRod {
+  double inertia = std::pow(8e-3, 4) / 12, l = 0.15, mass = 0.3;
+  double stiffness = 200e9 * inertia * std::pow(std::numbers::pi, 4) / (2 * l * l * l);
+  double omega = std::sqrt(stiffness / (mass / 2)), still = -mass * 9.81 * 2 / std::numbers::pi / stiffness;
+  static Result run_from(const std::string& start) {
+    const std::string rod =
+        "rod_flexibility = { modulus = \"200 GPa\", height = \"8 mm\", width = \"8 mm\", modes = 1, stretching = "
+        "false }";
+    return run(crank("gravity = \"9.81 m/s2\"\n" + rod, "start = " + start + "\nuntil = \"20 ms\"\naccuracy = 1e-8",
+                     "\"brake\", \"crank\"",
+                     "brake = { kind = \"brake\", torque = \"400 N*m\", static_torque = \"500 N*m\" }\n"),
+               false);
+  }
+};
+
 TEST(FlexibleRod, RingsWhileABrakeHoldsTheCrank) {
-  const std::string rod =
-      "rod_flexibility = { modulus = \"200 GPa\", height = \"8 mm\", width = \"8 mm\", modes = 1, stretching = false }";
-  const std::string text =
-      crank("gravity = \"9.81 m/s2\"\n" + rod, "until = \"20 ms\"\naccuracy = 1e-8", "\"brake\", \"crank\"",
-            "brake = { kind = \"brake\", torque = \"400 N*m\", static_torque = \"500 N*m\" }\n");
-  const Result r = run(text, false);
+  const HeldRod rod;
+  const Result r = HeldRod::run_from("\"rest\"");
   ASSERT_TRUE(r.complete) << r.diagnosis;
-  // Under its weight from straight on: q = q₀ (1 − cos ω t), q₀ = −μ g (2 l/π)/k about the beam's first mode.
-  const double inertia = std::pow(8e-3, 4) / 12, l = 0.15, mass = 0.3, pi = std::numbers::pi;
-  const double stiffness = 200e9 * inertia * std::pow(pi, 4) / (2 * l * l * l),
-               omega = std::sqrt(stiffness / (mass / 2));
-  const double still = -mass * 9.81 * 2 / pi / stiffness;
   const std::vector<double> q = series(r, "bending_1.crank"), speed = series(r, "speed.crank");
   for (std::size_t row = 0; row < q.size(); ++row) {
     EXPECT_EQ(speed[row], 0);
-    EXPECT_NEAR(q[row], still * (1 - std::cos(omega * r.trajectory->time()[row])), 1e-6 * std::fabs(still));
+    EXPECT_NEAR(q[row], rod.still * (1 - std::cos(rod.omega * r.trajectory->time()[row])), 1e-6 * std::fabs(rod.still));
   }
+}
+
+TEST(FlexibleRod, StandsStillWhereItStartsInEquilibrium) {
+  const HeldRod rod;
+  const Result r = HeldRod::run_from("\"equilibrium\"");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  for (const double q : series(r, "bending_1.crank")) EXPECT_NEAR(q, rod.still, 1e-9 * std::fabs(rod.still));
 }
 
 TEST(FlexibleRod, ARodWithoutMassIsTold) {

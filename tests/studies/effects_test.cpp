@@ -78,7 +78,8 @@ TEST_P(OfExample, AnyPairOfEffectsComposes) {
         const Effects effects = effects_of(scene, units, set);
         const auto model = compile(scene, effects);
         Equations equations(model, true);
-        const RunOutcome outcome = integrate(equations, {.tolerance = 1e-6, .until = scene.run.until, .progress = {}}, {});
+        const RunOutcome outcome =
+            integrate(equations, {.tolerance = 1e-6, .until = scene.run.until, .progress = {}}, {});
         EXPECT_TRUE(outcome.complete) << describe(units, set) << ": " << outcome.diagnosis;
         for (const double value : outcome.state) EXPECT_TRUE(std::isfinite(value)) << describe(units, set);
       }
@@ -166,6 +167,19 @@ TEST(Advise, RecommendsOnlyWhatWasRunAndStaysWithin) {
 TEST(Advise, RefusesFiguresThatDoNotExist) {
   const Scene scene = test::scene_from(resonant_branch);
   EXPECT_THROW(advise(scene, {.simulate = plain(), .within = 0.05, .figures = {"peak_torqe"}}), std::invalid_argument);
+}
+
+// Impacts speak for clearance; a rod whose first mode lies far above the speed speaks for itself.
+TEST(Advise, ScreensClearanceByImpactsAndARodByItsFrequency) {
+  for (const auto& [scene, screen] :
+       {std::pair("worn_crank_pin", "impacts"), std::pair("flexible_rod", "rod frequency")}) {
+    const Advice advice =
+        advise(example(scene), {.simulate = plain(), .within = 0.05, .figures = {}, .held_out = false});
+    bool found = false;
+    for (const auto& screens : advice.screens)
+      for (const Screen& s : screens) found = found || (s.name == screen && s.number > 1);
+    EXPECT_TRUE(found) << scene;
+  }
 }
 
 }  // namespace
