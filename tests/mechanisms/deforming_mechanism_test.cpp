@@ -316,6 +316,37 @@ clutch = { kind = "clutch", torque = "400 N*m", static_torque = "500 N*m" }
   EXPECT_LT(run(scene, false).energy.relative, 1e-8);
 }
 
+// Two of them on one shaft, the second behind a gear and turned by a phase: each counts with its own ratio.
+TEST(FlexibleRod, SeveralCranksOnOneShaftThroughGears) {
+  const std::string second = R"(
+gear = { kind = "gearbox", stages = [{ teeth = [20, 30], inertia = ["1e-4 kg*m2", "2e-4 kg*m2"] }] }
+[second]
+kind = "slider-crank"
+radius = "40 mm"
+rod = "130 mm"
+crank_inertia = "0.01 kg*m2"
+rod_mass = "0.2 kg"
+rod_inertia = "2.9e-4 kg*m2"
+slider_mass = "0.4 kg"
+phase = "90 deg"
+gravity = "9.81 m/s2"
+clearance = { kind = "wrist pin", gap = "0.1 mm", stiffness = "2 MN/m", damping = "1 s/m" }
+rod_flexibility = { modulus = "200 GPa", area = "5e-5 m2", second_moment = "3e-10 m4", modes = 1, damping_ratio = 0.02 }
+)";
+  const Scene scene =
+      scene_from(crank("gravity = \"9.81 m/s2\"\n" + flexible, sixty, "\"crank\", \"gear\", \"second\"", second));
+  const auto model = compile(scene, scene.effects);
+  ASSERT_EQ(model->shafts.size(), 1u);
+  Equations equations(model, false);
+  const RunOutcome at =
+      integrate(equations, {.tolerance = 1e-9, .method = "dop853", .until = 3.7e-3, .progress = {}}, {});
+  ASSERT_TRUE(at.complete) << at.diagnosis;
+  expect_exact_jacobian(equations, at.state);
+  const Result r = run(scene, false);
+  EXPECT_LT(r.energy.relative, 1e-8);
+  EXPECT_LT(r.energy.reduction_residual, 1e-12);
+}
+
 // A brake that holds the crank leaves the rod on two supports. Under its weight, as the beam's first mode carries it:
 // q₀ = −μ g (2 l/π)/k.
 struct HeldRod {
