@@ -10,8 +10,10 @@ namespace kurbel::app {
 namespace {
 
 int list_effects() {
-  fmt::print("elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where an excitation "
-             "meets a mode, and for starts and blows; unless mentioned: off\n");
+  fmt::print(
+      "elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where "
+      "an excitation "
+      "meets a mode, and for starts and blows; unless mentioned: off\n");
   for (const EffectFlag& effect : effect_flags())
     fmt::print("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
                effect.parameters, effect.states, effect.matters,

@@ -8,6 +8,7 @@
 
 #include "app/command_line.h"
 #include "engine/model.h"
+#include "mechanisms/deforming_mechanism.h"
 #include "studies/known_accuracy.h"
 #include "studies/run_output.h"
 
@@ -68,7 +69,7 @@ void use_what_is_known(const Scene& scene, const Effects& effects, SimulateOptio
 std::string label_of(const Model& model) {
   const bool springs = std::any_of(model.elastic.begin(), model.elastic.end(),
                                    [](const ElasticJoint& e) { return !e.slips && !e.springless; });
-  return springs ? "elastic" : "rigid";
+  return springs || further_coordinates(model) > 0 ? "elastic" : "rigid";
 }
 
 int run(const RunArguments& arguments) {

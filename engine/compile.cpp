@@ -337,9 +337,11 @@ class Compiler {
     }
     if (mechanism && least < 1e-9 * shaft.mean_inertia)
       messages_.add(location_of(mechanism->component),
-                    fmt::format("\"{}\" has no inertia at a dead centre (its output stands still there), so the "
-                                "crank's motion is undefined; give it a crank_inertia",
-                                mechanism->component));
+                    fmt::format("\"{}\" has no inertia {}, so the crank's motion is undefined; give it a crank_inertia",
+                                mechanism->component,
+                                mechanism->element->own_states().empty()
+                                    ? "at a dead centre (its output stands still there)"
+                                    : "while its rod flies free of the crank or stands at a dead centre"));
   }
 
   // Rated speed and torque, carried to the reduction link and from there to every shaft.

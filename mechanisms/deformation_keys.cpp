@@ -122,8 +122,9 @@ JointClearance read_clearance(const Section& s, const std::string& what, Message
   if (s.has("damping") && s.has("restitution"))
     messages.add(s.where("restitution"), what + ": damping and restitution say the same twice; keep one");
   else if (s.has("restitution") != s.has("restitution_speed"))
-    messages.add(s.where(s.has("restitution") ? "restitution" : "restitution_speed"),
-                 what + ": restitution depends on the speed of the impact; give both restitution and restitution_speed");
+    messages.add(
+        s.where(s.has("restitution") ? "restitution" : "restitution_speed"),
+        what + ": restitution depends on the speed of the impact; give both restitution and restitution_speed");
   else if (s.has("restitution"))
     c.contact.damping = JointContact::damping_for(s.number("restitution"), s.number("restitution_speed"));
   if (c.joint == JointClearance::Joint::guide) {
@@ -147,7 +148,8 @@ std::optional<RodFlexibility> read_flexibility(const Section& s, const std::stri
     return {};
   }
   if (rod.count() == 0) {
-    messages.add(s.where("modes"), what + ": modes = 0 without stretching leaves a rigid rod; raise modes, or leave it out");
+    messages.add(s.where("modes"),
+                 what + ": modes = 0 without stretching leaves a rigid rod; raise modes, or leave it out");
     return {};
   }
   rod.area = rectangle ? s.number("height") * s.number("width") : s.number("area");
@@ -192,8 +194,9 @@ Deformation read_deformation(const Section& s, const SliderCrankData& data, Mess
                  fmt::format("{}rod_flexibility = a list of {} tables; must be one table", who, tables.size()));
   else if (data.rod_mass <= 0)
     messages.add(s.where("rod_flexibility"),
-                 who + "rod_flexibility: the rod has no mass; give rod_mass, and rod_inertia (of a prismatic rod "
-                       "rod_mass · rod²/12)");
+                 who +
+                     "rod_flexibility: the rod has no mass; give rod_mass, and rod_inertia (of a prismatic rod "
+                     "rod_mass · rod²/12)");
   else if (tables.front().sound)
     deformation.flexibility = read_flexibility(tables.front(), who + "rod_flexibility", messages);
   return deformation;

@@ -26,6 +26,7 @@ constexpr bool has_pieces = requires(const L& l, SliderState<double> s) {
   l.first_mode(s);
 };
 
+// What the crank feels while nothing deforms; negative: the masses cannot be those of bodies.
 double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   SliderCrankDynamics::Vector z{}, w{};
   z[SliderCrankDynamics::phi] = phi;
@@ -37,9 +38,15 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
     for (std::size_t i = 0; i < free.size(); ++i) mass(ix(i), ix(k)) = column[free[i]];
   }
   const Eigen::Index n = mass.rows() - 1;
-  const Eigen::LLT<Eigen::MatrixXd> further(mass.bottomRightCorner(n, n));
-  if (further.info() != Eigen::Success || !(further.rcond() > 1e-14)) return -1;
-  return mass(0, 0) - mass.topRightCorner(1, n).transpose().col(0).dot(further.solve(mass.bottomLeftCorner(n, 1)).col(0));
+  Eigen::MatrixXd further = mass.bottomRightCorner(n, n);
+  const Eigen::VectorXd scale = further.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return -1;
+  further = scale.cwiseInverse().asDiagonal() * further * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> factors(further);
+  if (factors.info() != Eigen::Success || !(factors.rcond() > 1e-12)) return -1;
+  const Eigen::VectorXd coupling = mass.bottomLeftCorner(n, 1).col(0).cwiseQuotient(scale);
+  const double felt = mass(0, 0) - coupling.dot(factors.solve(coupling));
+  return felt < -1e-9 * mass(0, 0) ? -1 : std::max(felt, 0.0);
 }
 
 std::string joint_word(const JointClearance& joint) {
@@ -54,9 +61,9 @@ std::string joint_word(const JointClearance& joint) {
 
 DeformingMechanismMaker::DeformingMechanismMaker(Mechanism given) : MechanismMaker(std::move(given)) {
   const Mechanism& m = mechanism();
-  const std::string what = m.clearances.empty()  ? "a flexible rod"
-                           : m.flexibility       ? "joint clearance and a flexible rod"
-                                                 : "joint clearance";
+  const std::string what = m.clearances.empty() ? "a flexible rod"
+                           : m.flexibility      ? "joint clearance and a flexible rod"
+                                                : "joint clearance";
   if (m.joint_friction)
     throw std::invalid_argument(what +
                                 " and joint_friction cannot both be on: reactions with friction are those of ideal "
@@ -75,8 +82,9 @@ DeformingMechanismMaker::DeformingMechanismMaker(Mechanism given) : MechanismMak
     least_inertia_ = std::min(least_inertia_, inertia_felt(*dynamics_, 2 * std::numbers::pi * i / n));
   if (least_inertia_ < 0)
     throw std::invalid_argument(
-        what + " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
-               "rod_mass · rod²/12) and slider_mass");
+        what +
+        " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
+        "rod_mass · rod²/12) and slider_mass");
 }
 
 // Scales: gaps, a ten thousandth of the length for bending, and a hundredth of that for stretching; rates by what an
@@ -132,7 +140,8 @@ std::string DeformingMechanismMaker::describe() const {
   const RodModes& rod = dynamics_->rod();
   if (rod.count() > 0) {
     text += fmt::format("; rod of {}: {} bending mode{}", m.name, rod.bending, rod.bending == 1 ? "" : "s");
-    if (rod.bending > 0) text += fmt::format(", the first at {:.6g} Hz between its pins", rod.frequency(1) / (2 * M_PI));
+    if (rod.bending > 0)
+      text += fmt::format(", the first at {:.6g} Hz between its pins", rod.frequency(1) / (2 * M_PI));
     if (rod.axial) text += ", and stretching";
   }
   return text;
@@ -147,6 +156,14 @@ std::vector<std::pair<std::string, Account>> DeformingMechanismMaker::further_ac
   if (!mechanism().clearances.empty()) accounts.emplace_back(mechanism().name + ".contact", Account::harmful);
   if (dynamics_->rod().count() > 0) accounts.emplace_back(mechanism().name + ".rod", Account::harmful);
   return accounts;
+}
+
+std::size_t further_coordinates(const Model& model) {
+  std::size_t sum = 0;
+  for (const Network::ShaftElement& e : model.network.elements)
+    if (const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get()))
+      sum += maker->dynamics().free().size() - 1;
+  return sum;
 }
 
 void DeformingMechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
@@ -222,11 +239,9 @@ DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, co
   for (std::size_t k = 0; k < p.further(); ++k) force(ix(k)) = -h[free[1 + k]];
   const Matrix further = mass.bottomRightCorner(n, n);
   const Eigen::LLT<Matrix> factors(further);
-  const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling),
-               alone = factors.solve(force);
+  const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling), alone = factors.solve(force);
   Solved solved{mass(0, 0) - coupling.dot(by_alpha), -h[free[0]] - coupling.dot(alone), {}, {}};
-  for (std::size_t k = 0; k < p.further(); ++k)
-    solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
+  for (std::size_t k = 0; k < p.further(); ++k) solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
   return solved;
 }
 
@@ -586,9 +601,8 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
       add(word + "_penetration", "m", [greatest](const Snapshot& s) { return greatest(s, false); });
     }
     if (placed.dynamics->rod().bending == 0) continue;
-    add("rod_deflection", "m", [this, i, here](const Snapshot& s) {
-      return placed_[i].dynamics->deflection(here(s), 0.5);
-    });
+    add("rod_deflection", "m",
+        [this, i, here](const Snapshot& s) { return placed_[i].dynamics->deflection(here(s), 0.5); });
     const RodFlexibility& rod = *placed.mechanism.flexibility;
     if (rod.edge > 0)
       add("rod_bending_stress", "Pa", [this, i, here, rod](const Snapshot& s) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model.h"
 #include "mechanisms/mechanism.h"
 #include "mechanisms/slider_crank_dynamics.h"
 
@@ -17,6 +18,8 @@ class DeformingMechanismMaker final : public MechanismMaker {
  public:
   // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
   explicit DeformingMechanismMaker(Mechanism mechanism);
+
+  const SliderCrankDynamics& dynamics() const { return *dynamics_; }
 
   bool directional() const override { return false; }
   double least_inertia() const override { return least_inertia_; }
@@ -32,6 +35,9 @@ class DeformingMechanismMaker final : public MechanismMaker {
   std::shared_ptr<const SliderCrankDynamics> dynamics_;
   double least_inertia_ = 0;
 };
+
+// Degrees of freedom of a model that mechanisms have besides their cranks.
+std::size_t further_coordinates(const Model& model);
 
 // Modes of a placed one: sign of the slider's speed, the piece of each load, each contact.
 class DeformingMechanismPool final : public ElementPool {
@@ -63,8 +69,8 @@ class DeformingMechanismPool final : public ElementPool {
     Mechanism mechanism;
     std::shared_ptr<const SliderCrankDynamics> dynamics;
     ShaftPorts at;
-    bool watches_travel = false;  // some load depends on the direction of travel
-    std::vector<int> own_slot = {};  // per free coordinate but φ, and input: of its rate's rate
+    bool watches_travel = false;       // some load depends on the direction of travel
+    std::vector<int> own_slot = {};    // per free coordinate but φ, and input: of its rate's rate
     std::vector<int> shaft_slot = {};  // per input
     std::vector<int> rate_slot = {}, follower_slot = {};
 

@@ -39,11 +39,11 @@ struct RodModes {
   int bending = 0;  // how many
   bool axial = false;
   double length = 0, mass_per_length = 0;
-  Vector along{};            // ∫U_j ds, at the places of the axial amplitudes [m]
-  Vector across{};           // ∫W_i ds [m]
-  Vector moment_along{};     // ∫s U_j ds [m²]
-  Vector moment_across{};    // ∫s W_i ds [m²]
-  double product[2][most]{}; // ∫U_j W_i ds [m]
+  Vector along{};                  // ∫U_j ds, at the places of the axial amplitudes [m]
+  Vector across{};                 // ∫W_i ds [m]
+  Vector moment_along{};           // ∫s U_j ds [m²]
+  Vector moment_across{};          // ∫s W_i ds [m²]
+  double product[2][most]{};       // ∫U_j W_i ds [m]
   double mass[most][most]{};       // μ∫ of products of like functions [kg]
   double stiffness[most][most]{};  // [N/m]
   double damping[most][most]{};    // [N·s/m]

@@ -110,8 +110,7 @@ double SliderCrankDynamics::kinetic_energy_of_points(const SliderCrankMotion<dou
       }
   const double counted = amplitudes() > 0 ? data_.rod_mass : 0;
   const double mass = data_.rod_mass - counted, moment = data_.rod_mass * data_.rod_com - counted * l / 2;
-  const double inertia =
-      data_.rod_inertia + data_.rod_mass * data_.rod_com * data_.rod_com - counted * l * l / 3;
+  const double inertia = data_.rod_inertia + data_.rod_mass * data_.rod_com * data_.rod_com - counted * l * l / 3;
   const double turn = m.beta_rate;
   double sum = prismatic + 0.5 * mass * (vx * vx + vy * vy) + moment * turn * across + 0.5 * inertia * turn * turn;
   sum += 0.5 * data_.crank_inertia * m.w[phi] * m.w[phi];
@@ -132,8 +131,7 @@ double SliderCrankDynamics::damping_power(const SliderCrankMotion<double>& m) co
   const auto n = static_cast<std::size_t>(amplitudes());
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      sum += m.w[first_amplitude + i] * rod_.damping[i][k] * m.w[first_amplitude + k];
+    for (std::size_t k = 0; k < n; ++k) sum += m.w[first_amplitude + i] * rod_.damping[i][k] * m.w[first_amplitude + k];
   return sum;
 }
 

@@ -1,7 +1,7 @@
 // slider_crank_dynamics.h — the slider-crank with gaps in its joints and a rod that bends: its equations of motion.
 //
-//     A′ = r e(φ) + e       e  rod's big end from the crank pin            S = B + f    f  slider pin from the rod's end
-//     B  = A′ + (l + U_e) e(β)                                             S_y = offset + y, θ tilt of the slider
+//     A′ = r e(φ) + e       e  rod's big end from the crank pin            S = B + f    f  slider pin from the rod's
+//     end B  = A′ + (l + U_e) e(β)                                             S_y = offset + y, θ tilt of the slider
 //   coordinates z = (φ; e_x, e_y; f_x, f_y; y, θ; q): what a joint without clearance, a rigid rod has not stays zero.
 //   S_y = A′_y + (l + U_e) sin β + f_y gives β, so that all coordinates but φ are small and keep their digits.
 //     M(z) z̈ + h(z, ż) = 0 over those that are free; for the others the left side is the joint's reaction.
@@ -77,7 +77,8 @@ class SliderCrankDynamics {
   template <class T>
   SliderCrankMotion<T> motion(const std::array<T, most>& z, const std::array<T, most>& w) const;
 
-  // M z̈ + h over all coordinates; h with the loads' force on the slider, weight, elasticity and contacts in these modes.
+  // M z̈ + h over all coordinates; h with the loads' force on the slider, weight, elasticity and contacts in these
+  // modes.
   template <class T>
   std::array<T, most> residual(const SliderCrankMotion<T>& m, const Vector& acceleration, const T& load,
                                const int* contact_mode) const;
@@ -94,8 +95,8 @@ class SliderCrankDynamics {
 
   double acceleration_x(const SliderCrankMotion<double>& m, const Vector& acceleration) const;
   double contact_force(const SliderCrankMotion<double>& m, std::size_t contact, int mode) const;
-  double deflection(const SliderCrankMotion<double>& m, double xi) const;       // w [m]
-  double greatest_bending(const SliderCrankMotion<double>& m) const;            // |w″| over the rod [1/m]
+  double deflection(const SliderCrankMotion<double>& m, double xi) const;  // w [m]
+  double greatest_bending(const SliderCrankMotion<double>& m) const;       // |w″| over the rod [1/m]
 
  private:
   template <class T>

@@ -119,6 +119,8 @@ class AccuracyRun {
     Effects full = scene_.effects;
     if (full.describe() == "none") full.all_elastic = true;
     const auto model = compile(scene_, full);
+    if (model->elastic.empty() && (full.joint_clearance || full.flexible_rod))
+      omit("joint clearance and flexible rod", "the levels are those of ideal joints and a rigid rod");
     if (model->elastic.empty() && !full.joint_friction) {
       omit("elastic", "the scene has no coupling or shaft with a stiffness");
       return;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "mechanisms/deforming_mechanism.h"
 #include "studies/modes.h"
 
 namespace kurbel {
@@ -59,6 +60,8 @@ class Screening {
     if (unit.name == "backlash") return {reversals()};
     if (unit.name == "gear_losses" || unit.name == "bearing_friction" || unit.name == "joint_friction")
       return {losses()};
+    if (unit.name == "joint_clearance") return {impacts()};
+    if (unit.name == "flexible_rod") return rods();
     return {};
   }
 
@@ -177,6 +180,36 @@ class Screening {
     const double share = std::abs(work_of(full_, "harmful")) / driving_work(full_);
     return {"share of losses", share, fmt::format("harmful work is {:.2g} of the driving work", share),
             share > within_};
+  }
+
+  Screen impacts() const {
+    double count = 0;
+    for (const Figure& f : full_.figures)
+      if (f.name.starts_with("impacts.")) count += f.value;
+    return {"impacts", count,
+            count > 0 ? fmt::format("the joints are hit {:.0f} times after flight", count)
+                      : std::string("no joint is hit after flight: they stay in touch"),
+            count > 0};
+  }
+  // The rod under its own inertia, which goes mostly once and twice a turn.
+  std::vector<Screen> rods() const {
+    double fastest = 0;
+    for (const Figure& f : full_.figures)
+      if (f.name.starts_with("max_speed.") || f.name.starts_with("min_speed."))
+        fastest = std::max(fastest, std::abs(f.value));
+    std::vector<Screen> screens;
+    for (const Network::ShaftElement& e : full_.model->network.elements) {
+      const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get());
+      if (!maker || maker->dynamics().rod().bending == 0) continue;
+      const double ratio = maker->dynamics().rod().frequency(1) / std::max(fastest, 1e-300);
+      const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
+      screens.push_back({"rod frequency", ratio,
+                         fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it amplifies by "
+                                     "{:.2g}",
+                                     e.component, ratio, more),
+                         more > within_});
+    }
+    return screens;
   }
 
   const Result& full_;

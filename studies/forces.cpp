@@ -590,6 +590,8 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   Effects effects;
   effects.joint_friction = !out.joints.frictionless();
   SecondProblem machine(scene, effects, section.name, options);
+  if (scene.effects.joint_clearance || scene.effects.flexible_rod)
+    out.notes.push_back("joints count as ideal and the rod as rigid: joint clearance and flexible rod are left out");
   const SliderCrankStatics statics(out.data, out.joints);
   SliderLoads loads(scene, section.name);
   const double share = out.data.rod_com / out.data.rod_length;

@@ -209,11 +209,12 @@ std::string keys_in_markdown() {
       "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n\n"
       "## `[effects]`\n\n"
       "| effect | what it adds | needs | states, events | matters | unless mentioned |\n|---|---|---|---|---|---|\n"
-      "| `elasticity` | couplings and shafts twist | a stiffness | a twist and a speed each | where an excitation meets a "
+      "| `elasticity` | couplings and shafts twist | a stiffness | a twist and a speed each | where an excitation "
+      "meets a "
       "mode; starts and blows | off |\n";
   for (const EffectFlag& effect : effect_flags())
-    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters, effect.states,
-                        effect.matters, unsaid_text(effect));
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters,
+                        effect.states, effect.matters, unsaid_text(effect));
   text +=
       "\n## Steps of `[sequence]`\n\n"
       "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "

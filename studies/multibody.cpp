@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "mechanisms/deforming_mechanism.h"
 #include "mechanisms/mechanism.h"
 #include "mechanisms/multibody_run.h"
 #include "studies/report/trace.h"
@@ -102,6 +103,8 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   };
   if (!mechanism || !std::holds_alternative<SliderCrankData>(mechanism->mechanism().data))
     refuse("needs exactly one slider-crank, and no other mechanism");
+  if (dynamic_cast<const DeformingMechanismMaker*>(mechanism))
+    refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");
   const Mechanism& crank = mechanism->mechanism();

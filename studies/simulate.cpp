@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/work_equation.h"
+#include "mechanisms/deforming_mechanism.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
 #include "studies/report/trace.h"
@@ -19,6 +20,14 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
 constexpr int energy_checks = 60;
+
+std::vector<std::string> components_with_impacts(const Model& model) {
+  constexpr std::string_view ending = ".contact";
+  std::vector<std::string> names;
+  for (const WorkAccount& account : model.accounts)
+    if (account.name.ends_with(ending)) names.push_back(account.name.substr(0, account.name.size() - ending.size()));
+  return names;
+}
 
 // One run at one tolerance with all that watches it.
 struct OneRun {
@@ -45,6 +54,7 @@ class Figures {
     collect_work();
     collect_heat();
     collect_stopping();
+    collect_impacts();
   }
 
  private:
@@ -103,6 +113,15 @@ class Figures {
       if (e.slips)
         add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
             energy_scale(), run_.outcome.t);
+  }
+  // Joints with clearance: how often one is hit after flight.
+  void collect_impacts() {
+    for (const std::string& component : components_with_impacts(model_)) {
+      int count = 0;
+      for (const Event& e : run_.outcome.events)
+        count += e.component == component && e.what.ends_with(": touches") && e.from.ends_with(": in flight");
+      add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
+    }
   }
   // From the signal that makes the reduction link stop to its rest.
   void collect_stopping() {
@@ -185,8 +204,8 @@ class Simulation {
   // Tolerances are tightened until two runs agree within the accuracy.
   Result run() {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
-                    model_->free_shafts + model_->twist_count(), model_->state_count(), model_->effects.describe(),
-                    settings_.until));
+                    model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
+                    model_->effects.describe(), settings_.until));
     note_balanced_start();
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
     double tolerance = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
@@ -328,7 +347,7 @@ class Simulation {
     result_.complete = run.outcome.complete;
     result_.diagnosis = run.outcome.diagnosis;
     result_.effects = m.effects.describe();
-    result_.coordinates = m.free_shafts + m.twist_count();
+    result_.coordinates = m.free_shafts + m.twist_count() + further_coordinates(m);
     result_.states = m.state_count();
     result_.explanation = m.explain();
     result_.until = settings_.until;
@@ -446,6 +465,7 @@ std::vector<Figure> figure_list(const Model& model) {
     add("final_angle." + component, "rad");
     add("final_speed." + component, "rad/s");
   }
+  for (const std::string& component : components_with_impacts(model)) add("impacts." + component, "");
   if (model.cycle > 0) {
     add("delta." + link, "");
     add("mean_speed." + link, "rad/s");

@@ -605,6 +605,9 @@ class Study {
     }
     if (transients)
       out_.notes.push_back("motors count by their static characteristics: their currents are no unknowns here");
+    if (scene.effects.joint_clearance || scene.effects.flexible_rod)
+      out_.notes.push_back(
+          "the rigid cycle has ideal joints and a rigid rod: joint clearance and flexible rod are left out");
   }
 
   SteadyStudy run() {

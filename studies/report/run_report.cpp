@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "engine/units.h"
 #include "studies/report/trace.h"
@@ -149,6 +151,25 @@ Plot energy_plot(const Result& r) {
       "Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.",
       r.energy.relative);
   return plot;
+}
+
+// Title and label of what clearance and a flexible rod show; empty: the trace is something else.
+std::pair<std::string, std::string> of_joint_or_rod(const std::string& trace) {
+  const std::size_t dot = trace.find('.');
+  if (dot == std::string::npos) return {};
+  const std::string quantity = trace.substr(0, dot), component = trace.substr(dot + 1);
+  for (const auto& [key, joint] :
+       {std::pair("crank_pin", "crank pin"), std::pair("wrist_pin", "wrist pin"), std::pair("guide", "guide")}) {
+    if (quantity == std::string(key) + "_force")
+      return {fmt::format("Contact force, {} of {}", joint, component), "force"};
+    if (quantity == std::string(key) + "_penetration")
+      return {fmt::format("Depth of contact, {} of {}", joint, component), "depth"};
+  }
+  if (quantity == "rod_deflection")
+    return {fmt::format("Deflection of the rod of {} at mid-span", component), "deflection"};
+  if (quantity == "rod_bending_stress")
+    return {fmt::format("Greatest bending stress in the rod of {}", component), "stress"};
+  return {};
 }
 
 // A word that fits the plot's marks, where there are any.
@@ -380,6 +401,8 @@ std::vector<Plot> motion_plots(const Results& results) {
       add(over_angle(results, trace.name,
                      fmt::format("Force on the slider of {} over the crank's angle", trace.name.substr(6)), "force"));
     }
+    if (const auto [title, label] = of_joint_or_rod(trace.name); !title.empty())
+      add(over_time(results, trace.name, title, label));
   }
   for (const Result* r : results) plots.push_back(energy_plot(*r));
   return plots;

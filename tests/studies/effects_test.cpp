@@ -182,5 +182,18 @@ TEST(Advise, RefusesFiguresThatDoNotExist) {
   EXPECT_THROW(advise(scene, {.simulate = plain(), .within = 0.05, .figures = {"peak_torqe"}}), std::invalid_argument);
 }
 
+// Impacts speak for clearance; a rod whose first mode lies far above the speed speaks for itself.
+TEST(Advise, ScreensClearanceByImpactsAndARodByItsFrequency) {
+  for (const auto& [scene, screen] :
+       {std::pair("worn_crank_pin", "impacts"), std::pair("flexible_rod", "rod frequency")}) {
+    const Advice advice =
+        advise(example(scene), {.simulate = plain(), .within = 0.05, .figures = {}, .held_out = false});
+    bool found = false;
+    for (const auto& screens : advice.screens)
+      for (const Screen& s : screens) found = found || (s.name == screen && s.number > 1);
+    EXPECT_TRUE(found) << scene;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel
