@@ -135,7 +135,8 @@ TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
   EXPECT_EQ(message_of([&] { parse_effects("elastisity", scene); }),
             "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"elasticity\", "
             "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
-            "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"gravity\" or \"variable_inertia\"; several "
+            "\"relaxation\", \"bearing_friction\", \"gear_losses\", \"joint_clearance\", \"flexible_rod\", \"gravity\" "
+            "or \"variable_inertia\"; several "
             "joined by +, or -NAME to take one away");
   EXPECT_NE(message_of([&] { parse_effects("backlash", scene); }).find("no component of the scene has parameters"),
             std::string::npos);
