@@ -1,5 +1,7 @@
 // motor_cases.cpp — induction motors at their breakdown torque, against too much load, reversed, on the unstable
 // branch; a series motor that runs away.
+#include <algorithm>
+
 #include "tests/hard/families.h"
 #include "tests/hard/machines.h"
 
@@ -167,6 +169,7 @@ std::vector<HardCase> motor_cases() {
   cases.push_back(runs_up());
   cases.push_back(runs_away());
   cases.push_back(with_currents());
+  for (HardCase& c : cases) c.budget = std::min(c.budget, 5.0);
   return cases;
 }
 
