@@ -75,9 +75,11 @@ HardCase bounces_to_rest(double damping_ratio) {
 //     T = Σ 2 Δφ/(ω_in + ω_out) a turn
 HardCase edges(int events) {
   const double inertia = 0.2, speed = 100, torque = 20, piece = pi / 5, half_ramp = 0.5e-6;
-  const double high = std::sqrt(speed * speed + 2 * torque * piece / inertia);
+  // Half a ramp of h at either end of a piece does M₀ h/2 instead of M₀ h.
+  const double low = std::sqrt(speed * speed - torque * half_ramp * pi / 180 / inertia);
+  const double high = std::sqrt(low * low + 2 * torque * piece / inertia);
   const int turns = events / 20;
-  const double turn = 10 * 2 * piece / (speed + high);
+  const double turn = 10 * 2 * piece / (low + high);
   std::string points = "[0, 0]";
   for (int k = 0; k < 10; ++k) {
     const double m = k % 2 == 0 ? torque : -torque;
