@@ -97,8 +97,8 @@ HardCase edges(int events) {
           quantity(inertia, "kg*m2"), points, quantity(speed, "rad/s"), quantity(turns * turn, "s")),
       .truths = {closed_form("T = Σ 2 Δφ/(ω_in + ω_out)",
                              {{"final_angle.disc", turns * 2 * pi}, {"final_speed.disc", speed}})},
-      .condition = turns * 2 * pi + 2 * torque / inertia / speed * turns * turn,
-      .condition_words = "the end time and the angle hold their last digit: φ and ∂ω/∂t · T"};
+      .condition = (speed + high) / 2 * turns * turn * std::sqrt(events),
+      .condition_words = "every event stamps the clock to its last digit: ω T √N, as a random walk"};
 }
 HardCase a_hundred_thousand_edges() {
   HardCase c = edges(100000);
