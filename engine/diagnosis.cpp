@@ -119,9 +119,9 @@ std::string diagnosis(const Breakdown& broken, Equations& equations, const RunOp
   const Culprit culprit = culprit_of(broken, equations, outcome);
   const char* role = broken.kind == Cause::not_finite ? "lost its value"
                      : broken.kind == Cause::restless ? "finds no rest"
-                                                     : "keeps the steps short";
+                                                      : "keeps the steps short";
   if (!culprit.state.empty())
-    text += fmt::format("; the {} {}{}", culprit.state, role,
+    text += fmt::format("; {}{} {}{}", culprit.state.starts_with("a ") ? "" : "the ", culprit.state, role,
                         culprit.element.empty() ? "" : fmt::format(", by \"{}\"", culprit.element));
   else if (!culprit.element.empty())
     text += fmt::format("; \"{}\" {}", culprit.element, role);

@@ -274,7 +274,7 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
 }
 
 void Equations::flow(double t, std::span<const double> y, std::span<double> ydot) {
-  [[maybe_unused]] const FpTraps traps{};
+  [[maybe_unused]] const FpTraps traps(y);
   const Model& m = *model_;
   double* const alpha = ydot.data() + speed_index(0);
   double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
@@ -400,7 +400,7 @@ const SparsityPattern& Equations::jacobian_pattern() {
 
 // Quadratures feed nothing back; their rows are left empty, so that they cost the factorisation nothing.
 void Equations::jacobian(double t, std::span<const double> y, std::span<double> values) {
-  [[maybe_unused]] const FpTraps traps{};
+  [[maybe_unused]] const FpTraps traps(y);
   const Model& m = *model_;
   const JacobianLayout& layout = m.jacobian;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);

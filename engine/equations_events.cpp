@@ -10,7 +10,7 @@ namespace kurbel {
 
 // Pools, contacts, operating sequence, in this order.
 void Equations::guards(double t, std::span<const double> y, std::span<double> g) {
-  [[maybe_unused]] const FpTraps traps{};
+  [[maybe_unused]] const FpTraps traps(y);
   const Model& m = *model_;
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);

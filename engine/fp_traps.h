@@ -1,11 +1,16 @@
 // fp_traps.h — while one of these lives, a division by zero or an invalid operation of this thread stops the program.
 //
 // Only with KURBEL_FP_TRAPS (the debug preset), and around the machine's own equations alone: the libraries compare NaN
-// and divide by zero on purpose.
+// and divide by zero on purpose. A trial step that diverges overflows on its way, which the step control sees and
+// mends: from states beyond all reason nothing is trapped.
 #pragma once
 
+#include <span>
+
 #ifdef KURBEL_FP_TRAPS
+#include <algorithm>
 #include <cfenv>
+#include <cmath>
 #endif
 
 namespace kurbel {
@@ -13,7 +18,9 @@ namespace kurbel {
 class FpTraps {
  public:
 #ifdef KURBEL_FP_TRAPS
-  FpTraps() : before_(fegetexcept()) {
+  explicit FpTraps(std::span<const double> state) : before_(fegetexcept()) {
+    constexpr double beyond_reason = 1e30;
+    if (!std::all_of(state.begin(), state.end(), [](double v) { return std::abs(v) < beyond_reason; })) return;
     std::feclearexcept(traps);  // what was raised before would stop us at once
     feenableexcept(traps);
   }
@@ -28,6 +35,8 @@ class FpTraps {
  private:
   static constexpr int traps = FE_DIVBYZERO | FE_INVALID;
   int before_;
+#else
+  explicit FpTraps(std::span<const double>) {}
 #endif
 };
 

@@ -166,6 +166,7 @@ class Loop {
   // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
   void control_quadratures(ErrorControl& control) const {
     if (!equations_.audit()) return;
+    constexpr double rough = 100;  // squares grow far beyond that of the rated torque, as in resonance
     const Model& m = equations_.model();
     for (std::size_t k = 0; k < m.accounts.size(); ++k) {
       double& scale = control.scale[equations_.work_index(k)];
@@ -174,7 +175,7 @@ class Loop {
     for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
       for (const bool spring : {false, true}) {
         double& scale = control.scale[equations_.square_index(i, spring)];
-        if (scale == 0) scale = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
+        if (scale == 0) scale = rough * std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
       }
   }
 

@@ -155,7 +155,7 @@ std::vector<LimitedSteps> StepLimits::ranked(Equations& equations, double t, std
     if (by_guard_[g] > 0) add(g < equations.guard_count() ? equations.guard_owner(g) : "", "events", "", by_guard_[g]);
   add("", "growth after starts", "", growth_);
   add("", "edges in time", "", by_bound_[static_cast<std::size_t>(Bound::edge)]);
-  add("", "turns of mechanisms", "", by_bound_[static_cast<std::size_t>(Bound::turn)]);
+  add("", "quarter turns", "", by_bound_[static_cast<std::size_t>(Bound::turn)]);
   add("", "end of the run", "", by_bound_[static_cast<std::size_t>(Bound::until)]);
 
   for (LimitedSteps& l : list) l.share = static_cast<double>(l.steps) / static_cast<double>(all);

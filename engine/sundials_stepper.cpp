@@ -538,8 +538,8 @@ EsdirkStepper::EsdirkStepper(int order, OdeSystem& system, const ErrorControl& c
   // Orders 3 and 5 show their order only with a still smaller part (measured on van der Pol: 26 times the tolerance at
   // 1e-10 with 0.01, 0.4 times with 0.001).
   must(ARKStepSetNonlinConvCoef(m, order == 4 ? 0.01 : 0.001), "take the convergence coefficient");
-  // A step retaken onto an event has no shorter one to fall back on.
-  if (order != 4) must(ARKStepSetMaxNonlinIters(m, 10), "bound the iterations");
+  // A step retaken onto an event has no shorter one to fall back on; and quadratures come one iterate behind.
+  must(ARKStepSetMaxNonlinIters(m, 10), "bound the iterations");
   must(ARKStepSetMaxErrTestFails(m, most_failures_in_a_step), "bound the error test failures");
   must(ARKStepSetMaxConvFails(m, most_failures_in_a_step), "bound the convergence failures");
   must(ARKStepSetMaxNumSteps(m, most_steps_in_a_call), "bound the steps");

@@ -147,7 +147,7 @@ HardCase with_currents() {
       "rpm\", synchronous_speed = \"1500 rpm\", breakdown_ratio = 2.6, frequency = \"50 Hz\", inertia = \"0.014 "
       "kg*m2\" "
       "}\ndrum = { kind = \"load\", quadratic = \"0.0008 N*m*s2/rad2\", inertia = \"0.02 kg*m2\" }\nrun = { until = "
-      "\"0.5 s\" }\n";
+      "\"0.2 s\" }\n";
   return {.family = family,
           .name = "SwitchedOnWithItsCurrentsItRingsAtTheMains",
           .parameter = "two-axis circuit, 4 kW",
@@ -167,6 +167,7 @@ std::vector<HardCase> motor_cases() {
   cases.push_back(runs_up());
   cases.push_back(runs_away());
   cases.push_back(with_currents());
+  for (HardCase& c : cases) c.budget = 2;
   return cases;
 }
 

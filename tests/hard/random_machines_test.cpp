@@ -80,7 +80,7 @@ TEST(RandomMachines, EnergyBalanceHolds) {
 
 // The order in which a file names its components means nothing, to the last bit.
 TEST(RandomMachines, OrderInTheFileMeansNothing) {
-  expect_for_all(2000, 300, false, [](const Machine& m) -> std::string {
+  expect_for_all(2000, 250, false, [](const Machine& m) -> std::string {
     std::vector<std::string> tables = tables_of(m);
     const Ran one = run_of(text_of(m, tables), 1e-6);
     std::shuffle(tables.begin(), tables.end(), std::mt19937(7));
@@ -97,7 +97,7 @@ TEST(RandomMachines, OrderInTheFileMeansNothing) {
 
 // Any rigid shaft may be cut in two.
 TEST(RandomMachines, SplittingARigidShaftChangesNothing) {
-  expect_for_all(3000, 300, false, [](const Machine& m) -> std::string {
+  expect_for_all(3000, 250, false, [](const Machine& m) -> std::string {
     const Ran one = run_of(text_of(m));
     const int shaft = static_cast<int>(m.parts.size() % m.inertia.size());
     return differ(m, one, run_of(text_of(m, tables_of(m, {}, shaft), {}, shaft)));
@@ -107,7 +107,7 @@ TEST(RandomMachines, SplittingARigidShaftChangesNothing) {
 // In units of 4096 kg and 1/4 s the same machine turns by the same angles: nothing in the program knows the kilogram,
 // the second, or a number that has a unit.
 TEST(RandomMachines, UnitsOfMassAndTimeMeanNothing) {
-  expect_for_all(4000, 400, false, [](const Machine& m) -> std::string {
+  expect_for_all(4000, 250, false, [](const Machine& m) -> std::string {
     const Units units{4096, 0.25};
     return differ(m, run_of(text_of(m)), run_of(text_of(m, tables_of(m, units), units)));
   });
@@ -115,7 +115,7 @@ TEST(RandomMachines, UnitsOfMassAndTimeMeanNothing) {
 
 // Springs, gears and cranks without friction: with all speeds turned round the machine runs back to where it came from.
 TEST(RandomMachines, AConservativeMachineRunsBackwards) {
-  expect_for_all(5000, 300, true, [](const Machine& m) -> std::string {
+  expect_for_all(5000, 250, true, [](const Machine& m) -> std::string {
     const Scene scene = scene_from(text_of(m));
     const auto model = compile(scene, scene.effects);
     Equations equations(model, false);

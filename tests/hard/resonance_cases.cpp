@@ -46,7 +46,7 @@ HardCase through_resonance(double torque) {
       "shaft = {{ kind = \"coupling\", stiffness = \"1500 N*m/rad\", damping_ratio = 1e-4 }}\n"
       "crank = {{ {} }}\neffects = {{ elasticity = true }}\n"
       "run = {{ start = {{ speed = \"35 rad/s\" }}, until = {} }}\n",
-      quantity(torque, "N*m"), crank.keys(), quantity(20 / torque, "s"));
+      quantity(torque, "N*m"), crank.keys(), quantity(12 / torque, "s"));
   return {.family = family,
           .name = fmt::format("RunUpWith{:.0f}NewtonmetresPassesResonance", torque),
           .parameter = fmt::format("{:g} N·m, ζ = 1e-4", torque),
@@ -62,7 +62,7 @@ HardCase parametric(int zone) {
   const std::string scene = fmt::format(
       "line = [\"rotor\", \"shaft\", \"crank\"]\nrotor = {{ kind = \"inertia\", inertia = {} }}\n"
       "shaft = {{ kind = \"coupling\", stiffness = {}, damping_ratio = 1e-4 }}\ncrank = {{ {} }}\n"
-      "effects = {{ elasticity = true }}\nrun = {{ start = {{ speed = {} }}, until = \"1.5 s\" }}\n",
+      "effects = {{ elasticity = true }}\nrun = {{ start = {{ speed = {} }}, until = \"0.8 s\" }}\n",
       quantity(j, "kg*m2"), quantity(k, "N*m/rad"), crank.keys(), quantity(natural / zone, "rad/s"));
   return {.family = family,
           .name = fmt::format("ReducedInertiaExcitesInZone{}", zone),
@@ -74,13 +74,16 @@ HardCase parametric(int zone) {
 }  // namespace
 
 std::vector<HardCase> resonance_cases() {
-  return {at_the_natural_frequency(3, 0),
-          at_the_natural_frequency(50, 0),
-          at_the_natural_frequency(30, 1e-4),
-          through_resonance(20),
-          through_resonance(60),
-          parametric(1),
-          parametric(2)};
+  std::vector<HardCase> cases = {at_the_natural_frequency(3, 0),
+                                 at_the_natural_frequency(20, 0),
+                                 at_the_natural_frequency(10, 1e-4),
+                                 through_resonance(20),
+                                 through_resonance(60),
+                                 parametric(1),
+                                 parametric(2)};
+  // Methods of low order need minutes for the last digits; they are told to stop, which is no wrong answer.
+  for (HardCase& c : cases) c.budget = 1.5;
+  return cases;
 }
 
 }  // namespace kurbel::hard
