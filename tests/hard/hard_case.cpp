@@ -102,6 +102,12 @@ Judgement judge(const HardCase& hard_case, const Result& result) {
   return worst;
 }
 
+std::string note_with(const Result& result, const std::string& words) {
+  for (const std::string& note : result.notes)
+    if (note.find(words) != std::string::npos) return note;
+  return {};
+}
+
 bool spent_its_budget(const Result& result) {
   return all_words(result).find("of processor time is spent") != std::string::npos;
 }
@@ -115,11 +121,15 @@ void judge_answer(const HardCase& hard_case, const Result& result, CaseOutcome& 
   const Judgement found = judge(hard_case, result);
   out.error = found.error;
   const double told = allowed_ratio * result.measured_accuracy;
+  const std::string unconfirmed = note_with(result, "the confirming run failed");
   if (found.uncertainty > out.allowed) {
     out.words = fmt::format("the truth of {} itself is known to {:.1e} only", found.what, found.uncertainty);
   } else if (found.error <= out.allowed) {
     out.verdict = Verdict::passed;
     out.words = found.what;
+  } else if (!unconfirmed.empty()) {
+    out.verdict = Verdict::told;
+    out.words = found.what + ": " + unconfirmed;
   } else if (result.errors_measured && !result.accuracy_confirmed && found.error <= told) {
     out.verdict = Verdict::told;
     out.words = fmt::format("{}: the program says that it reached {:.1e}", found.what, result.measured_accuracy);

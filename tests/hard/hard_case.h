@@ -67,7 +67,8 @@ struct HardCase {
 
 enum class Verdict {
   passed,      // error ≤ 20 × (accuracy asked for + condition × rounding)
-  told,        // the program says that it reached less than was asked for, and how much; true within 20 × of that
+  told,        // the program says that it reached less than was asked for, and how much, true within 20 × of that; or
+               // that the tighter run failed, and how, so that its figures come without errors
   refused,     // ended with the words that belong here
   unfinished,  // stopped at its budget, in words
   excluded,    // the method does not apply; the reason is given

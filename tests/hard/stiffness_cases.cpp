@@ -34,7 +34,8 @@ HardCase stiffness_ratio(int decades) {
                           .stiffness = {soft, stiff},
                           .damping = {damping(0.02, soft, 1, 1), damping(0.02, stiff, 1, 1)},
                           .torque = 10};
-  return chain_case(fmt::format("StiffnessesOneTo1e{:02d}", decades), fmt::format("k ratio 1e{}", decades), chain, 0.3);
+  return chain_case(fmt::format("StiffnessesOneTo1e{:02d}", decades), fmt::format("k ratio 1e{}", decades), chain,
+                    decades < 8 ? 0.3 : 0.01);
 }
 
 // A light inertia between two others, or a heavy one.
@@ -45,7 +46,7 @@ HardCase inertia_ratio(int decades) {
                           .damping = {damping(0.02, k, 1, middle), damping(0.02, k, middle, 1)},
                           .torque = 10};
   return chain_case(fmt::format("Inertias{}OneTo1e{:02d}", decades < 0 ? "Light" : "Heavy", std::abs(decades)),
-                    fmt::format("J ratio 1e{}", decades), chain, 0.1);
+                    fmt::format("J ratio 1e{}", decades), chain, decades > -6 ? 0.1 : 0.003);
 }
 
 // 1e-12 kg·m² between two dampers: its own motion dies within 1e-12 s and leaves the balance of the torques, as of a
@@ -93,7 +94,7 @@ std::vector<HardCase> stiffness_cases() {
                           .stiffness = {1000, 3000},
                           .damping = {damping(0.02, 1000, 1, 1e-12), damping(0.02, 3000, 1e-12, 1)},
                           .torque = 20};
-  cases.push_back(chain_case("AlmostMasslessShaftThatRings", "J = 1e-12 kg·m², ζ = 0.02", chain, 0.002));
+  cases.push_back(chain_case("AlmostMasslessShaftThatRings", "J = 1e-12 kg·m², ζ = 0.02", chain, 3e-5));
   cases.push_back(almost_massless());
   cases.push_back(massless());
   cases.push_back(massless_merged());
