@@ -65,6 +65,8 @@ struct Backlash {
     const double p = std::abs(twist) - 0.5 * gap;
     return p <= 0 ? 0 : std::copysign(power(p), twist);
   }
+  // In flight it is nothing, though a stage of a step may overshoot the flank.
+  double spring_torque(const Twist<double>& x) const { return x.mode == apart ? 0 : spring_torque(x.angle); }
   template <class T>
   T energy(const T& twist) const {
     const T p = (value_of(twist) < 0 ? -1.0 : 1.0) * twist - 0.5 * gap;

@@ -241,7 +241,7 @@ class ConnectionPool final : public ElementPool {
   static void add_work(const Placed& p, const Twist<double>& x, double tau, Sums& sums) {
     double spring = 0;
     if constexpr (Slipping<E> || Springless<E>) {
-    } else if constexpr (HasStates<E> || UsesAngle<E>) {
+    } else if constexpr (requires { p.element.spring_torque(x); }) {
       spring = p.element.spring_torque(x);
     } else {
       spring = p.element.spring_torque(x.angle);

@@ -101,6 +101,9 @@ std::vector<HardCase> long_run_cases() {
         free_crank(fmt::format("FreeCrankFrom{}1e{:.0f}Rad", start < 0 ? "Minus" : "", std::log10(std::abs(start))),
                    start, remainder, 10));
   }
+  for (HardCase& c : cases)
+    c.heavy =
+        c.parameter.starts_with("1000 ") || c.parameter.starts_with("10000 ") || c.parameter.starts_with("1e+06 ");
   return cases;
 }
 
