@@ -142,10 +142,11 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {
 }
 
 // Simbody moves moments to the centre of mass and refuses what rounding leaves below nothing there, by an absolute
-// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added.
+// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added to those.
 MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin) {
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * about_origin.getMoments()[2];
-  return MassProperties(mass, com, about_origin + Inertia(rounding));
+  const double moment = about_origin.getMoments()[2];
+  if (moment < 10) return MassProperties(mass, com, about_origin);
+  return MassProperties(mass, com, about_origin + Inertia(16 * std::numeric_limits<double>::epsilon() * moment));
 }
 
 SimTK::Body::Rigid pivoted_link(const LinkBody& link) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 
 #include "tests/hard/families.h"
@@ -41,7 +42,10 @@ std::vector<std::size_t> numbers() {
 
 INSTANTIATE_TEST_SUITE_P(All, HardCases, ::testing::ValuesIn(numbers()), [](const auto& which) {
   const HardCase& hard_case = all_cases()[which.param];
-  return hard_case.family + "_" + hard_case.name;
+  std::string name = hard_case.family + "_" + hard_case.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
 });
 
 }  // namespace
