@@ -145,7 +145,7 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {
 // bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added to those.
 MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin) {
   const double moment = about_origin.getMoments()[2];
-  if (moment < 10) return MassProperties(mass, com, about_origin);
+  if (moment < 10 || moment > 1e9) return MassProperties(mass, com, about_origin);  // beyond, units are wrong
   return MassProperties(mass, com, about_origin + Inertia(16 * std::numeric_limits<double>::epsilon() * moment));
 }
 
