@@ -97,7 +97,8 @@ HardCase rattle(double until) {
           .scene = gap.scene(sine_of(amplitude, hertz),
                              "{ a = { speed = \"1 rad/s\" }, b = { speed = \"0.3 rad/s\" } }", until),
           .truths = {impulse(first * 1 + second * 0.3 +
-                             amplitude * (1 - std::cos(2 * pi * hertz * until)) / (2 * pi * hertz))}};
+                             amplitude * (1 - std::cos(2 * pi * hertz * until)) / (2 * pi * hertz))},
+          .heavy = until > 1};
 }
 
 // In the gap under a constant torque that brakes: v² = 2 M/J₁ · b/2 · (1 + part) would take the flank to b/2 (1 +

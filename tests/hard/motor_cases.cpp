@@ -144,7 +144,8 @@ HardCase with_currents() {
   const std::string scene =
       "line = [\"motor\", \"drum\"]\nmotor = { kind = \"induction motor\", rated_power = \"4 kW\", rated_speed = "
       "\"1440 "
-      "rpm\", synchronous_speed = \"1500 rpm\", breakdown_ratio = 2.6, frequency = \"50 Hz\", inertia = \"0.014 "
+      "rpm\", synchronous_speed = \"1500 rpm\", breakdown_ratio = 2.6, resistance_ratio = 1, frequency = \"50 Hz\", "
+      "inertia = \"0.014 "
       "kg*m2\" "
       "}\ndrum = { kind = \"load\", quadratic = \"0.0008 N*m*s2/rad2\", inertia = \"0.02 kg*m2\" }\nrun = { until = "
       "\"0.2 s\" }\n";
