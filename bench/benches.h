@@ -65,10 +65,10 @@ void accuracy_of_scenes(BenchBook& book);    // the example scenes
 void growth_with_size(BenchBook& book);      // E2
 void costs_of_effects(BenchBook& book);      // switched on, and stiffened
 void counts_of_instructions(BenchBook& book, const std::string& counter);  // what is off is free
-void advice_on_scenes(BenchBook& book);  // within 5, 1 and 0.1 %, with what was held out
-void costs_of_elements(BenchBook& book);     // per evaluation, and events a second
-void costs_of_mechanisms();                  // elements: table against closed form, extraction, multibody
-void costs_of_modes();                       // growth of the eigenvalue problem
+void advice_on_scenes(BenchBook& book);   // within 5, 1 and 0.1 %, with what was held out
+void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
+void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
+void costs_of_modes();                    // growth of the eigenvalue problem
 void costs_of_steady_cycles();
 void hard_cases(BenchBook& book, const std::string& only);  // families or cases whose names hold this; "": all
 

@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
   }
   if (wants("hard")) hard_cases(book, only);
   if (!any) {
-    std::fprintf(stderr, "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard or all\n");
+    std::fprintf(stderr,
+                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

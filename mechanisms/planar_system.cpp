@@ -142,7 +142,8 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {
 }
 
 // Simbody moves moments to the centre of mass and refuses what rounding leaves below nothing there, by an absolute
-// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added to those.
+// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added to
+// those.
 MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin) {
   const double moment = about_origin.getMoments()[2];
   if (moment < 10 || moment > 1e9) return MassProperties(mass, com, about_origin);  // beyond, units are wrong

@@ -21,8 +21,8 @@ struct LeftOut {
   std::vector<FigureChange> changes = {};  // of the figures that both have, the greatest first
   ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
   long events_added = 0;
-  double time_ratio = 0;  // processor time of the full model over that without
-  std::string refused = {};    // why the machine cannot run without it
+  double time_ratio = 0;     // processor time of the full model over that without
+  std::string refused = {};  // why the machine cannot run without it
 };
 
 struct EffectStudy {

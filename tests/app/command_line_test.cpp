@@ -178,7 +178,9 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
       {"--accuracy", "fine", "--accuracy"},
       {"--accuracy", "nan", "--accuracy"},
       {"--accuracy", "0", "--accuracy"},
-      {"--method", "euler", "allowed: \"auto\", \"work\", \"dopri5\", \"verner6\", \"dop853\", \"fehlberg8\", \"adams\", \"esdirk3\", \"esdirk\", \"esdirk5\" or \"bdf\""},
+      {"--method", "euler",
+       "allowed: \"auto\", \"work\", \"dopri5\", \"verner6\", \"dop853\", \"fehlberg8\", \"adams\", \"esdirk3\", "
+       "\"esdirk\", \"esdirk5\" or \"bdf\""},
       {"--method", "dop835", "did you mean \"dop853\"?"},
       {"--method", "CPodes",
        "method \"CPodes\" belongs to model = \"multibody\"; for model = \"reduced\" allowed: \"auto\""},
