@@ -141,6 +141,7 @@ std::vector<double> Equations::shaft_angles_by_twist(std::size_t elastic) const 
 // All modes anew for a state; turns are counted from here.
 void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   const Model& m = *model_;
+  snapshot_.now = {};  // the state that was looked at last may be gone
   std::fill(turns_.begin(), turns_.end(), 0.0);
   std::fill(mode_.begin(), mode_.end(), 0);  // a law that lost its events in an earlier run has them again
   wrap(y);
