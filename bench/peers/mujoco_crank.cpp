@@ -1,17 +1,21 @@
 // mujoco_crank.cpp — the slider-crank as MuJoCo's format has it: two hinges, a slider, and a constraint that connects.
 #include "bench/peers/mujoco_crank.h"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
 namespace kurbel::bench {
 
 double mujoco_r1(double step) {
-  const std::string path = "/tmp/kurbel_mujoco_r1.xml";
+  const std::string path =
+      (std::filesystem::temp_directory_path() / fmt::format("kurbel_mujoco_r1_{}.xml", getpid())).string();
   std::FILE* file = std::fopen(path.c_str(), "w");
   if (!file) throw std::runtime_error("mujoco_crank: cannot write " + path);
   std::fprintf(file,
