@@ -142,6 +142,7 @@ bool read_rounding(const Section& s, const Mechanism& mechanism, const std::stri
   for (const char* key : {"rounding", "rounding_angle"}) {
     if (!s.given(key)) continue;
     const double most = over_angle ? 0.5 * load.period() : mechanism.stroke();
+    const char* const unit = over_angle || rocks ? "rad" : "m";
     load.rounding = 0.5 * s.number(key);
     std::string wrong;
     if (!rocks && over_angle != (std::string(key) == "rounding_angle"))
@@ -150,8 +151,11 @@ bool read_rounding(const Section& s, const Mechanism& mechanism, const std::stri
     else if (!load.can_be_rounded())
       wrong = fmt::format("\"{}\" is for straight pieces, and the table is smooth; drop it", key);
     else if (2 * load.rounding > most)
-      wrong = fmt::format("{} = {:g} {}; must be at most {:g}", key, 2 * load.rounding,
-                          over_angle || rocks ? "rad" : "m", most);
+      wrong = fmt::format("{} = {:g} {}; must be ≤ {} of {:g} {}", key, 2 * load.rounding, unit,
+                          over_angle ? "half the period"
+                          : rocks    ? "the swing"
+                                     : "the stroke",
+                          most, unit);
     if (wrong.empty()) continue;
     messages.add(s.where(key), fmt::format("{}: {}", what, wrong));
     return false;
