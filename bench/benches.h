@@ -70,6 +70,7 @@ void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
 void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
 void costs_of_modes();                    // growth of the eigenvalue problem
 void costs_of_steady_cycles();
-void hard_cases(BenchBook& book, const std::string& only);  // families or cases whose names hold this; "": all
+// Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s].
+void hard_cases(BenchBook& book, const std::string& only, double budget);
 
 }  // namespace kurbel::bench

@@ -53,6 +53,7 @@ Verdict worst_of(const std::vector<CaseOutcome>& row) {
 
 std::string words_of(const CaseOutcome& o) {
   if (o.verdict == Verdict::excluded) return o.words;
+  if (o.runs == 0) return fmt::format("{}: {}", hard::name_of(o.verdict), o.words);
   return fmt::format("{}: error {:.1e}, asked {:.0e}; {} steps, smallest {:.1e} s, {} events, {:.3g} ms. {}",
                      hard::name_of(o.verdict), o.error, o.asked, o.steps, o.smallest_step, o.events,
                      1e3 * o.cpu_seconds, o.words);
@@ -232,12 +233,28 @@ Table growth_of_errors(const std::string& title, HardCase (*machine)(double cycl
   return table;
 }
 
-CaseMatrix run_all(const HardCase& hard_case) {
+// A finer accuracy than one that spent its budget is not tried.
+CaseOutcome not_tried(const CaseOutcome& coarser, double accuracy) {
+  CaseOutcome out;
+  out.verdict = Verdict::unfinished;
+  out.asked = accuracy;
+  out.words = fmt::format("not tried: the budget was spent at {:.0e}", coarser.asked);
+  return out;
+}
+
+CaseMatrix run_all(const HardCase& hard_case, double budget) {
   CaseMatrix matrix{&hard_case, {}};
   for (const std::string& method : hard::all_methods()) {
     std::vector<CaseOutcome>& row = matrix.cells.emplace_back();
+    const CaseOutcome* spent = nullptr;
+    row.reserve(hard::all_accuracies().size());
     for (const double accuracy : hard::all_accuracies()) {
-      row.push_back(hard::run_case(hard_case, method, accuracy));
+      if (spent) {
+        row.push_back(not_tried(*spent, accuracy));
+        continue;
+      }
+      row.push_back(hard::run_case(hard_case, method, accuracy, budget));
+      if (row.back().verdict == Verdict::unfinished) spent = &row.back();
       const CaseOutcome& o = row.back();
       if (o.verdict == Verdict::failed || o.verdict == Verdict::unfinished || o.verdict == Verdict::told)
         std::fprintf(stderr, "%s %s (%s), %s: %s\n", hard_case.family.c_str(), hard_case.name.c_str(),
@@ -249,13 +266,13 @@ CaseMatrix run_all(const HardCase& hard_case) {
 
 }  // namespace
 
-void hard_cases(BenchBook& book, const std::string& only) {
+void hard_cases(BenchBook& book, const std::string& only, double budget) {
   std::vector<CaseMatrix> matrices;
   long red = 0, cells = 0;
   for (const HardCase& hard_case : hard::all_cases()) {
     if (!only.empty() && (hard_case.family + "_" + hard_case.name).find(only) == std::string::npos) continue;
     std::fprintf(stderr, "%s %s\n", hard_case.family.c_str(), hard_case.name.c_str());
-    matrices.push_back(run_all(hard_case));
+    matrices.push_back(run_all(hard_case, budget));
     for (const auto& row : matrices.back().cells)
       for (const CaseOutcome& o : row) {
         ++cells;

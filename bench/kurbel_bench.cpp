@@ -1,8 +1,10 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
 // and whether the hard cases end right.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|all [--out FOLDER] [--only NAME]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|all [--out FOLDER]
+//   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -21,9 +23,15 @@ int main(int argc, char** argv) {
   using namespace kurbel::bench;
   const std::string part = argc > 1 ? argv[1] : "";
   std::string folder = "results/bench", only;  // only: hard cases whose names hold this
+  double budget = 1;                           // of each integration of a hard case [s]
   for (int i = 2; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--out") == 0) folder = argv[i + 1];
     if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
+    if (std::strcmp(argv[i], "--budget") == 0) budget = std::atof(argv[i + 1]);
+  }
+  if (!(budget > 0)) {
+    std::fprintf(stderr, "kurbel_bench: --budget: give seconds above 0\n");
+    return 2;
   }
   const bool all = part == "all";
   bool any = all;
@@ -46,7 +54,7 @@ int main(int argc, char** argv) {
     costs_of_mechanisms();
     costs_of_steady_cycles();
   }
-  if (wants("hard")) hard_cases(book, only);
+  if (wants("hard")) hard_cases(book, only, budget);
   if (!any) {
     std::fprintf(stderr,
                  "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard or all\n");

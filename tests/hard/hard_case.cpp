@@ -149,12 +149,13 @@ void judge_refusal(const HardCase& hard_case, const std::string& words, CaseOutc
   }
 }
 
-Result simulate_case(const HardCase& hard_case, const std::string& method, double accuracy, bool measure_error) {
+Result simulate_case(const HardCase& hard_case, const std::string& method, double accuracy, bool measure_error,
+                     double budget) {
   Scene scene = scene_of(hard_case.scene);
   SimulateOptions options;
   options.accuracy = accuracy;
   options.measure_error = measure_error;
-  options.budget = hard_case.budget;
+  options.budget = std::min(hard_case.budget, budget);
   if (method == "multibody") {
     scene.run.model = "multibody";
   } else {
@@ -219,10 +220,10 @@ const std::vector<double>& all_accuracies() {
 }
 
 Result single_run(const HardCase& hard_case, const std::string& method, double accuracy) {
-  return simulate_case(hard_case, method, accuracy, false);
+  return simulate_case(hard_case, method, accuracy, false, hard_case.budget);
 }
 
-CaseOutcome run_case(const HardCase& whole, const std::string& method, double accuracy) {
+CaseOutcome run_case(const HardCase& whole, const std::string& method, double accuracy, double budget) {
   const auto variant = whole.variants.find(method);
   const HardCase& hard_case = variant == whole.variants.end() ? whole : *variant->second;
   CaseOutcome out;
@@ -241,7 +242,7 @@ CaseOutcome run_case(const HardCase& whole, const std::string& method, double ac
   if (method == "multibody" && variant == whole.variants.end())
     return exclude("Simbody's closed loop runs rigid machines of one slider-crank, a thousand times slower");
   try {
-    const Result result = simulate_case(hard_case, method, accuracy, true);
+    const Result result = simulate_case(hard_case, method, accuracy, true, budget);
     out.steps = result.statistics.stepper.steps;
     out.smallest_step = result.statistics.smallest_step;
     out.events = result.statistics.events;

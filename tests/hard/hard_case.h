@@ -98,6 +98,7 @@ inline constexpr double allowed_ratio = 20;
 // One run at the local tolerance that belongs to the accuracy, without the tighter one that measures its error.
 Result single_run(const HardCase& hard_case, const std::string& method, double accuracy);
 
-CaseOutcome run_case(const HardCase& hard_case, const std::string& method, double accuracy);
+// budget: at most this much processor time an integration [s], whatever the case asks for.
+CaseOutcome run_case(const HardCase& hard_case, const std::string& method, double accuracy, double budget = 1e9);
 
 }  // namespace kurbel::hard
