@@ -37,7 +37,8 @@ class BenchBook {
   std::vector<BenchTarget> targets;
   std::vector<Table> tables;
   std::vector<Plot> plots;
-  std::vector<ReportSection> sections;  // of the page, as they are; their tables go into the JSON, too
+  std::vector<std::string> conclusions;  // sentences; how many targets are met comes last by itself
+  std::vector<ReportSection> sections;   // of the page, as they are; their tables go into the JSON, too
 
   // Least time of the solvers that the filter takes; infinite: none reaches it.
   template <class Filter>
@@ -70,7 +71,8 @@ void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
 void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
 void costs_of_modes();                    // growth of the eigenvalue problem
 void costs_of_steady_cycles();
-// Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s].
+// Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s];
+// heavy ones take what they ask for.
 void hard_cases(BenchBook& book, const std::string& only, double budget);
 
 }  // namespace kurbel::bench

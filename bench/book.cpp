@@ -1,5 +1,6 @@
 // book.cpp — what the benches found as table, JSON and page.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,8 +134,10 @@ std::string BenchBook::json() const {
 Report BenchBook::report() const {
   const auto met = std::count_if(targets.begin(), targets.end(), [](const BenchTarget& t) { return t.met; });
   Report report{.title = "kurbel_bench",
-                .subtitle = "What accuracy, effects and size cost on the reference problems",
-                .conclusion = targets.empty() ? "" : fmt::format("{} of {} targets are met.", met, targets.size())};
+                .subtitle = "What accuracy, effects and size cost, and whether the hard cases end right",
+                .conclusion = fmt::format("{}", fmt::join(conclusions, " "))};
+  if (!targets.empty())
+    report.conclusion += fmt::format("{}{} of {} targets met.", conclusions.empty() ? "" : " ", met, targets.size());
   if (!targets.empty()) report.add("Targets").cards.push_back(target_table(*this));
   for (const std::string& problem : problems_of(*this)) {
     ReportSection& section = report.add(problem);
@@ -142,7 +145,7 @@ Report BenchBook::report() const {
     section.cards.push_back(goal_table(*this, problem));
   }
   if (!plots.empty() || !tables.empty()) {
-    ReportSection& rest = report.add("Growth, effects, scenes");
+    ReportSection& rest = report.add("Measured");
     for (const Plot& plot : plots) rest.cards.push_back(plot);
     for (const Table& table : tables) rest.cards.push_back(table);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -66,6 +67,22 @@ std::string error_cell(const CaseOutcome& o) {
   return o.error > 0 || o.verdict == Verdict::failed ? fmt::format("{:.0e}", o.error) : "0";
 }
 
+// "FreeCrankOver10Turns" → "Free crank over 10 turns".
+std::string in_words(const std::string& name) {
+  const auto is = [](int (*kind)(int), char c) { return kind(static_cast<unsigned char>(c)) != 0; };
+  std::string words;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool word = i > 0 && is(std::isupper, name[i]);
+    const bool number = i > 0 && is(std::isdigit, name[i]) && is(std::isalpha, name[i - 1]) &&
+                        !(i > 1 && is(std::isdigit, name[i - 2]));  // "1e9" is one
+    if (word || (number && !is(std::isupper, name[i - 1]))) words += ' ';
+    words += word && i + 1 < name.size() && is(std::islower, name[i + 1])
+                 ? static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])))
+                 : name[i];
+  }
+  return words;
+}
+
 // Cases by methods: how many accuracies were met.
 Table overview(const std::string& family, const std::vector<CaseMatrix>& matrices) {
   Table table{.title = fmt::format("{}: accuracies met, of {}", family, hard::all_accuracies().size()),
@@ -75,7 +92,7 @@ Table overview(const std::string& family, const std::vector<CaseMatrix>& matrice
   for (const std::string& method : hard::all_methods()) table.columns.push_back(method);
   for (const CaseMatrix& m : matrices) {
     if (m.hard_case->family != family) continue;
-    std::vector<std::string> row = {m.hard_case->name, m.hard_case->parameter};
+    std::vector<std::string> row = {in_words(m.hard_case->name), m.hard_case->parameter};
     std::vector<Tone> tones(2, Tone::none);
     std::vector<std::string> hints(2);
     for (const std::vector<CaseOutcome>& cells : m.cells) {
@@ -99,8 +116,10 @@ Table overview(const std::string& family, const std::vector<CaseMatrix>& matrice
 // One case: errors, methods by accuracies.
 Table errors_of(const CaseMatrix& m) {
   const HardCase& c = *m.hard_case;
-  Table table{
-      .title = fmt::format("{} ({}): errors", c.name, c.parameter), .columns = {"method"}, .rows = {}, .folded = true};
+  Table table{.title = fmt::format("{} ({}): errors", in_words(c.name), c.parameter),
+              .columns = {"method"},
+              .rows = {},
+              .folded = true};
   for (const double accuracy : hard::all_accuracies()) table.columns.push_back(fmt::format("{:.0e}", accuracy));
   for (std::size_t k = 0; k < m.cells.size(); ++k) {
     std::vector<std::string> row = {hard::all_methods()[k]}, hints = {""};
@@ -120,7 +139,7 @@ Table errors_of(const CaseMatrix& m) {
 // One case: everything of every cell.
 Table cells_of(const CaseMatrix& m) {
   const HardCase& c = *m.hard_case;
-  Table table{.title = fmt::format("{} ({}): steps, events, time", c.name, c.parameter),
+  Table table{.title = fmt::format("{} ({}): steps, events, time", in_words(c.name), c.parameter),
               .columns = {"method", "verdict", "words", "asked", "error", "steps", "smallest step / s", "events",
                           "runs", "time / ms"},
               .rows = {},
@@ -233,6 +252,19 @@ Table growth_of_errors(const std::string& title, HardCase (*machine)(double cycl
   return table;
 }
 
+Text legend(double budget) {
+  return {
+      .title = "What the colours say",
+      .body = fmt::format(
+          "Green: the right answer, with an error of at most {:g} × (the accuracy asked for + condition × rounding); "
+          "or the words that belong to a machine that cannot be run.\nAmber: the program says that it reached less "
+          "than was asked for, and how much, or that the budget of processor time was spent ({:g} s an integration; "
+          "more for the heavy ones).\nGrey: the method does not apply; why stands at the end of each family.\nRed: a "
+          "wrong answer, or other words than belong there.\nA number in a table of a family says at how many of the "
+          "accuracies the cell is green, its colour is that of the worst; point at it for the words.",
+          hard::allowed_ratio, budget)};
+}
+
 // A finer accuracy than one that spent its budget is not tried.
 CaseOutcome not_tried(const CaseOutcome& coarser, double accuracy) {
   CaseOutcome out;
@@ -253,7 +285,7 @@ CaseMatrix run_all(const HardCase& hard_case, double budget) {
         row.push_back(not_tried(*spent, accuracy));
         continue;
       }
-      row.push_back(hard::run_case(hard_case, method, accuracy, budget));
+      row.push_back(hard::run_case(hard_case, method, accuracy, hard_case.heavy ? hard_case.budget : budget));
       if (row.back().verdict == Verdict::unfinished) spent = &row.back();
       const CaseOutcome& o = row.back();
       if (o.verdict == Verdict::failed || o.verdict == Verdict::unfinished || o.verdict == Verdict::told)
@@ -286,6 +318,13 @@ void hard_cases(BenchBook& book, const std::string& only, double budget) {
     book.tables.push_back(growth_of_errors(
         "Growth of errors over N cycles of an undamped chain at local tolerances of 1e-8", hard::undamped_chain_over));
   }
+  book.conclusions.push_back(
+      red == 0
+          ? fmt::format("{} hard cases in {} cells, none red: each ends with the right answer, or says in words how "
+                        "far it came or why it cannot go on.",
+                        matrices.size(), cells)
+          : fmt::format("{} hard cases in {} cells, {} red.", matrices.size(), cells, red));
+  book.sections.push_back({.title = "Hard cases: how to read the tables", .cards = {legend(budget)}});
   book.target("hard cases: cells without the right answer or the right words", "0", fmt::format("{} of {}", red, cells),
               red == 0);
   for (const std::string& family : families_of(matrices)) {
@@ -300,7 +339,7 @@ void hard_cases(BenchBook& book, const std::string& only, double budget) {
       for (const std::string& words : m.hard_case->refusal) truths += "to end with the words \"" + words + "\"\n";
       section.cards.emplace_back(errors_of(m));
       section.cards.emplace_back(cells_of(m));
-      section.cards.emplace_back(Text{.title = m.hard_case->name + ": how the answer is known; the scene",
+      section.cards.emplace_back(Text{.title = in_words(m.hard_case->name) + ": how the answer is known; the scene",
                                       .body = truths + "\n" + m.hard_case->scene,
                                       .verbatim = true,
                                       .folded = true});

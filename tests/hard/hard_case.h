@@ -62,7 +62,7 @@ struct HardCase {
   // method: the finest accuracy that it is asked for, and why not more.
   std::map<std::string, std::pair<double, std::string>> finest = {};
   std::map<std::string, std::shared_ptr<const HardCase>> variants = {};  // method: a shortened case for it
-  bool heavy = false;  // the tests run it with what the program chooses alone
+  bool heavy = false;  // the tests run it with what the program chooses alone, the bench with all its budget
   double budget = 10;  // processor time of an integration [s]
 };
 
