@@ -252,17 +252,24 @@ Table growth_of_errors(const std::string& title, HardCase (*machine)(double cycl
   return table;
 }
 
-Text legend(double budget) {
+Table legend(double budget) {
   return {
-      .title = "What the colours say",
-      .body = fmt::format(
-          "Green: the right answer, with an error of at most {:g} × (the accuracy asked for + condition × rounding); "
-          "or the words that belong to a machine that cannot be run.\nAmber: the program says that it reached less "
-          "than was asked for, and how much, or that the budget of processor time was spent ({:g} s an integration; "
-          "more for the heavy ones).\nGrey: the method does not apply; why stands at the end of each family.\nRed: a "
-          "wrong answer, or other words than belong there.\nA number in a table of a family says at how many of the "
-          "accuracies the cell is green, its colour is that of the worst; point at it for the words.",
-          hard::allowed_ratio, budget)};
+      .title =
+          "In a family's table a number says at how many accuracies the cell is green; its colour is that of the "
+          "worst. Point at a cell for its words.",
+      .columns = {"cell", "what it says"},
+      .rows = {{"green", fmt::format("the right answer, with an error of at most {:g} × (accuracy asked for + "
+                                     "condition × rounding); or the words that belong to a machine that cannot run",
+                                     hard::allowed_ratio)},
+               {"amber", fmt::format("the program says that it reached less than was asked for, and how much; or "
+                                     "that its budget was spent ({:g} s of processor time an integration, more for "
+                                     "the heavy cases)",
+                                     budget)},
+               {"grey", "the method does not apply; the reasons stand at the end of each family"},
+               {"red", "a wrong answer, or other words than belong there"}},
+      .text_columns = 2,
+      .tones = {{Tone::good, Tone::none}, {Tone::fair, Tone::none}, {Tone::aside, Tone::none}, {Tone::bad, Tone::none}},
+      .hints = {{"", ""}, {"", ""}, {"", ""}, {"", ""}}};
 }
 
 // A finer accuracy than one that spent its budget is not tried.
