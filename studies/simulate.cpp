@@ -201,7 +201,8 @@ class Simulation {
     result_.label = label;
   }
 
-  // Tolerances are tightened until two runs agree within the accuracy.
+  // Tolerances are tightened until two runs agree within the accuracy, and the energy balance of the finer one closes
+  // within it.
   Result run() {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
@@ -228,24 +229,27 @@ class Simulation {
         }
         break;
       }
-      result_.measured_accuracy = measure_errors(*coarse, *fine);
+      // Errors that two runs share, in steps that edges hold, show in the balance.
+      const double of_figures = measure_errors(*coarse, *fine), of_energy = fine->energy->relative();
+      result_.measured_accuracy = std::max(of_figures, of_energy);
       result_.errors_measured = true;
       // Steps that edges hold are the same at both tolerances: such runs prove nothing against each other.
-      if (took_the_same_steps(*coarse, *fine, result_.measured_accuracy) && tolerance / tolerance_step >= 2e-15) {
+      if (took_the_same_steps(*coarse, *fine, of_figures) && tolerance / tolerance_step >= 2e-15) {
         log(fmt::format("  tolerances {:.0e} and {:.0e} took the same steps: go on", tolerance * tolerance_step,
                         tolerance));
         continue;
       }
       result_.accuracy_confirmed = result_.measured_accuracy <= settings_.accuracy;
-      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}; {:.1e} asked for: {}",
-                      tolerance * tolerance_step, tolerance, result_.measured_accuracy, settings_.accuracy,
+      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for: {}",
+                      tolerance * tolerance_step, tolerance, of_figures, of_energy, settings_.accuracy,
                       result_.accuracy_confirmed ? "reached" : "go on"));
       if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
     }
     if (result_.errors_measured && !result_.accuracy_confirmed)
       result_.notes.push_back(
-          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached: the tolerances cannot be tightened further",
-                      settings_.accuracy, result_.measured_accuracy));
+          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}: the tolerances cannot be tightened further",
+                      settings_.accuracy, result_.measured_accuracy,
+                      result_.measured_accuracy == fine->energy->relative() ? " in the energy balance" : ""));
     fill(*fine, tolerance);
     return std::move(result_);
   }

@@ -23,7 +23,7 @@ TEST_P(EnergyBalance, ClosesWithinTheAccuracyAskedFor) {
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_TRUE(r.accuracy_confirmed) << r.measured_accuracy;
   EXPECT_GT(r.energy.checks, 10);
-  EXPECT_LE(r.energy.relative, 10 * scene.run.accuracy);
+  EXPECT_LE(r.energy.relative, scene.run.accuracy);
   EXPECT_LE(r.energy.reduction_residual, 1e-11);
 }
 
@@ -31,7 +31,32 @@ TEST_P(EnergyBalance, ClosesForTheRigidMachineToo) {
   const Scene scene = test::scene_file("scenes/" + GetParam() + ".toml");
   const Result r = simulate(scene, {}, "rigid", {});
   ASSERT_TRUE(r.complete) << r.diagnosis;
-  EXPECT_LE(r.energy.relative, 10 * scene.run.accuracy);
+  EXPECT_LE(r.energy.relative, scene.run.accuracy);
+}
+
+// A blow of 20 µs falls into two steps at any tolerance, so that runs agree in the work that they get wrong
+// (conservation law: the work of the blow is what moves afterwards).
+TEST(EnergyBalance, IsPartOfTheAccuracyWhereEdgesHoldTheSteps) {
+  const Scene scene = test::scene_from(R"(
+line = ["a", "c", "b"]
+a = { kind = "inertia", inertia = "0.5 kg*m2" }
+b = { kind = "inertia", inertia = "2 kg*m2" }
+c = { kind = "coupling", stiffness = "20000 N*m/rad" }
+effects = { elasticity = true }
+run = { until = "0.3 s" }
+[blow]
+on = "a"
+kind = "torque source"
+table = { over = "time", unit = ["s", "N*m"], points = [[0, 0], [0.1, 0], [0.10001, 1e6], [0.10002, 0]] }
+)");
+  for (const char* method : {"esdirk3", "esdirk", "esdirk5", "bdf", "adams"}) {
+    SimulateOptions options;
+    options.method = method;
+    options.accuracy = 1e-7;
+    const Result r = simulate(scene, scene.effects, method, options);
+    ASSERT_TRUE(r.complete) << r.diagnosis;
+    EXPECT_LE(r.energy.relative, r.accuracy_confirmed ? 1e-7 : r.measured_accuracy) << method;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OfScenes, EnergyBalance, ::testing::ValuesIn(all_scenes()),

@@ -115,7 +115,7 @@ bool spent_its_budget(const Result& result) {
 void judge_answer(const HardCase& hard_case, const Result& result, CaseOutcome& out) {
   if (!result.complete || (!result.errors_measured && spent_its_budget(result))) {
     out.verdict = spent_its_budget(result) ? Verdict::unfinished : Verdict::failed;
-    out.words = result.complete ? all_words(result) : result.diagnosis;
+    out.words = result.complete ? note_with(result, "the confirming run failed") : result.diagnosis;
     return;
   }
   const Judgement found = judge(hard_case, result);
