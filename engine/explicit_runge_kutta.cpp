@@ -109,12 +109,22 @@ std::size_t first_not_finite(const double* values, std::size_t size) {
                                   values);
 }
 
+// Steps at the limit of stability multiply the rounding of fast states by what hides in their stages. Where tolerances
+// come near to rounding, that is what holds the steps, at half the limit or less (measured: 0.42 … 0.8 of it at 1e-14);
+// accuracy alone would hold them far below.
+double part_told_as_stiff(double tolerance) {
+  constexpr double least = 0.4, rough = 1e-9, fine = 1e-12;
+  const double between = std::clamp(std::log(rough / tolerance) / std::log(rough / fine), 0.0, 1.0);
+  return 1 - (1 - least) * between;
+}
+
 }  // namespace
 
 ExplicitRungeKutta::ExplicitRungeKutta(const EmbeddedTable& table, OdeSystem& system, const ErrorControl& control)
     : table_(table), system_(system), size_(system.size()), tolerance_(control.tolerance) {
   assert(control.scale.size() == size_ && tolerance_ > 0);
   for (const double s : control.scale) weight_.push_back(s > 0 ? 1 / (tolerance_ * s) : 0);
+  stiff_from_ = table.stability_limit * part_told_as_stiff(tolerance_);
   error_needs_end_slope_ = table.error.back().stage == table.stages;
 
   // A few doubles between the vectors keep them off the same cache sets when the size is a power of two.
@@ -273,7 +283,7 @@ void ExplicitRungeKutta::watch_stability(double h) {
     slopes += df * df;
     states += dy * dy;
   }
-  const bool stiff = h * h * slopes > table_.stability_limit * table_.stability_limit * states;
+  const bool stiff = h * h * slopes > stiff_from_ * stiff_from_ * states;
   if (stiff) {
     mild_steps_ = 0;
     stiff_steps_ = std::min(stiff_steps_ + 1, stiff_steps_to_tell);

@@ -55,6 +55,7 @@ class ExplicitRungeKutta final : public Stepper {
   std::size_t size_;
   std::vector<double> weight_;  // 1/(tolerance · scale), 0 for states out of control
   double tolerance_;
+  double stiff_from_ = 0;  // h·ρ
   bool error_needs_end_slope_;
 
   std::vector<double> storage_;  // all that follows points into it

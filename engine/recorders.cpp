@@ -11,7 +11,7 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Peaks that differ by less are the same peak come again; the first one counts.
+// Peaks that differ by less are the same peak come again: the time of the first one counts.
 constexpr double same_peak = 1e-9;
 
 bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
@@ -211,8 +211,14 @@ double ExtremeRecorder::merit(std::size_t i, double value) const {
 
 void ExtremeRecorder::consider(std::size_t i, double t, double value) {
   Found& found = found_[i];
-  if (found.any && merit(i, value) <= merit(i, found.value) + same_peak * std::abs(found.value)) return;
-  found = {value, t, true};
+  const double merit_now = merit(i, value);
+  if (found.any && merit_now <= merit(i, found.value)) return;
+  if (found.any && found.time < first_.t && merit_now <= found.merit_then + same_peak * std::abs(value)) {
+    // Of either sign where magnitudes count: the sign is that of the time.
+    found.value = wanted_[i].which == ExtremeOf::Which::largest_magnitude ? std::copysign(value, found.value) : value;
+    return;
+  }
+  found = {value, t, true, merit_now};
 }
 
 void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) const {

@@ -55,6 +55,7 @@ class ExtremeRecorder final : public Observer {
   struct Found {
     double value = 0, time = 0;
     bool any = false;
+    double merit_then = 0;  // at that time: what is a little larger later on is the same peak
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;

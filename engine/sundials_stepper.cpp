@@ -174,7 +174,6 @@ class SundialsStepper : public Stepper {
   double step_end_ = 0;  // of the last step as it was accepted
   bool restart_ = true;  // the library must be told t_ and y_ before it can go on
   double good_step_ = 0;
-  double least_error_ = 0;          // of a state, over its magnitude
   double rate_of_convergence_ = 1;  // of Newton's iteration, since its matrix was made
 
  private:
@@ -385,12 +384,13 @@ int SundialsStepper::newton_matrix(double t, N_Vector y, SUNMatrix matrix, bool 
   return 0;
 }
 
-// The library refuses to be asked for less than the round-off of a state.
+// Less than some round-off of a state is not asked for: the library refuses, or cuts its steps for ever. Works grow far
+// beyond the torques that their tolerance is made of.
 int SundialsStepper::error_weights(N_Vector y, N_Vector weights, void* self) noexcept {
   const auto& weight = static_cast<SundialsStepper*>(self)->weight_;
   const double* value = N_VGetArrayPointer(y);
   double* out = N_VGetArrayPointer(weights);
-  const double floor = static_cast<SundialsStepper*>(self)->least_error_;
+  constexpr double floor = 20 * epsilon;
   for (std::size_t i = 0; i < weight.size(); ++i)
     out[i] = std::min(weight[i], 1 / (floor * std::max(std::abs(value[i]), 1e-100)));
   return 0;

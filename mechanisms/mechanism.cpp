@@ -290,10 +290,17 @@ void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, c
                         (2 * speed_step);
 }
 
-// Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction.
+// Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction. What
+// loads can hold against the slider presses on the joints as well: each end of it widens what friction holds.
 Hold MechanismPool::friction_hold(const Placed& p, const Instant& now) const {
   const double phi = angle_of(p.at, now), force = load_force(p, now);
-  const auto [low, high] = p.mechanism.joints->resting_torque(phi, force);
+  const Hold held = load_hold(p, now);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double at_rest : {force, force + held.low, force + held.high}) {
+    const auto bounds = p.mechanism.joints->resting_torque(phi, at_rest);
+    low = std::min(low, bounds.low);
+    high = std::max(high, bounds.high);
+  }
   const double free = p.mechanism.joints->solve_frictionless({.phi = phi, .slider_force = force}).torque;
   const double most = 1e6 * (1 + std::abs(free) + std::abs(force) * p.output_scale);  // locks itself
   return {-std::min(high - free, most), std::min(free - low, most)};
@@ -420,32 +427,38 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
   }
 }
 
+// Forces that the loads can hold against the output, besides what they exert there.
+Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
+  Hold sum;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    const SliderState<double> s = slider(p, now, k);
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (requires { law.hold(s); }) {
+            const Hold force = law.hold(s);
+            sum.low += force.low;
+            sum.high += force.high;
+          }
+        },
+        p.mechanism.loads[k].law);
+  }
+  return sum;
+}
+
 void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) const {
   for (const Placed& p : placed_) {
+    Hold hold;
     if (p.mechanism.joint_friction) {
-      const Hold hold = friction_hold(p, now);
-      element[p.at.id].low += hold.low;
-      element[p.at.id].high += hold.high;
-      shaft[p.at.shaft].low += p.at.gain > 0 ? p.at.gain * hold.low : p.at.gain * hold.high;
-      shaft[p.at.shaft].high += p.at.gain > 0 ? p.at.gain * hold.high : p.at.gain * hold.low;
+      hold = friction_hold(p, now);
+    } else {
+      const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
+      const Hold force = load_hold(p, now);
+      hold = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio} : Hold{force.high * ratio, force.low * ratio};
     }
-    const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
-    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
-      const SliderState<double> s = slider(p, now, k);
-      std::visit(
-          [&](const auto& law) {
-            if constexpr (requires { law.hold(s); }) {
-              const Hold force = law.hold(s);
-              const Hold torque = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio}
-                                             : Hold{force.high * ratio, force.low * ratio};
-              element[p.at.id].low += torque.low;
-              element[p.at.id].high += torque.high;
-              shaft[p.at.shaft].low += p.at.gain * torque.low;
-              shaft[p.at.shaft].high += p.at.gain * torque.high;
-            }
-          },
-          p.mechanism.loads[k].law);
-    }
+    element[p.at.id].low += hold.low;
+    element[p.at.id].high += hold.high;
+    shaft[p.at.shaft].low += p.at.gain > 0 ? p.at.gain * hold.low : p.at.gain * hold.high;
+    shaft[p.at.shaft].high += p.at.gain > 0 ? p.at.gain * hold.high : p.at.gain * hold.low;
   }
 }
 

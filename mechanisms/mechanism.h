@@ -124,6 +124,7 @@ class MechanismPool final : public ElementPool {
   double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
   CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
   void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
+  Hold load_hold(const Placed& p, const Instant& now) const;
   Hold friction_hold(const Placed& p, const Instant& now) const;
 
   std::vector<Placed> placed_;

@@ -210,6 +210,7 @@ class Simulation {
     note_balanced_start();
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
     double tolerance = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
+    bool confirming_run_failed = false;
     std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
     result_.runs = 1;
     while (options_.measure_error && fine->outcome.complete) {
@@ -218,10 +219,12 @@ class Simulation {
       fine = one_run(tolerance);
       ++result_.runs;
       if (!fine->outcome.complete) {
-        result_.notes.push_back(
-            fmt::format("the confirming run failed ({}); figures are those of the looser run, without errors",
-                        fine->outcome.diagnosis));
+        result_.notes.push_back(fmt::format(
+            "the confirming run failed ({}); figures are those of the looser run, {}", fine->outcome.diagnosis,
+            result_.errors_measured ? "with errors by the run before it" : "without errors"));
         fine = std::move(coarse);
+        tolerance *= tolerance_step;
+        confirming_run_failed = true;
         if (options_.interrupted && options_.interrupted->load()) {
           fine->outcome.complete = false;
           fine->outcome.diagnosis =
@@ -246,10 +249,10 @@ class Simulation {
       if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
     }
     if (result_.errors_measured && !result_.accuracy_confirmed)
-      result_.notes.push_back(
-          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}: the tolerances cannot be tightened further",
-                      settings_.accuracy, result_.measured_accuracy,
-                      result_.measured_accuracy == fine->energy->relative() ? " in the energy balance" : ""));
+      result_.notes.push_back(fmt::format(
+          "accuracy {:.1e} was asked for, {:.1e} was reached{}{}", settings_.accuracy, result_.measured_accuracy,
+          result_.measured_accuracy == fine->energy->relative() ? " in the energy balance" : "",
+          confirming_run_failed ? "" : ": the tolerances cannot be tightened further"));
     fill(*fine, tolerance);
     return std::move(result_);
   }
@@ -389,7 +392,8 @@ class Simulation {
     const std::size_t shaft = at(m.shaft_of_node[at(m.reduction_node)]);
     if (outcome.state.empty() || !equations_.at_standstill(shaft) || !m.commands.empty()) return;
     const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
-    double drive = 0;  // on the reduction link
+    if (s.now.speed[shaft] != 0) return;  // creeps, by a law without events
+    double drive = 0;                     // on the reduction link
     for (std::size_t e = 0; e < m.network.elements.size(); ++e)
       if (m.network.elements[e].element->account() == Account::driving)
         drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];

@@ -37,8 +37,11 @@ Ran run_of(const std::string& text, double tolerance = 1e-9) {
 // The largest difference of the angles, in rad and of themselves.
 double difference(const Ran& a, const Ran& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.angle.size(); ++i)
-    largest = std::max(largest, std::abs(a.angle[i] - b.angle[i]) / std::max(1.0, std::abs(a.angle[i])));
+  for (std::size_t i = 0; i < a.angle.size(); ++i) {
+    const double here = std::abs(a.angle[i] - b.angle[i]) / std::max(1.0, std::abs(a.angle[i]));
+    if (!(here <= largest)) largest = here;
+    if (std::isnan(largest)) return largest;
+  }
   return largest;
 }
 
@@ -53,7 +56,7 @@ double condition(const Machine& m) {
 
 // Two runs of one machine that may differ by rounding alone.
 std::string differ(const Machine& m, const Ran& one, const Ran& other) {
-  if (one.outcome.complete != other.outcome.complete) return one.outcome.diagnosis + other.outcome.diagnosis;
+  if (!one.outcome.complete || !other.outcome.complete) return one.outcome.diagnosis + other.outcome.diagnosis;
   const double found = difference(one, other);
   if (found <= 1e-9) return "";
   const double allowed = 1e-12 * condition(m);

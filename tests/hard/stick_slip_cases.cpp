@@ -179,6 +179,75 @@ HardCase joint_friction(double guide, double force, const std::string& name) {
           .truths = {converged(scene, {"final_angle.crank", "final_speed.crank"})}};
 }
 
+// A guide alone that rubs, a rod without mass: with S along the stroke from rod to slider, N = S tan β,
+//     m (x′ α + x″ ω²) = S (1 ∓ μ tan β) − F sgn v,  I α = M(ω) − S x′
+// A DC motor's torque at standstill is less than F |x′|/(1 − μ tan β): it stalls on the way, and stays.
+struct RubbingGuide {
+  Crank crank;
+  double friction = 0, force = 0, stall = 60, no_load = 12, rotor = 0.1, start = 0.4;
+
+  using Real = long double;
+  Real acceleration(Real phi, Real omega) const {
+    constexpr Real small = 1e-5L;
+    const Real slope = crank.slope(phi),
+               curvature = (crank.slope(phi + small) - crank.slope(phi - small)) / (2 * small);
+    const Real inertia = static_cast<Real>(crank.inertia) + rotor, motor = stall * (1 - omega / no_load);
+    const Real tangent = std::abs(crank.radius * std::sin(phi)) / crank.root(phi), forwards = slope > 0 ? 1 : -1;
+    for (const Real along : {1.0L, -1.0L}) {  // the rod pushes the slider on, or holds it back
+      const Real axial =
+          (crank.mass * (slope * motor / inertia + curvature * omega * omega) + forwards * static_cast<Real>(force)) /
+          (1 - along * friction * tangent + crank.mass * slope * slope / inertia);
+      if (axial * forwards * along >= 0) return (motor - axial * slope) / inertia;
+    }
+    return 0;
+  }
+  // The angle at which it comes to rest: the classical Runge–Kutta method, its last step by bisection.
+  double stalls_at() const {
+    Real phi = start, omega = 0;
+    const auto step = [this](Real& p, Real& w, Real h) {
+      const Real a1 = acceleration(p, w), v2 = w + h / 2 * a1, a2 = acceleration(p + h / 2 * w, v2),
+                 v3 = w + h / 2 * a2, a3 = acceleration(p + h / 2 * v2, v3), v4 = w + h * a3,
+                 a4 = acceleration(p + h * v3, v4);
+      p += h / 6 * (w + 2 * v2 + 2 * v3 + v4);
+      w += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    };
+    constexpr Real h = 2e-4L;
+    for (int i = 0; i < 10000; ++i) {
+      Real p = phi, w = omega;
+      step(p, w, h);
+      if (i > 0 && w <= 0) break;
+      phi = p, omega = w;
+    }
+    const Real last = bisect(
+        [&](Real part) {
+          Real p = phi, w = omega;
+          step(p, w, part);
+          return w;
+        },
+        0, h);
+    step(phi, omega, last);
+    return static_cast<double>(phi);
+  }
+};
+
+HardCase stalls_by_its_guide(double rod, double friction, double force) {
+  const RubbingGuide machine{.crank = {.rod = rod}, .friction = friction, .force = force};
+  const std::string scene = fmt::format(
+      "line = [\"motor\", \"crank\"]\nmotor = {{ kind = \"dc shunt motor\", stall_torque = {}, no_load_speed = {}, "
+      "inertia = {} }}\ncrank = {{ {}, load = {{ kind = \"opposing\", force = {} }}, guide = {{ friction = {}, "
+      "static_friction = {} }} }}\neffects = {{ joint_friction = true }}\nrun = {{ start = {{ angle = {} }}, until = "
+      "\"1 s\" }}\n",
+      quantity(machine.stall, "N*m"), quantity(machine.no_load, "rad/s"), quantity(machine.rotor, "kg*m2"),
+      machine.crank.keys(), quantity(force, "N"), friction, 1.05 * friction, quantity(machine.start, "rad"));
+  return {.family = family,
+          .name = fmt::format("GuideOfFriction{:.0f}TenthsStallsARodOf{:.0f}MmUnder{:.0f}Newton", 10 * friction,
+                              1e3 * rod, force),
+          .parameter = fmt::format("l/r = {:g}, μ = {:g}, {:g} N", rod / machine.crank.radius, friction, force),
+          .scene = scene,
+          .truths = {closed_form("two equations for α and the rod's force, in long double",
+                                 {{"final_angle.crank", machine.stalls_at()}, {"final_speed.crank", 0}})}};
+}
+
 }  // namespace
 
 std::vector<HardCase> stick_slip_cases() {
@@ -195,6 +264,11 @@ std::vector<HardCase> stick_slip_cases() {
   cases.push_back(joint_friction(0.1, 100, "JointFrictionOfASmoothGuide"));
   cases.push_back(joint_friction(0.5, 100, "JointFrictionOfARoughGuide"));
   cases.push_back(joint_friction(1.2, 20, "JointFrictionNearSelfLocking"));
+  cases.push_back(stalls_by_its_guide(0.35, 0.5, 500));
+  cases.push_back(stalls_by_its_guide(0.35, 0.7, 500));
+  cases.push_back(stalls_by_its_guide(0.2, 0.9, 300));
+  cases.push_back(stalls_by_its_guide(0.2, 1.2, 300));
+  cases.push_back(stalls_by_its_guide(0.11, 1.0, 100));  // μ tan β = 0.96: locks itself nearly
   return cases;
 }
 
