@@ -17,9 +17,10 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double nothing = 1e-12;     // of a scale: a torque or speed within round-off
-constexpr double leaves_rest = 1e-9;  // of the speed scale: a prescribed motion that begins without acceleration
-constexpr double creep = 1e-4;        // of the speed scale: where a regularised contact reaches three quarters
+constexpr double nothing = 1e-12;          // of a scale: a torque or speed within round-off
+constexpr double leaves_rest = 1e-9;       // of the speed scale: a prescribed motion that begins without acceleration
+constexpr double creep = 1e-4;             // of the speed scale: where a regularised contact reaches three quarters
+constexpr double creep_ends = 20 * creep;  // beyond this a regularised contact moves, by its own law again
 constexpr double least_capacity = 1e-6, most_capacity = 1e3;  // of the torque scale, for sharing
 constexpr std::size_t few_contacts = 7;                       // so many are enumerated
 constexpr int most_changes = 200;
@@ -506,9 +507,10 @@ void Equations::contact_guards(double t, std::span<const double> y, double* g) {
     const Contact& contact = contacts_[c];
     double* const own = g + 2 * c;
     own[0] = own[1] = 1;
-    if (contact.regularised) continue;
     const int direction = sense(c);
-    if (direction != 0) {
+    if (contact.regularised) {
+      own[0] = creep_ends - std::abs(slip_speed(contact, now)) / contact.speed_scale;
+    } else if (direction != 0) {
       own[0] = direction * slip_speed(contact, now) / contact.speed_scale;
     } else if (is_prescribed(contact)) {
       own[0] = leaves_rest - std::abs(slip_speed(contact, now)) / contact.speed_scale;

@@ -31,6 +31,9 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
       } else if (local >= 2 * contacts_.size()) {
         int& sign = loss_sign_[static_cast<std::size_t>(lossy_[local - 2 * contacts_.size()])];
         sign = -sign;
+      } else if (contacts_[contact].regularised) {
+        contacts_[contact].regularised = false;
+        released.emplace_back(contact, slip_speed(contacts_[contact], instant(t, y)) > 0 ? 1 : -1);
       } else if (is_prescribed(contacts_[contact])) {
         const double v = slip_speed(contacts_[contact], instant(t, y));
         sense(contact) = sense(contact) != 0 ? -sense(contact) : v > 0 ? 1 : -1;

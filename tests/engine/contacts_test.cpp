@@ -339,5 +339,35 @@ TEST(Contacts, WithoutEventsTheyCreepAndSaySo) {
   EXPECT_NEAR(ydot[equations.speed_index(0)], -7.5, 1e-12);
 }
 
+// What moves on all the same, far beyond its creep, has a direction and its own law again.
+TEST(Contacts, WithoutEventsTheyMoveOnByTheirOwnLaw) {
+  const Scene scene = test::scene_from(R"(
+    line = ["a", "brake"]
+    a = { kind = "inertia", inertia = "2 kg*m2" }
+    brake = { kind = "brake", torque = "30 N*m" }
+    push = { kind = "torque source", on = "a", torque = "-45 N*m" }
+    run = { until = "2 s" }
+  )");
+  Equations equations(compile(scene, scene.effects), false);
+  std::vector<double> y = equations.start(0), g(equations.guard_count());
+  equations.regularise({0});
+  const double scale = equations.model().shafts[0].speed_scale;
+  double& speed = y[equations.speed_index(0)];
+  speed = -1.9e-3 * scale;
+  equations.guards(0, y, g);
+  EXPECT_GT(g[0], 0);
+  EXPECT_TRUE(equations.at_standstill(0));
+  speed = -2.1e-3 * scale;
+  equations.guards(0, y, g);
+  EXPECT_LT(g[0], 0);
+  std::vector<Event> log;
+  equations.fire(0, y, {0}, log);
+  EXPECT_FALSE(equations.at_standstill(0));
+  equations.guards(0, y, g);
+  EXPECT_NEAR(g[0], 2.1e-3, 1e-9);  // until it comes to rest
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log[0].what, "moves backwards");
+}
+
 }  // namespace
 }  // namespace kurbel

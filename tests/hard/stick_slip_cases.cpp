@@ -248,6 +248,37 @@ HardCase stalls_by_its_guide(double rod, double friction, double force) {
                                  {{"final_angle.crank", machine.stalls_at()}, {"final_speed.crank", 0}})}};
 }
 
+// A crank at a given speed over whole turns: the guide takes ∮ μ S tan β |dx|, S = (F + |m x″ ω²| by its sign)/(1 − μ
+// tan β), the load F four times the radius.
+HardCase prescribed_crank(double friction) {
+  const Crank crank{.rod = 0.2};
+  const double omega = 8, force = 200, turns = 3;
+  using Real = long double;
+  const auto rubbed = [&](Real phi) {
+    constexpr Real small = 1e-5L;
+    const Real slope = crank.slope(phi),
+               curvature = (crank.slope(phi + small) - crank.slope(phi - small)) / (2 * small);
+    const Real tangent = std::abs(crank.radius * std::sin(phi)) / crank.root(phi),
+               forwards = std::sin(phi) < 0 ? 1 : -1;
+    const Real axial = (force + forwards * crank.mass * curvature * omega * omega) / (1 - friction * tangent);
+    return friction * axial * tangent * std::abs(slope);
+  };
+  constexpr Real half = std::numbers::pi_v<Real>;
+  const auto heat = static_cast<double>(simpson(rubbed, 0, half, 2000) + simpson(rubbed, half, 2 * half, 2000));
+  const std::string scene = fmt::format(
+      "line = [\"drive\", \"crank\"]\ndrive = {{ kind = \"prescribed speed\", speed = {} }}\ncrank = {{ {}, load = {{ "
+      "kind = \"opposing\", force = {} }}, guide = {{ friction = {} }} }}\neffects = {{ joint_friction = true }}\nrun "
+      "= "
+      "{{ until = {} }}\n",
+      quantity(omega, "rad/s"), crank.keys(), quantity(force, "N"), friction, quantity(2 * pi * turns / omega, "s"));
+  return {.family = family,
+          .name = fmt::format("ACrankAtAGivenSpeedRubsItsGuideAt{:.0f}Tenths", 10 * friction),
+          .parameter = fmt::format("μ tan β up to {:.2g}", friction * 0.1 / std::sqrt(0.03)),
+          .scene = scene,
+          .truths = {closed_form("∮ μ S tan β |dx|, 4 r F a turn",
+                                 {{"work.harmful", -turns * heat}, {"work.useful", -turns * force * 0.4}})}};
+}
+
 }  // namespace
 
 std::vector<HardCase> stick_slip_cases() {
@@ -264,6 +295,7 @@ std::vector<HardCase> stick_slip_cases() {
   cases.push_back(joint_friction(0.1, 100, "JointFrictionOfASmoothGuide"));
   cases.push_back(joint_friction(0.5, 100, "JointFrictionOfARoughGuide"));
   cases.push_back(joint_friction(1.2, 20, "JointFrictionNearSelfLocking"));
+  for (const double friction : {0.3, 1.2, 1.6}) cases.push_back(prescribed_crank(friction));
   cases.push_back(stalls_by_its_guide(0.35, 0.5, 500));
   cases.push_back(stalls_by_its_guide(0.35, 0.7, 500));
   cases.push_back(stalls_by_its_guide(0.2, 0.9, 300));
