@@ -375,6 +375,7 @@ class Compiler {
     if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / inertia);  // after one turn
     if (speed == 0) speed = 1;
     if (torque == 0) torque = std::max(0.5 * inertia * speed * speed, 1e-12);  // kinetic energy per radian
+    check_scales(speed, torque);
     model_.speed_scale = speed;
     model_.torque_scale = torque;
     for (Shaft& shaft : model_.shafts) {
@@ -388,6 +389,24 @@ class Compiler {
       if (e.slips || e.springless) e.twist_scale = 1;
       if (stiffness > 0) e.twist_scale = torque / model_.scale_ratio[at(joint.a)] / stiffness;
     }
+  }
+
+  // Squares of them must be numbers, too.
+  void check_scales(double speed, double torque) {
+    constexpr double beyond_reason = 1e100;
+    if (speed < beyond_reason && torque < beyond_reason) return;
+    std::string largest = net().components.front();
+    double most = -1;
+    for (const Network::ShaftElement& e : net().elements) {
+      const Rated rated = e.element->rated();
+      const double size = std::max(std::abs(rated.torque), std::abs(rated.speed));
+      if (size > most) most = size, largest = e.component;
+    }
+    messages_.add(location_of(largest),
+                  fmt::format("the machine's torques reach {:.3g} N·m and its speeds {:.3g} rad/s; both must be below "
+                              "{:g}; check the values and units of \"{}\"",
+                              torque, speed, beyond_reason, largest));
+    messages_.throw_if_any();
   }
 
   int tracked(int node) {

@@ -16,10 +16,12 @@ namespace {
 using Cause = Breakdown::Kind;
 
 constexpr std::size_t events_told = 3, parameters_told = 3;
+const std::string edges = "edges in time", turns = "quarter turns";  // as step_limits tells them
 
-// "3", "twist of c3" and "c3", as far as they are known.
+// "twist of c3" and "c3", as far as they are known; or what ends the steps from outside: "edges in time".
 struct Culprit {
-  std::string state, element;
+  std::string state, element, bound = {};
+  double share = 0;  // of the steps that the bound ended
 };
 
 Culprit culprit_of(const Breakdown& broken, Equations& equations, const RunOutcome& outcome) {
@@ -29,8 +31,14 @@ Culprit culprit_of(const Breakdown& broken, Equations& equations, const RunOutco
       found.state = equations.state_name(*broken.state);
       found.element = element_behind(equations, *broken.state, outcome.t, outcome.state);
     } else if (broken.kind == Cause::budget) {
+      const Scene& scene = equations.model().scene;
       for (const LimitedSteps& l : outcome.limits.ranked(equations, outcome.t, outcome.state)) {
-        if (l.element.empty()) continue;
+        if (l.by == edges || l.by == turns) {
+          found.bound = l.by;
+          found.share = l.share;
+          break;
+        }
+        if (!scene.find(l.element)) continue;
         found.element = l.element;
         if (!l.states.empty()) found.state = l.states[0];
         break;
@@ -66,6 +74,14 @@ std::vector<std::string> parameters_of(const Scene& scene, const std::string& co
   return list;
 }
 
+// Speed of the fastest shaft [rad/s].
+double fastest(const Equations& equations, const RunOutcome& outcome) {
+  double speed = 0;
+  for (std::size_t s = 0; s < equations.model().free_shafts; ++s)
+    speed = std::max(speed, std::abs(outcome.state[equations.speed_index(static_cast<int>(s))]));
+  return speed;
+}
+
 bool is_implicit(const std::string& method) { return method.starts_with("esdirk") || method == "bdf"; }
 
 double one_digit_up(double value) {
@@ -84,11 +100,19 @@ std::string advice(const Breakdown& broken, const Culprit& culprit, const Equati
                                  one_digit_up(1.2 * options.budget / done), options.budget, 100 * done));
   }
   const double accuracy = options.accuracy > 0 ? options.accuracy : scene.run.accuracy;
-  if (broken.kind != Cause::not_finite && accuracy < 1e-3)
+  if (broken.kind != Cause::not_finite && culprit.bound.empty() && accuracy < 1e-3)
     ways.push_back(fmt::format("accuracy = {:g} (now {:g})", std::min(1e-3, 10 * accuracy), accuracy));
-  if (broken.kind != Cause::restless)
-    ways.push_back(
-        fmt::format("method = \"{}\" (now \"{}\")", is_implicit(options.method) ? "dop853" : "esdirk", options.method));
+  if (culprit.bound == edges) {
+    ways.push_back("fewer points in tables over time");
+  } else if (culprit.bound == turns) {
+    ways.push_back("a load or a limit for what drives so fast");
+  } else if (broken.kind != Cause::restless) {
+    const std::string& now = outcome.statistics.method;  // of auto, what it came to
+    const char* other = options.method == "auto" && now.find("esdirk") != std::string::npos ? "bdf"
+                        : is_implicit(options.method)                                       ? "dop853"
+                                                                                            : "esdirk";
+    ways.push_back(fmt::format("method = \"{}\" (now \"{}\")", other, options.method));
+  }
   if (!culprit.element.empty()) {
     const std::vector<std::string> parameters = parameters_of(scene, culprit.element);
     std::string values;
@@ -115,12 +139,15 @@ std::string advice(const Breakdown& broken, const Culprit& culprit, const Equati
 std::string diagnosis(const Breakdown& broken, Equations& equations, const RunOptions& options,
                       const RunOutcome& outcome) {
   std::string text = fmt::format("stopped at t = {:.9g} s: {}", broken.t, broken.why);
-  if (broken.kind == Cause::other) return text;
+  if (broken.kind == Cause::other) return outcome.events.empty() ? text : text + "; " + last_events(outcome.events);
   const Culprit culprit = culprit_of(broken, equations, outcome);
   const char* role = broken.kind == Cause::not_finite ? "lost its value"
                      : broken.kind == Cause::restless ? "finds no rest"
                                                       : "keeps the steps short";
-  if (!culprit.state.empty())
+  if (!culprit.bound.empty())
+    text += fmt::format("; {} end {:.0f} % of the steps{}", culprit.bound, 100 * culprit.share,
+                        culprit.bound == turns ? fmt::format(", at {:.3g} rad/s", fastest(equations, outcome)) : "");
+  else if (!culprit.state.empty())
     text += fmt::format("; {}{} {}{}", culprit.state.starts_with("a ") ? "" : "the ", culprit.state, role,
                         culprit.element.empty() ? "" : fmt::format(", by \"{}\"", culprit.element));
   else if (!culprit.element.empty())

@@ -199,6 +199,7 @@ class Loop {
       return true;
     }
     const StepLimit limited_by = stepper_->limited_by();
+    last_step_ = stepper_->t() - stepper_->t_previous();
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
@@ -541,12 +542,11 @@ class Loop {
     if (++checks_ % 64 != 0) return false;
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
     if (cpu_now() - begin_ < options_.budget) return false;
-    const double h = stepper_->t() - stepper_->t_previous();
     broken_ = {.kind = Breakdown::Kind::budget,
                .t = stepper_->t(),
                .why = fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). "
                                   "Raise `budget`, loosen `accuracy`, or switch an effect off",
-                                  options_.budget, h)};
+                                  options_.budget, last_step_)};
     return true;
   }
 
@@ -586,7 +586,7 @@ class Loop {
   bool may_dip_;               // some guard may fall below zero and rise again within a step
   double begin_ = 0, edge_ = 0, last_event_ = -1;
   int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
-  double explicit_step_ = 0, trial_begin_ = 0;
+  double explicit_step_ = 0, trial_begin_ = 0, last_step_ = 0;
   struct Recent {
     double time;
     std::vector<std::size_t> fired;
