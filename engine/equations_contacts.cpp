@@ -144,7 +144,8 @@ double Equations::effective_inertia(const Contact& contact) const {
   return mobility > 0 ? 1 / mobility : 0;
 }
 
-// The constraint rows of the present modes, and the shafts that they tie to the frame.
+// The constraint rows of the present modes, and the shafts that they tie to the frame; shares by the holds as they were
+// found last.
 void Equations::tie_stuck_contacts() {
   const Model& m = *model_;
   std::vector<ConstraintRow> rows;
@@ -160,7 +161,6 @@ void Equations::tie_stuck_contacts() {
   row_contact_.clear();
   tied_ = !rows.empty();
   std::fill(still_.begin(), still_.end(), 0);
-  find_holds();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
     if (sense(c) != 0 || contact.regularised || is_prescribed(contact)) continue;
@@ -266,11 +266,10 @@ void Equations::publish_contacts(double* work_rate) {
   }
 }
 
-// What every contact can hold just now.
+// What every contact can hold at the state looked at last, which must still be there.
 void Equations::find_holds() {
   std::fill(shaft_hold_.begin(), shaft_hold_.end(), Hold{});
   std::fill(element_hold_.begin(), element_hold_.end(), Hold{});
-  if (!snapshot_.now.speed) return;  // nothing was evaluated yet
   for (const auto& pool : model_->pools) {
     pool->add_holds(snapshot_.now, shaft_hold_.data(), element_hold_.data());
     pool->add_slip_holds(snapshot_.now, slip_hold_.data());
@@ -322,6 +321,7 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
                                           double* total) {
   for (const auto& pool : model_->pools) pool->follow_directions(instant(t, y), mode_.data());
   snapshot_.now = instant(t, y);
+  find_holds();
   tie_stuck_contacts();
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
   find_holds();
@@ -356,6 +356,7 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
 void Equations::tie_speeds(double t, std::span<double> y) {
   const Model& m = *model_;
   snapshot_.now = instant(t, y);
+  find_holds();
   tie_stuck_contacts();
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);  // for the inertias
   std::vector<double> speed(snapshot_.now.speed, snapshot_.now.speed + m.shafts.size());
@@ -386,7 +387,11 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
   std::vector<std::size_t> always(stopped.begin(), stopped.end());
   for (const auto& [c, direction] : forced) open.insert(c), always.push_back(c), sense(c) = direction;
   const std::vector<std::size_t> among(open.begin(), open.end());
-  if (among.empty() && lossy_.empty()) return tie_stuck_contacts();
+  if (among.empty() && lossy_.empty()) {
+    snapshot_.now = instant(t, y);
+    find_holds();
+    return tie_stuck_contacts();
+  }
   if (!stopped.empty()) tie_speeds(t, y);
   std::set<std::vector<int>> seen;
   int changes = 0;

@@ -141,7 +141,6 @@ std::vector<double> Equations::shaft_angles_by_twist(std::size_t elastic) const 
 // All modes anew for a state; turns are counted from here.
 void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   const Model& m = *model_;
-  snapshot_.now = {};  // the state that was looked at last may be gone
   std::fill(turns_.begin(), turns_.end(), 0.0);
   std::fill(mode_.begin(), mode_.end(), 0);  // a law that lost its events in an earlier run has them again
   wrap(y);
@@ -231,6 +230,8 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   std::fill(loss_direction_.begin(), loss_direction_.end(), reduction_speed >= 0 ? 1 : -1);
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
+  snapshot_.now = instant(t, y);
+  find_holds();
   tie_stuck_contacts();
   return y;
 }
