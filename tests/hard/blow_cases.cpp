@@ -1,4 +1,6 @@
 // blow_cases.cpp — forces that come and go within microseconds: break-through, hammer blows, emergency brakes, jams.
+#include <algorithm>
+
 #include "tests/hard/families.h"
 #include "tests/hard/machines.h"
 
@@ -11,7 +13,7 @@ const std::string family = "Blow";
 Truth peak_of_either_sign(const std::string& words, const std::string& name, double value) {
   return residual(words, [name, value](const Result& result) {
     const Figure* figure = result.find(name);
-    return figure ? std::abs(std::abs(figure->value) - value) / figure->scale : HUGE_VAL;
+    return figure ? std::abs(std::abs(figure->value) - value) / std::min(figure->scale, 10 * value) : HUGE_VAL;
   });
 }
 
@@ -62,8 +64,8 @@ HardCase hammer(double width) {
               quantity(j1, "kg*m2"), quantity(j2, "kg*m2"), quantity(k, "N*m/rad"), begin, begin + width,
               impulse / width, begin + 2 * width, quantity(until, "s")),
           .truths = {closed_form("θ = H/(J₁ ω_n) (sin ½ω_n w/(½ω_n w))² sin ω_n (t − t_m)",
-                                 {{"final_speed.a", common + j2 / (j1 + j2) * relative},
-                                  {"final_speed.b", common - j1 / (j1 + j2) * relative}}),
+                                 {by_its_size("final_speed.a", common + j2 / (j1 + j2) * relative),
+                                  by_its_size("final_speed.b", common - j1 / (j1 + j2) * relative)}),
                      peak_of_either_sign("peak torque k θ_max", "peak_spring_torque.c", k * rate / natural)}};
 }
 

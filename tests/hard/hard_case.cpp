@@ -39,11 +39,9 @@ double scale_of(const Figure& figure, double given) {
   return scale;
 }
 
-// The program's scale may be a million times a figure (that of a blow's torque, for what follows it); a truth that no
-// answer could fail says nothing, so that a figure is judged by at most ten times itself.
-double scale_of_known(const Figure& figure, const Known& known) {
-  const double scale = scale_of(figure, known.scale);
-  return known.scale > 0 || known.value == 0 ? scale : std::min(scale, 10 * std::abs(known.value));
+// Would the figure's absence fail? (A figure that is to be 0 tells by what it is otherwise.)
+bool tells(double value, double scale, double accuracy) {
+  return value == 0 || std::abs(value) > allowed_ratio * accuracy * scale;
 }
 
 // Not a number counts as worst.
@@ -72,12 +70,15 @@ class Reference {
       known_ = true;
     }
     Judgement worst;
+    bool some_tell = false;
     for (const std::string& name : figures) {
       const Figure& truth = figure_of(best_, name);
       const double scale = scale_of(truth, 0);
+      some_tell = some_tell || tells(truth.value, scale, result.accuracy);
       take_worse(worst, {std::abs(figure_of(result, name).value - truth.value) / scale, name,
                          std::abs(figure_of(other_, name).value - truth.value) / scale});
     }
+    worst.tells = some_tell;
     return worst;
   }
 
@@ -115,7 +116,13 @@ Judgement judge(const HardCase& hard_case, const Result& result) {
   Judgement worst;
   for (const Figure& figure : result.figures)
     if (!std::isfinite(figure.value)) return {HUGE_VAL, figure.name + " is not finite", 0};
-  for (const Truth& truth : hard_case.truths) take_worse(worst, truth.judge(result));
+  bool some_tell = false;
+  for (const Truth& truth : hard_case.truths) {
+    const Judgement next = truth.judge(result);
+    some_tell = some_tell || next.tells;
+    take_worse(worst, next);
+  }
+  if (!some_tell) return {HUGE_VAL, "no figure that could fail at this accuracy", 0};
   if (hard_case.energy) take_worse(worst, {result.energy.relative, "energy balance", 0});
   return worst;
 }
@@ -185,11 +192,14 @@ Result simulate_case(const HardCase& hard_case, const std::string& method, doubl
 Truth closed_form(std::string words, std::vector<Known> figures) {
   return {"closed form: " + std::move(words), [figures = std::move(figures)](const Result& result) {
             Judgement worst;
+            bool some_tell = false;
             for (const Known& known : figures) {
               const Figure& figure = figure_of(result, known.figure);
-              const double scale = scale_of_known(figure, known);
+              const double scale = scale_of(figure, known.scale);
+              some_tell = some_tell || tells(known.value, scale, result.accuracy);
               take_worse(worst, {std::abs(figure.value - known.value) / scale, known.figure, 0});
             }
+            worst.tells = some_tell;
             return worst;
           }};
 }

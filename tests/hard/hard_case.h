@@ -5,6 +5,7 @@
 //   run_case(hard_case, "dop853", 1e-6).verdict
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -20,6 +21,7 @@ struct Judgement {
   double error = 0;        // over the figure's scale
   std::string what;        // the figure that is worst
   double uncertainty = 0;  // of the truth itself, over the same scale
+  bool tells = true;       // an answer of nothing at all would fail
 };
 
 // How the answer is known.
@@ -33,6 +35,9 @@ struct Known {
   double value = 0;
   double scale = 0;  // 0: the program's own scale of the figure
 };
+// Judged by ten times itself: where the program's scale is a million times the figure, as that of a blow's torque for
+// what follows it, no answer could fail.
+inline Known by_its_size(std::string figure, double value) { return {std::move(figure), value, 10 * std::abs(value)}; }
 
 // Figures that a formula gives.
 Truth closed_form(std::string words, std::vector<Known> figures);

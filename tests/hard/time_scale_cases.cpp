@@ -38,7 +38,7 @@ struct ShuntDrive {
             .name = fmt::format("CircuitOf1e{:.0f}SecondsOver{:.0f}Milliseconds", std::log10(electrical), until * 1e3),
             .parameter = fmt::format("L/R = {:g} s, {:g} s", electrical, until),
             .scene = scene(until),
-            .truths = {closed_form("two exponentials", {{"final_speed.motor", speed_at(until)}})}};
+            .truths = {closed_form("two exponentials", {by_its_size("final_speed.motor", speed_at(until))})}};
   }
 };
 
