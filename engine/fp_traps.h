@@ -19,7 +19,7 @@ class FpTraps {
  public:
 #ifdef KURBEL_FP_TRAPS
   explicit FpTraps(std::span<const double> state) : before_(fegetexcept()) {
-    constexpr double beyond_reason = 1e30;
+    constexpr double beyond_reason = 1e12;
     if (!std::all_of(state.begin(), state.end(), [](double v) { return std::abs(v) < beyond_reason; })) return;
     std::feclearexcept(traps);  // what was raised before would stop us at once
     feenableexcept(traps);

@@ -153,7 +153,12 @@ SliderCrankMotion<T> SliderCrankDynamics::motion(const std::array<T, most>& z, c
   if (end >= 0) m.length = m.length + z[stretch], m.stretch_rate = w[stretch];
   const T rise = data_.offset + z[y] - z[f_y] - r * m.sin_phi - z[e_y];
   m.sin_beta = rise / m.length;
-  m.cos_beta = sqrt((m.length - rise) * (m.length + rise)) / m.length;
+  // Trial steps that diverge may leave the rod no way to lie; with a millionth of cos β their numbers stay numbers,
+  // large enough for the step control to refuse them.
+  constexpr double least_cosine = 1e-6;
+  const T across = (m.length - rise) * (m.length + rise);
+  m.cos_beta =
+      value_of(across) > std::pow(least_cosine * data_.rod_length, 2) ? sqrt(across) / m.length : T(least_cosine);
   const T lever = m.length * m.cos_beta;
   m.of_beta[phi] = -r * m.cos_phi / lever;
   m.of_beta[e_y] = m.of_beta[f_y] = -1.0 / lever;

@@ -325,9 +325,13 @@ class Simulation {
         s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
   }
 
-  // All of them, or nearly all: one step in thousands that differs says nothing of the others' error.
+  // All of them, or nearly all. Stability holds explicit steps, well below what the tolerance asks for: there one in
+  // thousands that differs says nothing. Implicit ones are held by accuracy or by rounding: a thirtieth of the
+  // tolerance makes at least half as many steps again, and a few say nothing.
   static bool took_the_same_steps(const OneRun& a, const OneRun& b, double difference) {
-    constexpr double alike = 1.02, rounding = 1e-13;
+    const std::string& method = b.outcome.statistics.method;
+    const double alike = method.starts_with("esdirk") || method.starts_with("bdf") ? 1.1 : 1.02;
+    constexpr double rounding = 1e-13;
     const auto steps = [](const OneRun& run) { return static_cast<double>(run.outcome.statistics.stepper.steps); };
     if (steps(a) == steps(b) && a.outcome.state == b.outcome.state) return true;
     return steps(b) <= alike * steps(a) && difference > rounding;
