@@ -122,7 +122,8 @@ HardCase rattle(double until) {
           .parameter = fmt::format("b = 2 mrad, undamped, {:g} s", until),
           .scene = rattle_scene(until),
           .truths = {rattle_impulse(until), meets_as_often(rattle_scene(until), 0.02)},
-          .heavy = until > 1};
+          .heavy = until > 1,
+          .budget = 2};
 }
 HardCase first_contacts(double until) {
   return {.family = family,
