@@ -67,18 +67,24 @@ std::string error_cell(const CaseOutcome& o) {
   return o.error > 0 || o.verdict == Verdict::failed ? fmt::format("{:.0e}", o.error) : "0";
 }
 
-// "FreeCrankOver10Turns" → "Free crank over 10 turns".
+// "FreeCrankOver10Turns" → "Free crank over 10 turns"; "1e9" and "1em9" are one number, and 1e-9 the other.
 std::string in_words(const std::string& name) {
-  const auto is = [](int (*kind)(int), char c) { return kind(static_cast<unsigned char>(c)) != 0; };
+  const auto is = [&](int (*kind)(int), std::size_t i) {
+    return i < name.size() && kind(static_cast<unsigned char>(name[i])) != 0;
+  };
   std::string words;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool word = i > 0 && is(std::isupper, name[i]);
-    const bool number = i > 0 && is(std::isdigit, name[i]) && is(std::isalpha, name[i - 1]) &&
-                        !(i > 1 && is(std::isdigit, name[i - 2]));  // "1e9" is one
-    if (word || (number && !is(std::isupper, name[i - 1]))) words += ' ';
-    words += word && i + 1 < name.size() && is(std::islower, name[i + 1])
-                 ? static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])))
-                 : name[i];
+    if (i > 1 && name[i] == 'm' && name[i - 1] == 'e' && is(std::isdigit, i - 2) && is(std::isdigit, i + 1)) {
+      words += '-';
+      continue;
+    }
+    const bool in_number = i > 1 && (name[i - 1] == 'e' || name[i - 1] == 'm') && words.size() > 1 &&
+                           (words.back() == '-' || is(std::isdigit, i - 2));
+    const bool word = i > 0 && is(std::isupper, i);
+    const bool number = i > 0 && is(std::isdigit, i) && is(std::islower, i - 1) && !in_number;
+    if (word || number) words += ' ';
+    const bool lower = word && (is(std::islower, i + 1) || name[i] == 'A');  // "DC" stays
+    words += lower ? static_cast<char>(std::tolower(static_cast<unsigned char>(name[i]))) : name[i];
   }
   return words;
 }
