@@ -240,7 +240,9 @@ DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, co
   const Matrix further = mass.bottomRightCorner(n, n);
   const Eigen::LLT<Matrix> factors(further);
   const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling), alone = factors.solve(force);
-  Solved solved{mass(0, 0) - coupling.dot(by_alpha), -h[free[0]] - coupling.dot(alone), {}, {}};
+  // What moves with the crank only adds to its own inertia; rounding in trial steps that diverge takes away.
+  const double inertia = std::max(mass(0, 0) - coupling.dot(by_alpha), p.dynamics->data().crank_inertia);
+  Solved solved{inertia, -h[free[0]] - coupling.dot(alone), {}, {}};
   for (std::size_t k = 0; k < p.further(); ++k) solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
   return solved;
 }
