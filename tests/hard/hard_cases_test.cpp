@@ -22,7 +22,6 @@ class HardCases : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(HardCases, EndRight) {
   const HardCase& hard_case = all_cases()[GetParam()];
-  if (hard_case.budget > 60) GTEST_SKIP() << "takes minutes: kurbel_bench hard runs it";
   for (std::size_t m = 0; m < all_methods().size(); ++m) {
     const std::string& method = all_methods()[m];
     if (hard_case.heavy && method != "auto") continue;
