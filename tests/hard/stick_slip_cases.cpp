@@ -248,7 +248,7 @@ HardCase stalls_by_its_guide(double rod, double friction, double force) {
                               1e3 * rod, force),
           .parameter = fmt::format("l/r = {:g}, μ = {:g}, {:g} N", rod / machine.crank.radius, friction, force),
           .scene = scene,
-          .truths = {closed_form("two equations for α and the rod's force, in long double",
+          .truths = {closed_form("two equations for α and the rod's force, integrated in long double",
                                  {{"final_angle.crank", machine.stalls_at()}, {"final_speed.crank", 0}})}};
 }
 
