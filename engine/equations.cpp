@@ -466,7 +466,7 @@ bool Equations::needs_wrap(std::span<const double> y) const {
 bool Equations::wrap(std::span<double> y) {
   bool changed = false;
   for (std::size_t i = 0; i < turns_.size(); ++i) {
-    const double k = std::floor(y[i] / two_turns);
+    const double k = std::floor(y[i] / two_turns) - first_two_turns_;
     if (k == 0) continue;
     y[i] = std::fma(-k, two_turns, y[i]) - k * two_turns_rest;
     turns_[i] += k;

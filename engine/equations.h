@@ -83,6 +83,8 @@ class Equations final : public OdeSystem {
   std::string guard_owner(std::size_t guard) const;
 
   // --- angles ---
+  // Angles are kept from 4π · first on (usually 0): a run that confirms another one looks up every law elsewhere.
+  void keep_angles_from(int first) { first_two_turns_ = first; }
   // Takes whole multiples of two turns out of the angles; true if any changed.
   bool wrap(std::span<double> y);
   bool needs_wrap(std::span<const double> y) const;
@@ -201,7 +203,8 @@ class Equations final : public OdeSystem {
   std::vector<int> mode_, direction_, prescribed_piece_;
   std::vector<char> active_;
   std::vector<double> turns_;  // per tracked angle, in units of two turns
-  std::vector<int> slip_;      // per elastic joint: sense of slip, 0 = stuck; 1 where there is no contact
+  double first_two_turns_ = 0;
+  std::vector<int> slip_;  // per elastic joint: sense of slip, 0 = stuck; 1 where there is no contact
   std::vector<int> loss_direction_, loss_sign_;  // per relation: sense of sliding, sign of λ
 
   std::vector<Contact> contacts_;  // shafts against the frame first

@@ -92,7 +92,8 @@ class Loop {
 
  private:
   void choose_method() {
-    method_ = method_named(options_.method);
+    if (options_.elsewhere) explicit_ = Method::verner_65, implicit_ = Method::esdirk_54;
+    method_ = options_.method == "auto" ? explicit_ : method_named(options_.method);
     std::string& reason = out_.statistics.reason;
     if (options_.method != "auto") {
       reason = "asked for";
@@ -127,7 +128,7 @@ class Loop {
   // Where inertia or torques vary with the angle, over more than a few turns.
   bool work_equation_pays() const {
     const Model& m = equations_.model();
-    if (options_.from || options_.stop || options_.extension) return false;
+    if (options_.from || options_.stop || options_.extension || options_.elsewhere) return false;
     if (!m.elastic.empty() || m.free_shafts != 1) return false;
     if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
     if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
@@ -252,9 +253,9 @@ class Loop {
       const auto shaft = static_cast<std::size_t>(angle.shaft);
       if ((!m.shafts[shaft].variable && equations_.guard_count() == 0) || shaft >= m.free_shafts) continue;
       const double omega = std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
-      const double quarter = stepper_->t() + 0.5 * M_PI / omega;
-      if (!(omega > 0) || !(quarter < t)) continue;
-      t = quarter;
+      const double turned = stepper_->t() + (options_.elsewhere ? 0.4 : 0.5) * M_PI / omega;
+      if (!(omega > 0) || !(turned < t)) continue;
+      t = turned;
       bound_ = StepLimits::Bound::turn;
     }
     return t;
@@ -494,12 +495,12 @@ class Loop {
       return;
     const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
     const double t = stepper_->t();
-    if (method_ == Method::dormand_prince_853) {
+    if (method_ == explicit_) {
       held_ = stepper_->held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
       if (held_ < held_needed_ || left < 5 * held_steps_before_trial * h) return;
       explicit_step_ = h;
       implicit_steps_ = held_ = 0;
-      change_method(Method::esdirk_43,
+      change_method(implicit_,
                     fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
       return;
     }
@@ -511,16 +512,16 @@ class Loop {
     implicit_steps_ = trial_warm_up;
     if (mean >= implicit_step_cost * explicit_step_) return;
     held_needed_ *= 4;
-    change_method(Method::dormand_prince_853,
+    change_method(explicit_,
                   fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s",
                               mean, explicit_step_));
   }
 
   // Implicit steps that were only tried give way to explicit ones, for good, where they fail. False: none were tried.
   bool leave_implicit(const std::string& why) {
-    if (options_.method != "auto" || method_ != Method::esdirk_43) return false;
+    if (options_.method != "auto" || method_ != implicit_) return false;
     held_needed_ = std::numeric_limits<int>::max();
-    change_method(Method::dormand_prince_853, fmt::format("implicit steps failed: {}", why));
+    change_method(explicit_, fmt::format("implicit steps failed: {}", why));
     return true;
   }
 
@@ -529,8 +530,8 @@ class Loop {
     const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
     make(method, t, y);
     ++changes_;
-    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(Method::dormand_prince_853),
-                                         name_of(method), changes_, changes_ == 1 ? "" : "s");
+    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(explicit_), name_of(method),
+                                         changes_, changes_ == 1 ? "" : "s");
     out_.statistics.reason = fmt::format("at {:.4g} s: {}", t, reason);
   }
 
@@ -578,6 +579,7 @@ class Loop {
   StepView view_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
+  Method explicit_ = Method::dormand_prince_853, implicit_ = Method::esdirk_43;  // that "auto" takes
   RunOutcome out_;
   std::optional<Breakdown> broken_;
   StepLimits::Bound bound_ = StepLimits::Bound::until;

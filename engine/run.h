@@ -45,6 +45,9 @@ struct RunOptions {
   std::function<double(double t, std::span<const double> y)> stop = {};
   RunExtension* extension = nullptr;
   double accuracy = 0;  // that the tolerance was made from, for advice in words; 0: the scene's
+  // To confirm another run: "auto" chooses among methods that the usual choice does not take, and steps end at other
+  // angles where angles hold them.
+  bool elsewhere = false;
 };
 
 struct RunStatistics {

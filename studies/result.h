@@ -17,10 +17,11 @@ struct Figure {
   std::string name;  // dotted and stable: "peak_torque.main_coupling"
   double value = 0;  // SI
   std::string unit;
-  std::optional<double> error;  // measured: difference to a run with tolerances 30 × looser
+  std::optional<double> error;  // measured, by other runs (measured_errors.h)
   std::optional<double> at;     // time it belongs to [s]
   double scale = 0;             // rated quantity that the error is judged by; 0: the error is not judged
-  double resolution = 0;        // part of the error that both runs share: what sampling leaves open
+  double resolution = 0;        // part of the error that all runs share: what sampling leaves open
+  bool exact = false;           // by construction: a count, a speed that is given or held
 };
 
 struct ComponentState {
@@ -59,6 +60,7 @@ struct Result {
   bool accuracy_confirmed = false, errors_measured = false;
   double tolerance = 0;
   int runs = 0;
+  std::int64_t flow_calls = 0;  // evaluations of the right-hand side, of all runs
   std::vector<Figure> figures;
   std::map<std::string, ComponentState> final_state;
   std::vector<Event> events;

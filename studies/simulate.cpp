@@ -9,6 +9,7 @@
 
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
+#include "studies/measured_errors.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
 #include "studies/report/trace.h"
@@ -20,6 +21,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
 constexpr int energy_checks = 60;
+// Below this a tolerance asks for more than double precision has.
+constexpr double least_tolerance = 2e-15;
 
 std::vector<std::string> components_with_impacts(const Model& model) {
   constexpr std::string_view ending = ".contact";
@@ -105,6 +108,8 @@ class Figures {
       add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
       add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
           "rad/s", model_.speed_scale * ratio, run_.outcome.t);
+      const std::size_t shaft = at(model_.shaft_of_node[at(node)]);
+      run_.figures.back().exact = shaft >= model_.free_shafts || equations_.at_standstill(shaft);
     }
   }
   // Heat of what slips.
@@ -121,6 +126,7 @@ class Figures {
       for (const Event& e : run_.outcome.events)
         count += e.component == component && e.what.ends_with(": touches") && e.from.ends_with(": in flight");
       add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
+      run_.figures.back().exact = true;
     }
   }
   // From the signal that makes the reduction link stop to its rest.
@@ -201,59 +207,21 @@ class Simulation {
     result_.label = label;
   }
 
-  // Tolerances are tightened until two runs agree within the accuracy, and the energy balance of the finer one closes
-  // within it.
+  // Tolerances are tightened until two runs agree within the accuracy and the energy balance of the finer one closes
+  // within it. Then a third run, from elsewhere, must agree with it, too (engine/README.md says what that covers).
   Result run() {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
                     model_->effects.describe(), settings_.until));
     note_balanced_start();
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
-    double tolerance = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
-    bool confirming_run_failed = false;
-    std::unique_ptr<OneRun> coarse, fine = one_run(tolerance);
-    result_.runs = 1;
-    while (options_.measure_error && fine->outcome.complete) {
-      coarse = std::move(fine);
-      tolerance /= tolerance_step;
-      fine = one_run(tolerance);
-      ++result_.runs;
-      if (!fine->outcome.complete) {
-        result_.notes.push_back(fmt::format(
-            "the confirming run failed ({}); figures are those of the looser run, {}", fine->outcome.diagnosis,
-            result_.errors_measured ? "with errors by the run before it" : "without errors"));
-        fine = std::move(coarse);
-        tolerance *= tolerance_step;
-        confirming_run_failed = true;
-        if (options_.interrupted && options_.interrupted->load()) {
-          fine->outcome.complete = false;
-          fine->outcome.diagnosis =
-              "interrupted in the run that measures the errors; the figures are whole, but without errors";
-        }
-        break;
-      }
-      // Errors that two runs share, in steps that edges hold, show in the balance.
-      const double of_figures = measure_errors(*coarse, *fine), of_energy = fine->energy->relative();
-      result_.measured_accuracy = std::max(of_figures, of_energy);
-      result_.errors_measured = true;
-      // Steps that edges hold are the same at both tolerances: such runs prove nothing against each other.
-      if (took_the_same_steps(*coarse, *fine, of_figures) && tolerance / tolerance_step >= 2e-15) {
-        log(fmt::format("  tolerances {:.0e} and {:.0e} took the same steps: go on", tolerance * tolerance_step,
-                        tolerance));
-        continue;
-      }
-      result_.accuracy_confirmed = result_.measured_accuracy <= settings_.accuracy;
-      log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for: {}",
-                      tolerance * tolerance_step, tolerance, of_figures, of_energy, settings_.accuracy,
-                      result_.accuracy_confirmed ? "reached" : "go on"));
-      if (result_.accuracy_confirmed || tolerance / tolerance_step < 2e-15) break;
+    tolerance_ = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
+    fine_ = one_run(tolerance_);
+    if (options_.measure_error && fine_->outcome.complete) {
+      confirm();
+      state_errors();
     }
-    if (result_.errors_measured && !result_.accuracy_confirmed)
-      result_.notes.push_back(fmt::format(
-          "accuracy {:.1e} was asked for, {:.1e} was reached{}{}", settings_.accuracy, result_.measured_accuracy,
-          result_.measured_accuracy == fine->energy->relative() ? " in the energy balance" : "",
-          confirming_run_failed ? "" : ": the tolerances cannot be tightened further"));
-    fill(*fine, tolerance);
+    fill(*fine_, tolerance_);
     return std::move(result_);
   }
 
@@ -270,20 +238,118 @@ class Simulation {
     return work_tables_;
   }
 
-  std::unique_ptr<OneRun> one_run(double tolerance) {
+  // Two runs of the ladder and one from elsewhere; whichever is too coarse for the accuracy is repeated, tighter.
+  void confirm() {
+    for (;;) {
+      const bool ladder_agrees = coarse_ && error_by(coarse_.get(), nullptr) <= settings_.accuracy &&
+                                 fine_->energy->relative() <= settings_.accuracy;
+      if (!ladder_agrees && can_be_tightened(tolerance_)) {
+        if (!tighten()) return;
+        elsewhere_.reset();
+      } else if (!elsewhere_) {
+        if (!run_elsewhere(tolerance_)) return;
+      } else {
+        if (!ladder_agrees || error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy) return;
+        const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
+        if (can_be_tightened(elsewhere_tolerance_) && (blame_elsewhere || !can_be_tightened(tolerance_))) {
+          if (!run_elsewhere(elsewhere_tolerance_ / tolerance_step)) return;
+        } else if (!can_be_tightened(tolerance_) || !tighten()) {
+          return;
+        }
+      }
+    }
+  }
+
+  std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere) const {
+    std::vector<Witness> list;
+    if (coarse) list.push_back({&coarse->figures, 1});
+    if (elsewhere) list.push_back({&elsewhere->figures, 2});
+    return list;
+  }
+  // Largest error over its scale that these runs find in the figures.
+  double error_by(const OneRun* coarse, const OneRun* elsewhere) const {
+    std::vector<Figure> figures = fine_->figures;
+    return measure_errors(figures, witnesses(coarse, elsewhere));
+  }
+  static bool can_be_tightened(double tolerance) { return tolerance / tolerance_step >= least_tolerance; }
+
+  // The next run of the ladder. False where it failed: then the run before it stands.
+  bool tighten() {
+    std::unique_ptr<OneRun> tighter = one_run(tolerance_ / tolerance_step);
+    if (!tighter->outcome.complete) {
+      unconfirmed_ =
+          fmt::format("the confirming run failed ({}); figures are those of the looser run, {}",
+                      tighter->outcome.diagnosis, coarse_ ? "with errors by the run before it" : "without errors");
+      note_interrupt();
+      return false;
+    }
+    coarse_ = std::move(fine_);
+    fine_ = std::move(tighter);
+    tolerance_ /= tolerance_step;
+    log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for",
+                    tolerance_ * tolerance_step, tolerance_, error_by(coarse_.get(), nullptr),
+                    fine_->energy->relative(), settings_.accuracy));
+    return true;
+  }
+
+  // By another method, with steps that end elsewhere and angles that are looked up elsewhere. False where it failed.
+  bool run_elsewhere(double tolerance) {
+    std::unique_ptr<OneRun> other = one_run(tolerance, true);
+    if (!other->outcome.complete) {
+      unconfirmed_ = fmt::format("the run by another method that should confirm the figures failed ({})",
+                                 other->outcome.diagnosis);
+      note_interrupt();
+      return false;
+    }
+    elsewhere_ = std::move(other);
+    elsewhere_tolerance_ = tolerance;
+    log(fmt::format("  {} from elsewhere with {:.0e} agrees within {:.1e}", elsewhere_->outcome.statistics.method,
+                    tolerance, error_by(nullptr, elsewhere_.get())));
+    return true;
+  }
+
+  void note_interrupt() {
+    if (!options_.interrupted || !options_.interrupted->load()) return;
+    fine_->outcome.complete = false;
+    fine_->outcome.diagnosis =
+        "interrupted in a run that measures the errors; the figures are whole, but their errors are not";
+  }
+
+  // Errors of all figures by all runs that were made.
+  void state_errors() {
+    if (!unconfirmed_.empty()) result_.notes.push_back(unconfirmed_);
+    if (!coarse_ && !elsewhere_) return;
+    const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
+                 of_energy = fine_->energy->relative();
+    result_.measured_accuracy = std::max(of_figures, of_energy);
+    result_.errors_measured = true;
+    result_.accuracy_confirmed =
+        unconfirmed_.empty() && coarse_ && elsewhere_ && result_.measured_accuracy <= settings_.accuracy;
+    log(fmt::format("  errors of up to {:.1e}; {:.1e} asked for: {}", result_.measured_accuracy, settings_.accuracy,
+                    result_.accuracy_confirmed ? "reached" : "not reached"));
+    if (!result_.accuracy_confirmed && unconfirmed_.empty())
+      result_.notes.push_back(
+          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}: the tolerances cannot be tightened further",
+                      settings_.accuracy, result_.measured_accuracy,
+                      result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+  }
+
+  std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
     auto run = std::make_unique<OneRun>();
     run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until,
                                                            settings_.samples);
     run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(*model_));
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
-                       .method = settings_.method,
+                       .method = elsewhere ? confirming_method() : settings_.method,
                        .until = settings_.until,
                        .budget = settings_.budget,
                        .interrupted = options_.interrupted,
                        .progress = {},
                        .work_tables = work_tables(),
-                       .accuracy = settings_.accuracy};
+                       .accuracy = settings_.accuracy,
+                       .elsewhere = elsewhere};
+    Equations& equations = elsewhere ? equations_elsewhere() : equations_;
     if (options_.progress)
       options.progress = [&](double fraction) {
         options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
@@ -295,15 +361,34 @@ class Simulation {
       observers.push_back(run->traces.get());
       result_.traces = run->traces->traces();
     }
-    run->outcome = integrate(equations_, options, observers);
+    run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
-    if (!run->outcome.state.empty()) Figures(*model_, equations_, *run).collect();
+    result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
+    if (!run->outcome.state.empty()) Figures(*model_, equations, *run).collect();
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
                     run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
-    if (result_.runs == 0) log(fmt::format("  chosen because: {}", s.reason));
+    if (result_.runs++ == 0) log(fmt::format("  chosen because: {}", s.reason));
     return run;
+  }
+
+  // Another way to the same figures, of like cost: another order, another family, or time in place of the angle.
+  std::string confirming_method() const {
+    const std::string& asked = settings_.method;
+    if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
+    if (asked == "dop853") return "verner6";
+    if (asked == "esdirk3" || asked == "esdirk5" || asked == "bdf") return "esdirk";
+    if (asked == "esdirk") return "esdirk5";
+    return "dop853";  // dopri5, work, verner6, fehlberg8, adams
+  }
+
+  Equations& equations_elsewhere() {
+    if (!equations_elsewhere_) {
+      equations_elsewhere_.emplace(model_, true);
+      equations_elsewhere_->keep_angles_from(1);
+    }
+    return *equations_elsewhere_;
   }
 
   // At rest with no torque on any shaft, and nothing to come at a later time: a dead centre under load, or balance.
@@ -323,35 +408,6 @@ class Simulation {
         "the machine starts at rest where no torque moves it ({:.4g}° of \"{}\"): a dead centre or a balance. Rounding "
         "decides when and which way it leaves, if ever; start it a little off, or with a speed",
         s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
-  }
-
-  // All of them, or nearly all. Stability holds explicit steps, well below what the tolerance asks for: there one in
-  // thousands that differs says nothing. Implicit ones are held by accuracy or by rounding: a thirtieth of the
-  // tolerance makes at least half as many steps again, and a few say nothing.
-  static bool took_the_same_steps(const OneRun& a, const OneRun& b, double difference) {
-    const std::string& method = b.outcome.statistics.method;
-    const double alike = method.starts_with("esdirk") || method.starts_with("bdf") ? 1.1 : 1.02;
-    constexpr double rounding = 1e-13;
-    const auto steps = [](const OneRun& run) { return static_cast<double>(run.outcome.statistics.stepper.steps); };
-    if (steps(a) == steps(b) && a.outcome.state == b.outcome.state) return true;
-    return steps(b) <= alike * steps(a) && difference > rounding;
-  }
-
-  // Errors of the finer run's figures: what the coarser run had otherwise. Returns the largest over its scale.
-  double measure_errors(const OneRun& coarse, OneRun& fine) const {
-    double worst = 0;
-    for (Figure& figure : fine.figures) {
-      const auto other = std::find_if(coarse.figures.begin(), coarse.figures.end(),
-                                      [&](const Figure& f) { return f.name == figure.name; });
-      if (other == coarse.figures.end()) continue;
-      // Of two equal peaks of opposite sign either may be the larger one.
-      const bool magnitude = figure.name.starts_with("peak_");
-      const double difference =
-          magnitude ? std::abs(std::abs(figure.value) - std::abs(other->value)) : std::abs(figure.value - other->value);
-      if (figure.scale > 0) worst = std::max(worst, difference / figure.scale);
-      figure.error = difference + figure.resolution;
-    }
-    return worst;
   }
 
   void fill(OneRun& run, double tolerance) {
@@ -444,7 +500,11 @@ class Simulation {
   const SimulateOptions& options_;
   RunSettings settings_;
   Equations equations_;
+  std::optional<Equations> equations_elsewhere_;
   std::shared_ptr<WorkTables> work_tables_;
+  double tolerance_ = 0, elsewhere_tolerance_ = 0;     // of fine_ and elsewhere_
+  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;  // the run whose figures count, and its witnesses
+  std::string unconfirmed_;                            // why a witness is missing
   Result result_;
 };
 
