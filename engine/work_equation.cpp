@@ -93,11 +93,15 @@ double largest(const Row& values) {
   return most;
 }
 
-constexpr double tail_allowed = 3e-13;                // of the largest value, for the last two coefficients
-constexpr double closes_within = 1e-12;               // work per cycle over turnover
-constexpr double narrowest = std::numbers::pi / 512;  // panel [rad]
-constexpr double mildest = 4;                         // T may vary by this factor: 16 nodes then give 1/√T to 5e-16
-constexpr int deepest = 60;                           // bisections of a panel towards a place of rest
+constexpr double tail_allowed = 3e-13;   // of the largest value, for the last two coefficients
+constexpr double closes_within = 1e-12;  // work per cycle over turnover
+// Near a change point I_r turns within √(2 (l − r)/r) of an angle: 4.5e-4 rad where the rod is a 10⁻⁷ longer than the
+// crank. Panels are halved until they resolve that; in narrow ones what remains may be the tables' rounding.
+constexpr double narrow = std::numbers::pi / 512;         // panel [rad]
+constexpr double tail_of_narrow = 1e-11;                  // of the largest value: within 10⁻¹⁴ of a turn's work
+constexpr double narrowest = std::numbers::pi * 0x1p-22;  // [rad]: a corner that is no edge of the machine
+constexpr double mildest = 4;  // T may vary by this factor: 16 nodes then give 1/√T to 5e-16
+constexpr int deepest = 60;    // bisections of a panel towards a place of rest
 
 }  // namespace
 
@@ -144,8 +148,9 @@ void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, 
   panel.inertia_term = gauss().terms(panel.inertia);
   panel.torque_term = gauss().terms(torque);
   const auto tail = [](const Values& c) { return std::abs(c[nodes - 1]) + std::abs(c[nodes - 2]); };
-  const bool resolved = tail(panel.inertia_term) <= tail_allowed * largest(panel.inertia) &&
-                        tail(panel.torque_term) <= tail_allowed * std::max(largest_torque, largest(torque));
+  const double allowed = end - begin > narrow ? tail_allowed : tail_of_narrow;
+  const bool resolved = tail(panel.inertia_term) <= allowed * largest(panel.inertia) &&
+                        tail(panel.torque_term) <= allowed * std::max(largest_torque, largest(torque));
   if (!resolved && end - begin > narrowest) {
     add_panels(machine, begin, begin + panel.half, largest_torque);
     add_panels(machine, begin + panel.half, end, largest_torque);

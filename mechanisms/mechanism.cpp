@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/scene.h"
+#include "mechanisms/closed_forms.h"
 #include "mechanisms/deforming_mechanism.h"
 
 namespace kurbel {
@@ -43,8 +44,7 @@ double reversal_between(const ReducedMechanism& reduced, double from, double to)
 
 }  // namespace
 
-// The mean by the trapezium rule, which converges at once on periodic functions. I_r is least where the output stands
-// still or near a sample.
+// I_r is least where the output stands still or near a sample.
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
   constexpr int n = 1024;
   constexpr double turn = 2 * std::numbers::pi, shift = 0.37;  // no symmetric angle is a sample
@@ -57,10 +57,10 @@ TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
     travel.least = std::min(travel.least, x);
     travel.greatest = std::max(travel.greatest, x);
     travel.least_inertia = std::min(travel.least_inertia, inertia);
-    return inertia;
   };
+  travel.mean_inertia = reduced.mean(ReducedMechanism::inertia_channel);
   for (int i = 0; i < n; ++i) {
-    travel.mean_inertia += visit(angle(i)) / n;
+    visit(angle(i));
     const bool grows = reduced.output_velocity(angle(i)).value > 0;
     if (grows == (reduced.output_velocity(angle(i + 1)).value > 0)) continue;
     const double phi = reversal_between(reduced, angle(i), angle(i + 1));
@@ -71,12 +71,46 @@ TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
   return travel;
 }
 
-Mechanism::Mechanism(std::string component, const MechanismData& what)
+Mechanism::Mechanism(std::string component, const MechanismData& what, Extraction from)
     : name(std::move(component)),
       data(what),
-      reduced(reduce_mechanism(what)),
+      extraction(from),
+      reduced(reduce_mechanism(what, table_tolerance, table_max_pieces, from)),
       bodies(make_bodies(what)),
       travel(travel_of_turn(*reduced)) {}
+
+Mechanism Mechanism::extracted_from(Extraction from) const {
+  Mechanism other = *this;
+  other.extraction = from;
+  other.reduced = reduce_mechanism(data, table_tolerance, table_max_pieces, from);
+  other.travel = travel_of_turn(*other.reduced);
+  for (SliderLoad& load : other.loads)
+    std::visit(
+        [&](auto& law) {
+          if constexpr (requires { law.end; })
+            law.end.position = law.end.side > 0 ? other.travel.greatest : other.travel.least;
+          if constexpr (requires { law.stroke; }) law.stroke = other.stroke();
+        },
+        load.law);
+  return other;
+}
+
+namespace {
+const MechanismMaker* mechanism_of(const Network::ShaftElement& element) {
+  return dynamic_cast<const MechanismMaker*>(element.element.get());
+}
+}  // namespace
+
+Network extracted_from(Network network, Extraction from) {
+  for (Network::ShaftElement& e : network.elements)
+    if (const MechanismMaker* maker = mechanism_of(e))
+      e.element = std::make_shared<MechanismMaker>(maker->mechanism().extracted_from(from));
+  return network;
+}
+
+bool has_tables(const Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(), mechanism_of);
+}
 
 bool Mechanism::has_weight() const {
   return !weightless && std::visit([](const auto& d) { return d.gravity != 0; }, data);
@@ -108,8 +142,9 @@ double MechanismMaker::cycle() const {
 
 std::string MechanismMaker::describe() const {
   const TableReport& report = mechanism_.reduced->report();
-  std::string text = fmt::format("table of {}: {} pieces from {} samples of Simbody, errors", mechanism_.name,
-                                 report.pieces, report.samples);
+  std::string text =
+      fmt::format("table of {}: {} pieces from {} samples of {}, errors", mechanism_.name, report.pieces,
+                  report.samples, mechanism_.extraction == Extraction::first ? "Simbody" : "the closed form");
   for (const TableReport::Channel& channel : report.channels)
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';
@@ -181,7 +216,7 @@ SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, s
 MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
   const Mechanism& m = p.mechanism;
   if (m.in_the_loop) {
-    const ReducedSample s = m.bodies->sample(phi);
+    const ReducedSample s = m.extraction == Extraction::first ? m.bodies->sample(phi) : closed_sample(m.data, phi);
     const bool mean = m.mean_inertia;
     return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope, s.output_position,
             s.output_velocity_ratio, s.gravity_torque};

@@ -1,8 +1,7 @@
 // periodic_table.h — several functions of an angle with period 2π, tabulated together in adaptive polynomial pieces.
 //
-// [0, 2π) is cut into dyadic pieces, short where a channel bends; every piece carries one polynomial of degree 9 per
-// channel. A uniform grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same
-// everywhere:
+// [0, 2π) is cut into pieces, halved where a channel bends; every piece carries one polynomial per channel. A uniform
+// grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same everywhere:
 //
 //     const auto cursor = table.locate(phi);          // wraps phi, finds the piece
 //     const double inertia = table.value(cursor, 0);  // channel 0 there
@@ -15,6 +14,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace kurbel {
@@ -46,10 +46,17 @@ struct TableReport {
 
 class PeriodicTable {
  public:
-  static constexpr std::size_t degree = 9;
+  static constexpr std::size_t degree = 9;  // the highest
   static constexpr double period = 2 * std::numbers::pi;
 
-  // Writes all channels at an angle in [0, 2π].
+  // Where the pieces begin before they are halved. Two cuts whose shifts differ have no seam in common.
+  struct Cut {
+    std::size_t pieces = 16;      // in a period
+    double shift = 0;             // of the seams below 0, in first pieces: 0 … 1
+    std::size_t degree_used = 9;  // of the polynomials, 4 … degree
+  };
+
+  // Writes all channels at an angle in [0, 2π], or up to a first piece outside where the seams are shifted.
   using Sampler = std::function<void(double phi, std::span<double> values)>;
 
   // A place in the table, good for every channel.
@@ -62,7 +69,11 @@ class PeriodicTable {
   // max_pieces; report().converged and the errors say which. Throws std::invalid_argument on an empty or senseless
   // request.
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
-                             std::size_t max_pieces);
+                             std::size_t max_pieces, const Cut& cut);
+  static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
+                             std::size_t max_pieces) {
+    return build(sampler, std::move(channels), tolerance, max_pieces, Cut());
+  }
 
   // Any angle. One that is not finite gives values that are NaN.
   Cursor locate(double phi) const {
@@ -71,7 +82,7 @@ class PeriodicTable {
       if (!(phi >= period && phi < 2 * period - 1e-9)) return locate_wrapped(phi);
       phi = std::max(0.0, (phi - period) - rest);  // the second turn of a four-stroke cycle; the difference is exact
     }
-    const double* piece = pieces_.data() + grid_[static_cast<std::size_t>(phi * cells_per_radian_)];
+    const double* piece = pieces_.data() + grid_[static_cast<std::size_t>(phi * cells_per_radian_ + first_cell_)];
     return {piece + header, (phi - piece[0]) * piece[1]};
   }
 
@@ -84,6 +95,9 @@ class PeriodicTable {
     return even + x * odd;
   }
 
+  // Of a channel over the period: the pieces' own integrals, however sharply they bend.
+  double mean(std::size_t channel) const;
+
   const TableReport& report() const { return report_; }
 
  private:
@@ -92,8 +106,8 @@ class PeriodicTable {
 
   Cursor locate_wrapped(double phi) const;
 
-  double cells_per_radian_ = 0;
-  std::vector<std::uint32_t> grid_;  // cell → where its piece begins in pieces_; one more for an angle rounded up to 2π
+  double cells_per_radian_ = 0, first_cell_ = 0;  // of angle 0, with its fraction
+  std::vector<std::uint32_t> grid_;  // cell → where its piece begins in pieces_; one more for an angle rounded up
   std::vector<double> pieces_;
   TableReport report_;
 };

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "mechanisms/closed_forms.h"
+
 namespace kurbel {
 
 namespace {
@@ -39,11 +41,11 @@ void write_channels(const ReducedSample& sample, std::span<double> values) {
 
 // Rounding leaves 1e-16 of the inertia in I_r′ and of the weights' torques in M_g even where these vanish identically
 // (masses balanced, weights carried by the guide).
-ReducedMechanism::NoiseScales noise_scales(MechanismBodies& bodies) {
+ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler) {
   constexpr int n = 16;
   ReducedMechanism::NoiseScales noise;
   for (int i = 0; i < n; ++i) {
-    const ReducedSample sample = bodies.sample(PeriodicTable::period * (i + 0.5) / n);
+    const ReducedSample sample = sampler(PeriodicTable::period * (i + 0.5) / n);
     noise.inertia += 1e-4 * sample.inertia / n;
     noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
   }
@@ -52,38 +54,43 @@ ReducedMechanism::NoiseScales noise_scales(MechanismBodies& bodies) {
 
 using CacheKey = std::vector<double>;
 
-CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_pieces) {
+CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_pieces, Extraction extraction) {
   CacheKey key = std::visit([](const auto& d) { return values_of(d); }, data);
-  key.insert(key.end(), {static_cast<double>(data.index()), tolerance, static_cast<double>(max_pieces)});
+  key.insert(key.end(), {static_cast<double>(data.index()), tolerance, static_cast<double>(max_pieces),
+                         static_cast<double>(extraction)});
   return key;
 }
 
 }  // namespace
 
 ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
-                                   double tolerance, std::size_t max_pieces)
+                                   double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut)
     : table_(PeriodicTable::build([&](double phi, std::span<double> values) { write_channels(sampler(phi), values); },
-                                  channel_specs(noise), tolerance, max_pieces)) {}
+                                  channel_specs(noise), tolerance, max_pieces, cut)) {}
 
-ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces) {
-  const std::unique_ptr<MechanismBodies> bodies = make_bodies(data);
-  return ReducedMechanism([&](double phi) { return bodies->sample(phi); }, noise_scales(*bodies), tolerance,
-                          max_pieces);
+ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
+                                   Extraction extraction) {
+  const std::unique_ptr<MechanismBodies> bodies = make_bodies(data);  // finds the data's faults in either case
+  const bool first = extraction == Extraction::first;
+  const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
+  return ReducedMechanism(sampler, noise_scales(sampler), first ? tolerance : second_tolerance * tolerance, max_pieces,
+                          first ? PeriodicTable::Cut() : second_cut);
 }
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,
-                                                         std::size_t max_pieces) {
+                                                         std::size_t max_pieces, Extraction extraction) {
   static std::mutex mutex;
   static std::map<CacheKey, std::shared_ptr<const ReducedMechanism>> cache;
   constexpr std::size_t capacity = 256;  // a table is 20 kB … 1 MB
-  const CacheKey key = cache_key(data, tolerance, max_pieces);
+  const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
   for (const double value : key)
     if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key
 
   const std::scoped_lock lock(mutex);
   if (const auto found = cache.find(key); found != cache.end()) return found->second;
   if (cache.size() == capacity) cache.clear();
-  return cache[key] = std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces));
+  return cache[key] =
+             std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces, extraction));
 }
 
 }  // namespace kurbel

@@ -1,4 +1,5 @@
-// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody.
+// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody,
+// or, for runs that confirm others, from the loop equations in closed form.
 //
 // Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
 // digits.
@@ -9,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "mechanisms/extraction.h"
 #include "mechanisms/mechanism_data.h"
 #include "mechanisms/periodic_table.h"
 
@@ -54,7 +56,7 @@ class ReducedMechanism {
 
   // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report().
   ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
-                   std::size_t max_pieces);
+                   std::size_t max_pieces, const PeriodicTable::Cut& cut = {});
 
   At at(double phi) const { return At(table_, phi); }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
@@ -62,6 +64,8 @@ class ReducedMechanism {
   ValueAndSlope<double> output_position(double phi) const { return at(phi).output_position(); }
   ValueAndSlope<double> output_velocity(double phi) const { return at(phi).output_velocity(); }
   ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
+
+  double mean(Channel channel) const { return table_.mean(channel); }
 
   // Pieces, samples and the measured error of every channel.
   const TableReport& report() const { return table_.report(); }
@@ -80,13 +84,22 @@ inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) {
   return std::visit([](const auto& d) { return make_bodies(d); }, data);
 }
 
-// A mechanism extracted from Simbody. Kept for the life of the process and shared by all who ask with equal data.
-// Throws as make_bodies and MechanismBodies do. Safe to call from several threads.
+// The second extraction: no seam is one of the first's, the polynomials are of another degree, and its errors so far
+// below the first's that the difference of two runs is the first's.
+inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};
+inline constexpr double second_tolerance = 0.04;  // of the first's
+
+// A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs a sample), the second from
+// the closed forms (closed_forms.h, 1 … 3 µs a sample) with seams and polynomials of its own, so that the two have no
+// error in common. Kept for the life of the process and shared by all who ask with equal data. Throws as make_bodies
+// and MechanismBodies do. Safe to call from several threads.
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
-                                                         std::size_t max_pieces = table_max_pieces);
+                                                         std::size_t max_pieces = table_max_pieces,
+                                                         Extraction extraction = Extraction::first);
 
 // The same, always extracted afresh.
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance = table_tolerance,
-                                   std::size_t max_pieces = table_max_pieces);
+                                   std::size_t max_pieces = table_max_pieces,
+                                   Extraction extraction = Extraction::first);
 
 }  // namespace kurbel

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mechanisms/mechanism_data.h"
-#include "tests/mechanisms/taylor.h"
+#include "mechanisms/taylor.h"
 
 namespace kurbel::test {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace kurbel::test {
+namespace kurbel {
 
 // c[k] = f⁽ᵏ⁾(φ)/k!
 struct Taylor {
@@ -62,14 +62,16 @@ inline Taylor sqrt(const Taylor& a) {
   return t;
 }
 
-// A unit vector at angle φ + shift, for φ the variable.
+// A unit vector at an angle that is a function of φ.
 struct Direction {
   Taylor cos, sin;
 
-  static Direction of_variable(long double angle) {
+  // At the angle part · (φ + shift).
+  static Direction of_variable(long double shifted, long double part = 1) {
     Direction d;
-    const long double s = std::sin(angle), c = std::cos(angle);
-    const long double cosine[] = {c, -s, -c / 2, s / 6}, sine[] = {s, c, -s / 2, -c / 6};
+    const long double s = std::sin(part * shifted), c = std::cos(part * shifted), p = part;
+    const long double cosine[] = {c, -s * p, -c * p * p / 2, s * p * p * p / 6};
+    const long double sine[] = {s, c * p, -s * p * p / 2, -c * p * p * p / 6};
     for (int k = 0; k <= Taylor::order; ++k) d.cos.c[k] = cosine[k], d.sin.c[k] = sine[k];
     return d;
   }
@@ -88,4 +90,4 @@ struct Path {
 };
 inline Path along(const Direction& d, const Taylor& length) { return {length * d.cos, length * d.sin}; }
 
-}  // namespace kurbel::test
+}  // namespace kurbel
