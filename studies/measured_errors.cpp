@@ -36,9 +36,15 @@ double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& 
   for (std::size_t k = 0; k < figures.size(); ++k) {
     Figure& figure = figures[k];
     figure.error.reset();
-    for (const Witness& witness : witnesses)
-      if (const Figure* other = find(*witness.figures, figure, k))
-        figure.error = std::max(figure.error.value_or(0), witness.weight * difference(figure, *other));
+    figure.at_error.reset();
+    for (const Witness& witness : witnesses) {
+      const Figure* other = find(*witness.figures, figure, k);
+      if (!other) continue;
+      figure.error = std::max(figure.error.value_or(0), witness.weight * difference(figure, *other));
+      if (figure.at && other->at)
+        figure.at_error = std::max(figure.at_error.value_or(rounding * std::abs(*figure.at)),
+                                   witness.weight * std::abs(*figure.at - *other->at));
+    }
     if (figure.error && figure.scale > 0) in_scale.push_back(*figure.error / figure.scale);
   }
   const double typical = median(in_scale);

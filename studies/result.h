@@ -17,16 +17,19 @@ struct Figure {
   std::string name;  // dotted and stable: "peak_torque.main_coupling"
   double value = 0;  // SI
   std::string unit;
-  std::optional<double> error;  // measured, by other runs (measured_errors.h)
-  std::optional<double> at;     // time it belongs to [s]
-  double scale = 0;             // rated quantity that the error is judged by; 0: the error is not judged
-  double resolution = 0;        // part of the error that all runs share: what sampling leaves open
-  bool exact = false;           // by construction: a count, a speed that is given or held
+  std::optional<double> error;          // measured, by other runs (measured_errors.h)
+  std::optional<double> at;             // time it belongs to [s]
+  double scale = 0;                     // rated quantity that the error is judged by; 0: the error is not judged
+  double resolution = 0;                // part of the error that all runs share: what location leaves open
+  std::optional<double> at_error = {};  // of the time, measured as the error of the value is [s]
+  bool exact = false;                   // by construction: a count, a speed that is given or held
 };
 
 struct ComponentState {
   double angle = 0, speed = 0;                 // of its (driving) shaft [rad, rad/s]
   std::optional<double> angle_out, speed_out;  // of its driven shaft, where it has two
+  // Measured errors of these four.
+  std::optional<double> angle_error = {}, speed_error = {}, angle_out_error = {}, speed_out_error = {};
 };
 
 // Run-up, steady motion and run-down of the reduction link; times in s.
@@ -64,6 +67,9 @@ struct Result {
   std::vector<Figure> figures;
   std::map<std::string, ComponentState> final_state;
   std::vector<Event> events;
+  // Of the events' times, by comparison of runs [s]: one for each event (match_events), nothing where only one run has
+  // it; none at all: not measured.
+  std::vector<std::optional<double>> event_errors;
   Periods periods;
   std::vector<CycleRecord> cycles;
   EnergyBalance energy;

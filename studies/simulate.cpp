@@ -9,6 +9,7 @@
 
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
+#include "mechanisms/mechanism.h"
 #include "studies/measured_errors.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
@@ -335,10 +336,12 @@ class Simulation {
   }
 
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
+    Equations& equations = elsewhere ? equations_elsewhere() : equations_;
+    const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
-    run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(*model_, settings_.output), settings_.until,
-                                                           settings_.samples);
-    run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(*model_));
+    run->trajectory =
+        std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
+    run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(model));
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
                        .method = elsewhere ? confirming_method() : settings_.method,
@@ -349,7 +352,6 @@ class Simulation {
                        .work_tables = work_tables(),
                        .accuracy = settings_.accuracy,
                        .elsewhere = elsewhere};
-    Equations& equations = elsewhere ? equations_elsewhere() : equations_;
     if (options_.progress)
       options.progress = [&](double fraction) {
         options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
@@ -364,7 +366,7 @@ class Simulation {
     run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
-    if (!run->outcome.state.empty()) Figures(*model_, equations, *run).collect();
+    if (!run->outcome.state.empty()) Figures(model, equations, *run).collect();
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
@@ -383,9 +385,18 @@ class Simulation {
     return "dop853";  // dopri5, work, verner6, fehlberg8, adams
   }
 
+  // The same machine with its mechanisms extracted anew, where they work from tables and the scene tells of them.
+  std::shared_ptr<const Model> model_elsewhere() const {
+    if (!has_tables(model_->network) || model_->scene.components.empty()) return model_;
+    auto other = compile_network(extracted_from(build_network(model_->scene), Extraction::second), model_->scene,
+                                 model_->effects);
+    const bool same_machine = other->network.components == model_->network.components &&
+                              other->state_count() == model_->state_count();  // else made by hand, not of the scene
+    return same_machine ? other : model_;
+  }
   Equations& equations_elsewhere() {
     if (!equations_elsewhere_) {
-      equations_elsewhere_.emplace(model_, true);
+      equations_elsewhere_.emplace(model_elsewhere(), true);
       equations_elsewhere_->keep_angles_from(1);
     }
     return *equations_elsewhere_;
