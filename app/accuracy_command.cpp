@@ -53,7 +53,16 @@ int accuracy(const AccuracyArguments& arguments) {
   check_folder(arguments.study);
   Progress progress(arguments.study.quiet);
   const AccuracyStudy study = measure_accuracy(scene, options_of(arguments, progress));
-  return present(output_of(study), arguments.study);
+  const StudyOutput output = output_of(study);
+  const int code = present(output, arguments.study);
+  const std::filesystem::path folder = arguments.study.out.empty()
+                                           ? results_of(arguments.study.scene, arguments.study.study)
+                                           : std::filesystem::path(arguments.study.out);
+  const bool written = !arguments.study.no_files && study.complete && !study.settings.empty();
+  if (written && !arguments.study.json && !arguments.study.quiet)
+    fmt::print("run with the cheapest setting that is exact enough: kurbel run {} --setting {}\n",
+               arguments.study.scene, (folder / "summary.json").string());
+  return code;
 }
 
 }  // namespace

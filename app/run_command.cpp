@@ -17,7 +17,7 @@ namespace {
 
 struct RunArguments {
   StudyOptions study;
-  std::string effects, against, method, until;
+  std::string effects, against, method, until, setting;
   std::optional<double> accuracy;
   bool no_error = false, explain = false;
 };
@@ -54,15 +54,19 @@ void check_arguments(const RunArguments& arguments, const Scene& scene) {
   check_folder(arguments.study);
 }
 
-// Method and first tolerance by what an accuracy study of the same text measured, where one lies beside the results.
-void use_what_is_known(const Scene& scene, const Effects& effects, SimulateOptions& options) {
-  if (options.method || scene.run.method != "auto" || scene.run.model != "reduced") return;
-  const auto known = known_setting(results_of(scene.file, "accuracy") / "summary.json", scene, effects,
-                                   options.accuracy.value_or(scene.run.accuracy));
-  if (!known) return;
-  options.method = known->method;
-  options.first_tolerance = known->tolerance;
-  options.chosen_because = known->describe();
+// Method and first tolerance by what an accuracy study of the same text measured, where the user names its file.
+void use_setting(const std::string& file, const Scene& scene, const Effects& effects, SimulateOptions& options) {
+  if (file.empty()) return;
+  if (options.method)
+    throw std::invalid_argument(fmt::format(
+        "--setting {}: chooses the method, and so does --method {}; give one of them", file, *options.method));
+  if (scene.run.model != "reduced")
+    throw std::invalid_argument(
+        fmt::format("--setting {}: is of the reduced model; the scene says model = \"{}\"", file, scene.run.model));
+  const KnownSetting known = known_setting(file, scene, effects, options.accuracy.value_or(scene.run.accuracy));
+  options.method = known.method;
+  options.first_tolerance = known.tolerance;
+  options.chosen_because = known.describe();
 }
 
 // Clutches that slip are no springs.
@@ -83,7 +87,7 @@ int run(const RunArguments& arguments) {
   check_arguments(arguments, scene);
   Progress progress(arguments.study.quiet);
   SimulateOptions options = options_of(arguments, progress);
-  use_what_is_known(scene, effects, options);
+  use_setting(arguments.setting, scene, effects, options);
   const Result result = simulate(model, label_of(*model), options);
   return present(output_of(result), arguments.study);
 }
@@ -120,6 +124,10 @@ void add_run_commands(CLI::App& app, int& code) {
   const auto [run_command, run_arguments] = add("run", "simulate a scene", run);
   run_command->add_flag("--explain", run_arguments->explain,
                         "print what is merged, the coordinates and their inertias, and stop");
+  run_command->add_option(
+      "--setting", run_arguments->setting,
+      "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
+      "the cheapest that was exact enough");
   const auto [compare_command, compare_arguments] =
       add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
   compare_command->add_option("--against", compare_arguments->against, "effects of the first model (default: none)");

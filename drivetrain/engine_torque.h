@@ -54,7 +54,7 @@ class EngineTorque {
     for (std::size_t i = 0; i < count; ++i)
       for (const double at : fires_at_) {
         const double middle = 0.5 * (edges_.x()[i] + edges_.x()[i + 1]) - at;
-        piece_.push_back(cylinder_.piece(middle - cylinder_.offset(middle)));
+        piece_.push_back(cylinder_.piece(middle));
       }
   }
 
@@ -91,10 +91,8 @@ class EngineTorque {
     const double cycle = cylinder_.period(), together = 1e-9 * cycle;
     std::vector<double> all;
     for (const double at : fires_at_)
-      for (std::size_t i = 0; i + 1 < cylinder_.x().size(); ++i) {
-        const double x = cylinder_.x()[i] + at;
-        all.push_back(x - cycle * std::floor(x / cycle));
-      }
+      for (std::size_t i = 0; i + 1 < cylinder_.x().size(); ++i)
+        all.push_back(place_within(cylinder_.x()[i] + at, cycle));
     std::sort(all.begin(), all.end());
     std::vector<double> apart;
     for (const double x : all)

@@ -42,17 +42,20 @@ struct TorqueOverTime {
     const double t = x.t - shift(x.t, x.mode);
     return T(sign * curve.value_in(x.mode, t));
   }
-  int mode_at(double t) const { return curve.piece(t + slack() - curve.offset(t + slack())); }
+  int mode_at(double t) const { return curve.piece(t + slack(t)); }
   bool uses_time() const { return true; }
   bool uses_speed() const { return false; }
-  double next_edge(double t) const { return curve.offset(t + slack()) + curve.piece_end(mode_at(t)); }
+  double next_edge(double t) const {
+    const double here = t + slack(t), past = here - curve.within(here);  // whole periods
+    return past + curve.piece_end(mode_at(t));
+  }
   Rated rated() const { return {curve.max_abs(), 0}; }
   double time_period() const { return curve.period(); }
   double settled_from() const { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
 
  private:
   // A time this close before a knot is on it: k · period rounds to either side.
-  double slack() const { return 1e-12 * (curve.x().back() - curve.x().front()); }
+  double slack(double t) const { return 1e-12 * (curve.x().back() - curve.x().front()) + 1e-15 * std::abs(t); }
   // Brings t near the piece in force, so that a period's end does not jump within a step.
   double shift(double t, int piece) const {
     if (curve.period() == 0) return 0;
@@ -80,7 +83,7 @@ struct PieceGuard {
     if (curve.period() > 0) return (moved + pieces) % pieces;
     return std::clamp(moved, -1, pieces);
   }
-  static int first(const Curve& curve, double q) { return curve.piece(q - curve.offset(q)); }
+  static int first(const Curve& curve, double q) { return curve.piece(q); }
 };
 
 // M = sign · f(φ)

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/period.h"
+
 namespace kurbel {
 
 // Piecewise polynomial through the points (x, y), x strictly ascending: straight between points, or smooth
@@ -27,8 +29,16 @@ class Curve {
   const std::vector<double>& y() const { return y_; }
   double max_abs() const;
 
-  // Piece that holds x (x already within the period).
-  int piece(double x) const { return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1; }
+  // x brought into [first point, first point + period) by whole periods; x itself without a period.
+  double within(double x) const {
+    if (!(period_ > 0)) return x;
+    const double place = x_.front() + place_within(x - x_.front(), period_);
+    return place < x_.back() ? place : std::nextafter(x_.back(), x_.front());
+  }
+  // Piece that holds x, which may be any: of a periodic curve always one of 0 … n−2.
+  int piece(double x) const {
+    return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), within(x)) - x_.begin()) - 1;
+  }
   double piece_begin(int piece) const { return piece < 0 ? -HUGE_VAL : x_[static_cast<std::size_t>(piece)]; }
   double piece_end(int piece) const {
     return piece + 1 >= static_cast<int>(x_.size()) ? HUGE_VAL : x_[static_cast<std::size_t>(piece + 1)];
@@ -45,12 +55,9 @@ class Curve {
   }
   template <class T>
   T value(const T& x) const {
-    const T reduced = x - offset(static_cast<double>(value_of(x)));
-    return value_in(piece(static_cast<double>(value_of(reduced))), reduced);
+    const double here = value_of(x), there = within(here);
+    return value_in(piece(there), x + (there - here));
   }
-
-  // Multiple of the period that brings x into [first point, first point + period); 0 without a period.
-  double offset(double x) const { return period_ > 0 ? period_ * std::floor((x - x_.front()) / period_) : 0; }
 
  private:
   static double value_of(double x) { return x; }

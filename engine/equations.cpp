@@ -466,9 +466,12 @@ bool Equations::needs_wrap(std::span<const double> y) const {
 bool Equations::wrap(std::span<double> y) {
   bool changed = false;
   for (std::size_t i = 0; i < turns_.size(); ++i) {
-    const double k = std::floor(y[i] / two_turns) - first_two_turns_;
+    // What is left of 4π itself, which is a little more than its double, would be less than nothing: it stays whole.
+    double k = std::floor(y[i] / two_turns) - first_two_turns_;
+    const auto rest = [&] { return std::fma(-k, two_turns, y[i]) - k * two_turns_rest; };
+    if (k > 0 && rest() < first_two_turns_ * two_turns) --k;
     if (k == 0) continue;
-    y[i] = std::fma(-k, two_turns, y[i]) - k * two_turns_rest;
+    y[i] = rest();
     turns_[i] += k;
     changed = true;
   }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/period.h"
 #include "engine/sensitivities.h"
 
 namespace kurbel {
@@ -73,13 +74,13 @@ class AngleLog final : public Observer {
 // Middle of the widest gap between angles on a circle.
 double quiet_angle(std::vector<double> angles, double cycle, double without_events) {
   if (angles.empty()) return without_events;
-  for (double& a : angles) a -= cycle * std::floor(a / cycle);
+  for (double& a : angles) a = place_within(a, cycle);
   std::sort(angles.begin(), angles.end());
   angles.push_back(angles.front() + cycle);
   std::size_t widest = 0;
   for (std::size_t i = 0; i + 1 < angles.size(); ++i)
     if (angles[i + 1] - angles[i] > angles[widest + 1] - angles[widest] + 1e-9) widest = i;
-  return std::fmod(0.5 * (angles[widest] + angles[widest + 1]), cycle);
+  return place_within(0.5 * (angles[widest] + angles[widest + 1]), cycle);
 }
 
 // ∫ω dt of a prescribed speed from 0 on: Simpson within each of its pieces.
@@ -278,7 +279,7 @@ ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double link_begin, 
   image.link_angle = equations.angle_with_turns(link, y);
   image.z = unknowns_of(y, image.link_angle - windings_);
   const std::string name = m.node_label(m.reduction_node);
-  const double phi = image.link_angle - periodicity_.angle * std::floor(image.link_angle / periodicity_.angle);
+  const double phi = place_within(image.link_angle, periodicity_.angle);
   const double speed = m.angles[link].gain * equations.snapshot(outcome.t, y).now.speed[m.angles[link].shaft] * sense_;
   if (!outcome.diagnosis.empty()) {
     image.end = options_.interrupted && options_.interrupted->load() ? End::interrupted : End::failed;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/period.h"
 #include "engine/run.h"
 
 namespace kurbel {
@@ -22,11 +23,6 @@ constexpr int cells_a_turn = 720;      // of the search for edges
 constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
 
 std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
-
-double within(double angle, double period) {
-  const double rest = std::fmod(angle, period);
-  return rest < 0 ? rest + period : rest;
-}
 
 std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   if (!model->elastic.empty())
@@ -144,7 +140,7 @@ void RigidMachine::fill_state(double phi, double omega) {
 void RigidMachine::set_modes(double phi, double omega) { look_ahead(phi, omega, ahead); }
 
 void RigidMachine::look_ahead(double phi, double omega, double distance) {
-  const double here = periodic_ ? within(phi, cycle_) : phi;
+  const double here = periodic_ ? place_within(phi, cycle_) : phi;
   const double further = std::copysign(distance * std::max(1.0, std::abs(here)), omega);
   state_ = equations_.modes_from_scratch(0, here + further, omega);
 }
@@ -222,7 +218,7 @@ std::vector<double> RigidMachine::edges(int direction) {
     }
     looked = ahead;
     edge = std::max(edge, here);
-    const double angle = periodic_ ? within(sign * edge, cycle_) : sign * edge;
+    const double angle = periodic_ ? place_within(sign * edge, cycle_) : sign * edge;
     found.push_back(cycle_ - angle < 1e-13 ? 0 : angle);
     set_modes(sign * edge, sign);
     here = std::max(edge, std::nextafter(here, end));

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/period.h"
 #include "engine/run.h"
 
 namespace kurbel {
@@ -192,12 +193,12 @@ double WorkOverAngle::inertia_in(const Panel& panel, double s) const {
 }
 
 double WorkOverAngle::work(double s) const {
-  const double cycles = std::floor(s / cycle_), rest = s - cycles * cycle_;
+  const double rest = place_within(s, cycle_), cycles = std::round((s - rest) / cycle_);
   return cycles * per_cycle_ + work_in(panel_at(rest), rest);
 }
 
 double WorkOverAngle::inertia(double s) const {
-  const double rest = s - std::floor(s / cycle_) * cycle_;
+  const double rest = place_within(s, cycle_);
   return inertia_in(panel_at(rest), rest);
 }
 
@@ -221,8 +222,8 @@ double WorkOverAngle::Stretch::ds_du(double u) const {
 class WorkOverAngle::Walk {
  public:
   Walk(const WorkOverAngle& diagram, double s, double speed, double until) : diagram_(diagram), until_(until) {
-    motion_.cycles = static_cast<std::int64_t>(std::floor(s / diagram.cycle_));
-    motion_.s = s - static_cast<double>(motion_.cycles) * diagram.cycle_;
+    motion_.s = place_within(s, diagram.cycle_);
+    motion_.cycles = static_cast<std::int64_t>(std::round((s - motion_.s) / diagram.cycle_));
     motion_.speed = speed;
     const Panel& panel = diagram.panel_at(motion_.s);
     energy_ = 0.5 * diagram.inertia_in(panel, motion_.s) * speed * speed - diagram.work_in(panel, motion_.s);
@@ -334,7 +335,7 @@ class WorkOverAngle::Walk {
       cross(panel, stretch);
       return;
     }
-    if (stop < HUGE_VAL && (depth >= 3 || stretch.end - stretch.begin < narrowest)) {
+    if (stop < HUGE_VAL && (depth >= 3 || stretch.end - stretch.begin < narrow)) {
       approach_rest(panel, stretch.begin, before, stop);
       return;
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/butcher_tables.h"
+#include "engine/period.h"
 
 namespace kurbel {
 namespace {
@@ -44,8 +45,7 @@ double MotionOverAngle::place_of(std::span<const double> y) const {
   const double cycle = tables_.machine().cycle();
   const bool within_two_turns = cycle < 4.5 * std::numbers::pi;
   const double phi = within_two_turns ? y[link_] : equations_.angle_with_turns(link_, y);
-  const double rest = std::fmod(direction_ * phi, cycle);
-  return rest < 0 ? rest + cycle : rest;
+  return place_within(direction_ * phi, cycle);
 }
 
 double MotionOverAngle::inertia(double turned) const {
@@ -56,8 +56,7 @@ double MotionOverAngle::inertia(double turned) const {
 void MotionOverAngle::start(double t, std::span<const double> y, std::span<double> x) {
   std::copy(y.begin(), y.end(), begin_.begin());
   // Every element repeats after two turns of its own: small angles are quicker to look up.
-  for (std::size_t i = 0; i < model_.angles.size(); ++i)
-    looked_up_[i] = begin_[i] - two_turns * std::floor(begin_[i] / two_turns);
+  for (std::size_t i = 0; i < model_.angles.size(); ++i) looked_up_[i] = place_within(begin_[i], two_turns);
   const double omega = y[speed_index_];
   direction_ = omega >= 0 ? 1 : -1;
   const WorkOverAngle* before = diagram_;

@@ -60,7 +60,10 @@ class RoundedProfile {
   template <class T>
   T value(const T& given) const {
     T d = given;
-    if (period_ > 0) d = d - period_ * std::floor((value_of(d) - knots_.front().at) / period_);
+    if (period_ > 0) {
+      const double begin = knots_.front().at, here = value_of(given);
+      d = d + (begin + place_within(here - begin, period_) - here);
+    }
     const double x = value_of(d);
     const auto next =
         std::upper_bound(knots_.begin(), knots_.end(), x, [](double a, const Knot& k) { return a < k.at; });

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "engine/period.h"
 #include "engine/work_equation.h"
 #include "studies/simulate.h"
 
@@ -453,8 +454,7 @@ class AccuracyRun {
     const int direction = omega >= 0 ? 1 : -1;
     const double phi = equations.angle_with_turns(static_cast<std::size_t>(rigid.model->reduction_angle), y);
     const WorkOverAngle& diagram = rigid.tables->diagram(direction);
-    double s0 = std::fmod(direction * phi, diagram.cycle());
-    if (s0 < 0) s0 += diagram.cycle();
+    const double s0 = place_within(direction * phi, diagram.cycle());
     WorkOverAngle::Motion end;
     std::vector<double> seconds;
     constexpr int many = 200;

@@ -1,8 +1,9 @@
-// known_accuracy.h — what `kurbel accuracy` measured of a scene, for the runs that come after it.
+// known_accuracy.h — what `kurbel accuracy` measured of a scene, for a run that is told to use it (--setting FILE).
+//
+// A run's figures depend on its scene and its options alone. What lies in a results folder is never looked for.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "engine/scene.h"
@@ -11,6 +12,7 @@ namespace kurbel {
 
 // A method at a tolerance, and what it did to the scene's motion and figures.
 struct KnownSetting {
+  std::string file;  // that says so
   std::string method;
   double tolerance = 0;
   double error = 0;    // largest of the motion's and the figures' relative errors
@@ -22,8 +24,9 @@ struct KnownSetting {
 std::string fingerprint(const std::string& scene_text);
 
 // The cheapest setting of the model with these effects whose measured error is at most `accuracy`, from the summary
-// that `kurbel accuracy` wrote. Nothing where there is none, it is of another text, or no setting is exact enough.
-std::optional<KnownSetting> known_setting(const std::filesystem::path& summary, const Scene& scene,
-                                          const Effects& effects, double accuracy);
+// that `kurbel accuracy` wrote. Throws SceneError with the place in that file where it cannot be read, is none, is of
+// another scene, or has no setting for these effects that is exact enough.
+KnownSetting known_setting(const std::filesystem::path& summary, const Scene& scene, const Effects& effects,
+                           double accuracy);
 
 }  // namespace kurbel

@@ -196,6 +196,45 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   }
 }
 
+// What lies in a results folder is never looked at; a measured setting is used only where its file is named.
+TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
+  const std::string path = scene("until = \"0.2 s\"\n");
+  const auto results = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run", path, "--json", "--no-files"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended r = kurbel(arguments);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return nlohmann::json::parse(r.out);
+  };
+  const auto before = results({});
+  const Ended study = kurbel({"accuracy", path, "--methods", "dop853", "verner6", "--tolerances", "1e-5", "1e-9",
+                              "--no-multibody", "--time", "5"});
+  ASSERT_EQ(study.code, 0) << study.err;
+  const std::string file = "results/scene/accuracy/summary.json";
+  EXPECT_NE(study.out.find("kurbel run scene.toml --setting " + file), std::string::npos) << study.out;
+  EXPECT_TRUE(fs::exists(folder_ / file));
+  const auto after = results({}), told = results({"--setting", file});
+  EXPECT_EQ(before["figures"], after["figures"]);
+  EXPECT_EQ(before["notes"], after["notes"]);
+  EXPECT_NE(told["notes"].dump().find("method and tolerance by --setting " + file), std::string::npos) << told["notes"];
+
+  std::ofstream(folder_ / "other.json") << "{ \"title\": 1";
+  const struct {
+    std::vector<std::string> arguments;
+    std::string said;
+  } bad[] = {{{"--setting", "none.json"}, "none.json: --setting: no such file; kurbel accuracy SCENE writes one"},
+             {{"--setting", "other.json"}, "other.json:1:14: --setting: is no JSON here"},
+             {{"--setting", file, "--effects", "none", "--accuracy", "1e-12"}, file + ": --setting: no setting had an"},
+             {{"--setting", file, "--method", "dop853"}, "give one of them"}};
+  for (const auto& request : bad) {
+    std::vector<std::string> arguments = {"run", path, "--no-files"};
+    arguments.insert(arguments.end(), request.arguments.begin(), request.arguments.end());
+    const Ended r = kurbel(arguments);
+    EXPECT_EQ(r.code, 2) << request.said;
+    EXPECT_NE(r.err.find(request.said), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(CommandLine, MultibodyModelRefusesMethodsOfTheReducedOne) {
   std::ofstream(folder_ / "crank.toml")
       << "line = [\"crank\"]\n[crank]\nkind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\n"

@@ -377,8 +377,8 @@ TEST(KnucklePress, LeastLowerLinkIsExact) {
       const double phi = 2 * pi * k / 20000;
       const double tilt = std::atan2(d.bearing_y, d.bearing_x), ground = std::hypot(d.bearing_x, d.bearing_y);
       const auto upper =
-          test::follower(test::Direction::of_variable(phi - tilt), d.radius, d.rod, d.upper, ground, !d.knee_right) +
-          test::Direction::constant(tilt);
+          test::follower(Direction::of_variable(phi - tilt), d.radius, d.rod, d.upper, ground, !d.knee_right) +
+          Direction::constant(tilt);
       rise = std::max(rise, std::fabs(d.guide - d.bearing_y - d.upper * static_cast<double>(upper.sin.value())));
     }
     d.lower_body.com = 0;

@@ -123,7 +123,8 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   EXPECT_NE(page.find("verner6 at 1e-08"), std::string::npos);
 }
 
-// A run takes the cheapest setting that the study found exact enough; of another text or model it knows nothing.
+// A run that is told to takes the cheapest setting that the study found exact enough, and refuses what is of another
+// text or model.
 TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   Scene scene = test::scene_file("scenes/six_inertia_chain.toml");
   const AccuracyStudy study = measure_accuracy(scene, coarse());
@@ -134,29 +135,49 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   std::ofstream(summary) << output_of(study).json;
   double last = 0;
   for (const double accuracy : {1e-3, 1e-5, 1e-6}) {
-    const auto known = known_setting(summary, scene, scene.effects, accuracy);
-    ASSERT_TRUE(known) << accuracy;
-    EXPECT_LE(known->error, accuracy);
-    EXPECT_GE(known->seconds, last);
-    last = known->seconds;
+    const KnownSetting known = known_setting(summary, scene, scene.effects, accuracy);
+    EXPECT_LE(known.error, accuracy);
+    EXPECT_GE(known.seconds, last);
+    last = known.seconds;
     for (const MeasuredSetting& s : study.settings) {
       if (study.levels[s.level].effects != scene.effects.describe()) continue;
       double error = s.trajectory_error;
       for (std::size_t i = 0; i < s.numerical_error.size(); ++i)
         if (s.numerical_error[i] > study.levels[s.level].floor[i]) error = std::max(error, s.numerical_error[i]);
-      EXPECT_TRUE(error > accuracy || s.seconds >= known->seconds) << study.name_of(s);
+      EXPECT_TRUE(error > accuracy || s.seconds >= known.seconds) << study.name_of(s);
     }
-    SimulateOptions options{.method = known->method, .accuracy = accuracy, .until = {}, .progress = {}};
-    options.first_tolerance = known->tolerance;
-    options.chosen_because = known->describe();
+    SimulateOptions options{.method = known.method, .accuracy = accuracy, .until = {}, .progress = {}};
+    options.first_tolerance = known.tolerance;
+    options.chosen_because = known.describe();
     const Result r = simulate(scene, scene.effects, "known", options);
     EXPECT_TRUE(r.accuracy_confirmed);
-    EXPECT_NE(std::find(r.notes.begin(), r.notes.end(), known->describe()), r.notes.end());
+    EXPECT_NE(std::find(r.notes.begin(), r.notes.end(), known.describe()), r.notes.end());
   }
-  EXPECT_FALSE(known_setting(summary, scene, scene.effects, 1e-16));
-  EXPECT_FALSE(known_setting(folder / "absent.json", scene, scene.effects, 1e-3));
+  const auto refused = [&](const std::filesystem::path& file, double accuracy, const std::string& because) {
+    try {
+      known_setting(file, scene, scene.effects, accuracy);
+      ADD_FAILURE() << "took " << file;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find(because), std::string::npos) << error.what();
+      EXPECT_TRUE(std::string(error.what()).starts_with(file.string())) << error.what();
+    }
+  };
+  refused(summary, 1e-16, "no setting had an error of 1.0e-16 or less, the least was ");
+  refused(folder / "absent.json", 1e-3, "no such file");
+  refused(folder, 1e-3, "is a folder");
+  std::ofstream(folder / "torn.json") << "{\n  \"fingerprint\": \"12\",\n  \"settings\" [\n";
+  refused(folder / "torn.json", 1e-3, "torn.json:3:14: --setting: is no JSON here");
+  std::ofstream(folder / "foreign.json") << "{\"figures\": []}";
+  refused(folder / "foreign.json", 1e-3, "is no summary of kurbel accuracy");
+  std::string method = output_of(study).json;
+  for (std::size_t at = 0; (at = method.find("\"dop853\"", at)) != std::string::npos;)
+    method.replace(at, 8, "\"dop835\"");
+  for (std::size_t at = 0; (at = method.find("\"verner6\"", at)) != std::string::npos;)
+    method.replace(at, 9, "\"dop835\"");
+  std::ofstream(folder / "edited.json") << method;
+  refused(folder / "edited.json", 1e-3, "did you mean \"dop853\"");
   scene.text += "\n# changed";
-  EXPECT_FALSE(known_setting(summary, scene, scene.effects, 1e-3));
+  refused(summary, 1e-3, "was measured of another scene");
   std::filesystem::remove_all(folder);
 }
 
