@@ -147,7 +147,12 @@ int present(const StudyOutput& output, const StudyOptions& options) {
     }
     if (options.open) open_in_browser((folder / "report.html").string());
   }
-  if (output.complete && !interrupt_seen) return exit_done;
+  if (output.complete && !interrupt_seen) {
+    if (output.unconfirmed.empty()) return exit_done;
+    fmt::print(stderr, "kurbel: not confirmed: {}. Loosen --accuracy, or take --no-error if no error is wanted\n",
+               output.unconfirmed);
+    return exit_not_confirmed;
+  }
   fmt::print(stderr, "kurbel: {}\n", output.complete ? "interrupted" : output.diagnosis);
   return interrupt_seen ? exit_interrupted : exit_run_failed;
 }

@@ -13,7 +13,9 @@
 
 namespace kurbel::app {
 
-inline constexpr int exit_done = 0, exit_user_error = 2, exit_run_failed = 3, exit_interrupted = 130;
+// What ran to the end, but not to the accuracy asked for, ends like a run that failed: its figures are not sure.
+inline constexpr int exit_done = 0, exit_user_error = 2, exit_run_failed = 3, exit_not_confirmed = 3,
+                     exit_interrupted = 130;
 
 // Set by Ctrl-C; runs end cleanly on it.
 const std::atomic<bool>& interrupted();

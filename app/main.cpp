@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
   CLI::App app{
       "kurbel — dynamics of machine units: is the rigid model good enough, and if not, how far is it off?\n"
       "begin with: kurbel new press\n"
-      "exit codes: 0 done, 2 the input is wrong, 3 a run failed, 130 interrupted"};
+      "exit codes: 0 done, 2 the input is wrong, 3 a run failed or did not reach the accuracy asked for, 130 "
+      "interrupted"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "kurbel 0.1.0");
   int code = exit_done;

@@ -38,7 +38,7 @@ std::string coloured(std::string text, const std::string& conclusion) {
     if (const std::size_t at = text.find(conclusion); at != std::string::npos)
       text.replace(at, conclusion.size(), "\033[1m" + conclusion + "\033[0m");
   wrap(text, "INCOMPLETE", "31");
-  wrap(text, "NOT reached", "33");
+  wrap(text, "NOT confirmed", "33");
   return text;
 }
 

@@ -341,14 +341,25 @@ void CycleRecorder::step(StepView& view) {
   const int shaft = m.shaft_of_node[at(m.reduction_node)];
   const double gain = m.angles[tracked].gain;
   double from = view.t_previous();
+  const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
+  const auto speed = [&](double time) { return gain * view.snapshot(time).now.speed[shaft]; };
+  const auto peak_between = [&](double ta, double aa, double tb, double ab) {
+    if (aa != 0 && ab != 0 && (aa > 0) != (ab > 0)) see_speed(speed(find_root(alpha, ta, aa, tb, ab)));
+  };
+  // An even number of extremes leaves the signs at the ends as they are: the middle is asked wherever the speed could
+  // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
   const auto extreme_until = [&](double t) {
-    const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
-    const double a0 = alpha(from), a1 = alpha(t);
-    if (a0 != 0 && a1 != 0 && (a0 > 0) != (a1 > 0) && t > from) {
-      const double peak = find_root(alpha, from, a0, t, a1);
-      see_speed(gain * view.snapshot(peak).now.speed[shaft]);
+    see_speed(speed(t));
+    if (t > from) {
+      const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
+      const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
+      if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
+        const double middle = 0.5 * (from + t), am = alpha(middle);
+        see_speed(speed(middle));
+        peak_between(from, a0, middle, am);
+        peak_between(middle, am, t, a1);
+      }
     }
-    see_speed(gain * view.snapshot(t).now.speed[shaft]);
     from = t;
   };
   const auto beyond = [&](double t) { return equations.angle_with_turns(tracked, view.at(t)) - next_angle_; };

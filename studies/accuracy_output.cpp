@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/known_accuracy.h"
 #include "studies/machine_info.h"
 #include "studies/text_table.h"
@@ -331,8 +332,9 @@ Table level_table(const AccuracyStudy& study) {
     std::vector<std::string> row = {level.name, level.effects, fmt::format("{}, {}", level.first, level.second),
                                     fmt::format("{}", level.coordinates), error_number(level.agreement)};
     for (std::size_t i = 0; i < study.figures.size(); ++i) {
-      row.push_back(std::isnan(level.value[i]) ? "—"
-                                               : rounded(level.value[i], level.floor[i] * std::abs(level.value[i])));
+      row.push_back(std::isnan(level.value[i])
+                        ? "—"
+                        : figure_text(level.value[i], level.floor[i] * std::abs(level.value[i])).value);
       row.push_back(std::isnan(level.model_error[i]) ? "—" : fmt::format("{:.2g} %", 100 * level.model_error[i]));
     }
     table.rows.push_back(std::move(row));

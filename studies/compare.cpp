@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 
 namespace kurbel {
 namespace {
@@ -33,24 +35,28 @@ void add_rows(Comparison& c) {
   }
 }
 
-// First value of a channel, just after the start.
-std::optional<double> at_start(const Result& result, const std::string& channel) {
-  const auto& channels = result.trajectory->channels();
-  for (std::size_t k = 0; k < channels.size(); ++k)
-    if (channels[k].name == channel && !result.trajectory->time().empty()) return result.trajectory->value(0, k);
-  return {};
+// Torques that joints transmit just after the start, whatever the trajectory's output is restricted to.
+std::map<std::string, double> torques_at_start(const Result& result) {
+  Equations equations(result.model, false);
+  const std::vector<double> y = equations.start(0);
+  const Snapshot& s = equations.snapshot(0, y);
+  std::map<std::string, double> torques;
+  for (const TorqueJoint& joint : result.model->torque_joints) torques[joint.component] = s.joint_torque[joint.joint];
+  return torques;
 }
 
 // Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (THEORY 5).
 void note_sudden_loads(Comparison& c) {
   std::vector<std::string> sudden;
+  const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
   for (const ComparisonRow& row : c.amplification) {
     const std::string joint = row.name.substr(std::string("amplification.").size());
-    const auto rigid = at_start(c.a, "torque." + joint), elastic = at_start(c.b, "torque." + joint);
+    const auto rigid = rigid_torques.find(joint), elastic = elastic_torques.find(joint);
     const Figure* peak = c.a.find("peak_torque." + joint);
-    if (rigid && elastic && peak && std::abs(*rigid - *elastic) > 0.05 * std::abs(peak->value))
-      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(*elastic, "N*m", 4),
-                                   with_unit(*rigid, "N*m", 4)));
+    if (rigid == rigid_torques.end() || elastic == elastic_torques.end() || !peak) continue;
+    if (std::abs(rigid->second - elastic->second) > 0.05 * std::abs(peak->value))
+      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(elastic->second, "N*m", 4),
+                                   with_unit(rigid->second, "N*m", 4)));
   }
   const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) {
     return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off";
@@ -62,11 +68,6 @@ void note_sudden_loads(Comparison& c) {
   c.notes.push_back(text +
                     "): however stiff the drive, its peak torque after a step tends to twice the rigid one, not to the "
                     "rigid one; the motion does converge");
-}
-
-std::string sure(double value, const std::optional<double>& error, const std::string& unit) {
-  return error ? fmt::format("{} ± {}", with_unit(value, "", 6), with_unit(*error, unit, 2))
-               : with_unit(value, unit, 6);
 }
 
 void conclude(Comparison& c) {
@@ -82,7 +83,7 @@ void conclude(Comparison& c) {
     const std::string joint = worst->name.substr(std::string("amplification.").size());
     const Figure* peak = c.b.find("peak_torque." + joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
-                               sure(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
+                               with_error(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
   }
   for (const ComparisonRow& row : c.rows)
     if (row.name.starts_with("delta.") && row.ratio)
@@ -92,6 +93,9 @@ void conclude(Comparison& c) {
   if (c.conclusion.empty()) c.conclusion = "The two models have no torque or cycle in common to compare";
   c.conclusion += fmt::format("; it costs {:.3g} × the time.",
                               c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
+  for (const Result* r : {&c.a, &c.b})
+    if (r->unconfirmed())
+      c.conclusion += fmt::format(" NOT confirmed, {} model: {}.", r->label, r->accuracy_in_words());
 }
 
 }  // namespace

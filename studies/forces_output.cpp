@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/run_report.h"
 #include "studies/text_table.h"
 
@@ -91,7 +92,7 @@ Rows figure_rows(const Forces& f) {
     for (const ForceCycle* c : problems_of(f)) {
       const NamedPeak p = peaks_of(*c)[i];
       if (row.empty()) row.push_back(p.name);
-      row.push_back(rounded(p.peak->value, p.peak->error) + (p.peak->error ? " " + error_text(p.peak->error) : ""));
+      row.push_back(with_error(p.peak->value, p.peak->error, ""));
       row.push_back(at_angle(*p.peak));
     }
     row.push_back(pretty_unit(peaks_of(*f.prescribed)[i].unit));

@@ -21,7 +21,8 @@ struct StudyOutput {
   std::function<Report()> report;  // made only when it is written
   std::vector<CsvFile> csv = {};
   bool complete = true;
-  std::string diagnosis = {};  // of a run that failed on its way
+  std::string diagnosis = {};    // of a run that failed on its way
+  std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
 };
 
 // Writes summary.json, report.html and the CSV files into the folder, each under a temporary name first. With plots the

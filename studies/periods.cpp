@@ -1,5 +1,7 @@
-// periods.cpp — from cycles, or from the sampled speed where there are none.
+// periods.cpp — from cycle means, and from the last time outside a band.
 #include "studies/periods.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,137 +9,184 @@
 namespace kurbel {
 namespace {
 
-constexpr double near_steady = 0.01, at_rest = 1e-3, same_cycle = 1e-3;
+constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
+constexpr std::size_t parts_without_cycle = 16;
+// Changes of the mean speed from cycle to cycle that a local tolerance leaves; never more than this of it.
+constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
-// The last time at which every driving source of the machine had gone off, if it stayed so.
-std::optional<double> last_switch_off(const Model& model, const RunOutcome& outcome) {
-  double last = -1;
-  bool any = false;
-  for (const Network::ShaftElement& e : model.network.elements) {
-    if (e.element->account() != Account::driving) continue;
-    any = true;
-    double off = e.window.stop;
-    for (const Event& event : outcome.events)  // by the operating sequence
-      if (event.component == e.component && event.what.starts_with("is set "))
-        off = event.what == "is set off" ? std::min(event.t, e.window.stop) : e.window.stop;
-    if (off >= outcome.t) return {};
-    last = std::max(last, off);
+// Changes D₁, D₂ over the two halves of the last 2 · `length` changes.
+std::optional<double> geometric_rest(std::span<const double> v, std::size_t length, double noise) {
+  const std::size_t n = v.size() - 1;
+  const double second = std::abs(v[n] - v[n - length]), first = std::abs(v[n - length] - v[n - 2 * length]);
+  if (second <= noise) return second;
+  if (second >= first) return {};
+  return second * second / (first - second);
+}
+
+double range_of(std::span<const double> v) {
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  return *high - *low;
+}
+
+// The means of a machine without a cycle: angle over time.
+std::vector<double> means_of_parts(const SpeedRecorder& speed, double end) {
+  const std::vector<double>& angle = speed.angles();
+  std::vector<double> means;
+  if (angle.empty() || !(speed.interval() > 0)) return means;
+  const std::size_t last = std::min(angle.size() - 1, static_cast<std::size_t>(end / speed.interval() * (1 + 1e-12)));
+  const std::size_t part = last / parts_without_cycle;
+  if (part == 0) return means;
+  for (std::size_t k = last % part; k + part <= last; k += part)
+    means.push_back((angle[k + part] - angle[k]) / (static_cast<double>(part) * speed.interval()));
+  return means;
+}
+
+// Means of cycles as if they had been taken at equal times: what grows evenly in time must not look as if it slowed
+// down because its cycles get shorter.
+std::vector<double> at_equal_times(const std::vector<double>& time, const std::vector<double>& mean) {
+  std::vector<double> even;
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < mean.size() && mean.size() > 2; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(mean.size() - 1);
+    const double t = time.front() + part * (time.back() - time.front());
+    while (k + 1 < mean.size() && time[k] < t) ++k;
+    even.push_back(mean[k] + (mean[k] - mean[k - 1]) * (t - time[k]) / (time[k] - time[k - 1]));
   }
-  for (const Network::Node& node : model.network.nodes)
-    if (node.prescribed >= 0 && !model.network.prescribed[static_cast<std::size_t>(node.prescribed)].is_nothing())
-      return {};
-  return any && last > 0 ? std::optional(last) : std::nullopt;
+  return mean.size() > 2 ? even : mean;
 }
 
-// A time between samples, and how far off it may be.
-struct Passing {
-  double t, resolution;
+// What the judgement is made of.
+struct DrivenTime {
+  double end = 0;                     // [s]
+  const CycleRecord* last = nullptr;  // cycle
+  std::vector<double> means = {};     // of the speed [rad/s]
+  double speed = 0;                   // the last cycle's mean, or the speed at the end
 };
 
-// Speed of the reduction link at the samples.
-struct SpeedSeries {
-  const TrajectoryRecorder& trajectory;
-  std::size_t channel;
-  double at(std::size_t row) const { return trajectory.value(row, channel); }
-  double time(std::size_t row) const { return trajectory.time()[row]; }
-  std::size_t rows() const { return trajectory.time().size(); }
-  // Time between rows row − 1 and row at which the speed passes a value: root of the cubic through four samples. Its
-  // distance from the straight line's root is taken for its uncertainty.
-  Passing passing(std::size_t row, double value) const {
-    const double t0 = time(row - 1), t1 = time(row);
-    const double a = at(row - 1) - value, b = at(row) - value;
-    const double straight = a == b ? t1 : t0 + a / (a - b) * (t1 - t0);
-    if (row < 2 || row + 1 >= rows()) return {straight, t1 - t0};
-    const auto cubic = [&](double t) {
-      double sum = 0;
-      for (std::size_t i = row - 2; i <= row + 1; ++i) {
-        double weight = 1;
-        for (std::size_t k = row - 2; k <= row + 1; ++k)
-          if (k != i) weight *= (t - time(k)) / (time(i) - time(k));
-        sum += weight * at(i);
-      }
-      return sum - value;
-    };
-    const double root = find_root(cubic, t0, a, t1, b);
-    return {root, std::abs(root - straight)};
+DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
+                       const Periods& periods, const RunOutcome& outcome) {
+  DrivenTime d{.end = periods.run_down_begin.value_or(outcome.t)};
+  std::vector<double> middle;
+  for (const CycleRecord& c : cycles) {
+    if (c.end > d.end) break;
+    middle.push_back(0.5 * (c.begin + c.end));
+    d.means.push_back(c.mean_speed());
+    d.last = &c;
   }
-};
-
-std::optional<SpeedSeries> speed_series(const Model& model, const TrajectoryRecorder& trajectory) {
-  const std::string& component = model.network.nodes[static_cast<std::size_t>(model.reduction_node)].component;
-  for (std::size_t k = 0; k < trajectory.channels().size(); ++k)
-    if (trajectory.channels()[k].name == "speed." + component ||
-        trajectory.channels()[k].name == "speed." + component + ".in")
-      return SpeedSeries{trajectory, k};
-  return {};
+  d.means = at_equal_times(middle, d.means);
+  if (model.cycle == 0) d.means = means_of_parts(speed, d.end);
+  d.speed = d.last ? d.last->mean_speed() : speed.driven().empty() ? 0 : speed.driven().last();
+  return d;
 }
 
-// The range of speeds that belongs to steady motion.
-struct Band {
-  double low = 0, high = 0;
-  bool contains(double omega) const { return omega >= low && omega <= high; }
-};
-
-std::optional<Band> band_of_cycles(const std::vector<CycleRecord>& cycles, Periods& periods) {
-  std::vector<const CycleRecord*> driven;
-  for (const CycleRecord& c : cycles)
-    if (!periods.run_down_begin || c.end <= *periods.run_down_begin) driven.push_back(&c);
-  if (driven.size() < 2) return {};
-  const CycleRecord& last = *driven.back();
-  periods.steady_speed = last.mean_speed();
-  periods.steady = std::abs(driven[driven.size() - 2]->mean_speed() / periods.steady_speed - 1) < same_cycle;
-  const double margin = near_steady * std::abs(periods.steady_speed);
-  return Band{last.omega_min - margin, last.omega_max + margin};
+void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance, Periods& periods) {
+  const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
+  if (d.means.size() < 3) {
+    periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 that tell", d.means.size(),
+                                                    d.means.size() == 1 ? "" : "s")
+                                      : "too short a time to tell";
+    return;
+  }
+  const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
+  const Approach approach = approach_of(d.means, noise);
+  const double scale = std::abs(d.speed);
+  if (!(scale > at_rest * at_rest * model.speed_scale)) {
+    periods.verdict = "it stands still";
+    return;
+  }
+  if (approach.remaining) periods.remaining = *approach.remaining;
+  periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
+  const double change = 100 * approach.last_change / scale;
+  if (!approach.remaining)
+    periods.verdict = fmt::format("the mean speed changes by {:+.2g} % a {}, and that does not shrink", change, unit);
+  else
+    periods.verdict = fmt::format("the mean speed is {}within {:.3g} % of its limit", periods.steady ? "" : "only ",
+                                  100 * *approach.remaining / scale);
 }
 
-std::optional<Band> band_of_speed(const SpeedSeries& speed, std::size_t last, Periods& periods) {
-  if (last < 20) return {};
-  periods.steady_speed = speed.at(last);
-  periods.steady =
-      periods.steady_speed != 0 && std::abs(speed.at(last - last / 20) / periods.steady_speed - 1) < same_cycle;
-  const double margin = near_steady * std::abs(periods.steady_speed);
-  return Band{periods.steady_speed - margin, periods.steady_speed + margin};
+void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,
+                 Periods& periods) {
+  const double margin = near_steady * std::abs(d.speed);
+  const double low = (d.last ? d.last->omega_min : d.speed) - margin;
+  const double high = (d.last ? d.last->omega_max : d.speed) + margin;
+  const std::optional<double> entry = speed.last_outside(low, high);
+  if (!entry) return;
+  if (d.last && *entry > d.last->begin) {
+    periods.steady = false;
+    periods.verdict = fmt::format("after the last whole cycle the speed leaves its range, at {:.6g} s", *entry);
+    return;
+  }
+  periods.run_up_end = entry;
+  // A crossing that only grazes the band's edge moves far with the least error of the speed.
+  const double shift = tolerance * model.speed_scale;
+  for (const double s : {-shift, shift}) {
+    const std::optional<double> other = speed.last_outside(low - s, high + s);
+    periods.run_up_resolution = std::max(periods.run_up_resolution, std::abs(other.value_or(0) - *entry));
+  }
 }
 
-// Where the speed enters the band for good.
-void find_run_up(const SpeedSeries& speed, std::size_t last, const Band& band, Periods& periods) {
-  if (!band.contains(speed.at(last))) return;
-  std::size_t first = last;
-  while (first > 0 && band.contains(speed.at(first - 1))) --first;
-  if (first == 0) return;  // began in steady motion
-  const Passing entry = speed.passing(first, speed.at(first - 1) < band.low ? band.low : band.high);
-  periods.run_up_end = entry.t;
-  periods.run_up_resolution = entry.resolution;
+// The link's own rest, if it stays; a machine without dry friction only comes near it.
+void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double reference,
+                     double tolerance, Periods& periods) {
+  const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
+  const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
+  for (const Event& event : outcome.events) {
+    if (event.component != name || event.t <= *periods.run_down_begin) continue;
+    if (event.what == "comes to rest and is held") periods.standstill = event.t;
+    if (event.what.starts_with("moves")) periods.standstill.reset();
+  }
+  if (periods.standstill || speed.empty()) return;
+  const double level = at_rest * std::max(std::abs(reference), at_rest * model.speed_scale);
+  const std::optional<double> entry = speed.last_outside(-level, level);
+  if (!entry || *entry >= outcome.t) return;
+  periods.standstill = entry;
+  const double shift = std::min(tolerance * model.speed_scale, 0.5 * level);
+  for (const double s : {-shift, shift}) {
+    const std::optional<double> other = speed.last_outside(-level - s, level + s);
+    periods.standstill_resolution = std::max(periods.standstill_resolution, std::abs(other.value_or(0) - *entry));
+  }
 }
 
 }  // namespace
 
-Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const TrajectoryRecorder& trajectory,
-                     const RunOutcome& outcome) {
-  Periods periods;
-  periods.run_down_begin = last_switch_off(model, outcome);
-  const std::optional<SpeedSeries> speed = speed_series(model, trajectory);
-  if (speed) {
-    std::size_t last = 0;
-    while (last + 1 < speed->rows() && speed->time(last + 1) <= periods.run_down_begin.value_or(outcome.t)) ++last;
-    const std::optional<Band> band =
-        cycles.size() >= 2 ? band_of_cycles(cycles, periods) : band_of_speed(*speed, last, periods);
-    if (band && periods.steady) find_run_up(*speed, last, *band, periods);
+Approach approach_of(std::span<const double> values, double noise) {
+  Approach approach;
+  if (values.size() >= 2) approach.last_change = values.back() - values[values.size() - 2];
+  if (values.size() < 3) return approach;
+  const std::span<const double> v = values.last(std::max<std::size_t>(3, values.size() / 2 + 1));
+  const std::size_t n = v.size() - 1, half = n / 2;
+  bool rises = false, falls = false;
+  for (std::size_t k = 1; k <= n; ++k) {
+    rises = rises || v[k] - v[k - 1] > noise;
+    falls = falls || v[k - 1] - v[k] > noise;
   }
-  if (!periods.run_down_begin || !speed) return periods;
-  // The event is exact; a machine without dry friction only comes near rest.
-  for (const Event& event : outcome.events)
-    if (event.t > *periods.run_down_begin && event.what == "comes to rest and is held") {
-      periods.standstill = event.t;
-      return periods;
+  if (rises && falls) {
+    const double before = range_of(v.first(v.size() - half)), now = range_of(v.last(half + 1));
+    const double growth = std::max(1.0, now / std::max(before, noise));
+    approach.remaining = std::isfinite(growth) ? now * growth * growth : now;
+    return approach;
+  }
+  approach.remaining = 0;
+  for (const std::size_t length : {std::max<std::size_t>(1, half / 4), half}) {
+    const std::optional<double> rest = geometric_rest(v, length, noise);
+    if (!rest || !approach.remaining) {
+      approach.remaining.reset();
+    } else {
+      approach.remaining = std::max(*approach.remaining, *rest);
     }
-  for (std::size_t row = 1; row < speed->rows(); ++row)
-    if (speed->time(row) > *periods.run_down_begin &&
-        std::abs(speed->at(row)) < at_rest * std::max(std::abs(periods.steady_speed), at_rest * model.speed_scale)) {
-      periods.standstill = speed->time(row);
-      periods.standstill_resolution = speed->time(row) - speed->time(row - 1);
-      break;
-    }
+  }
+  return approach;
+}
+
+Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
+                     const RunOutcome& outcome, double tolerance) {
+  Periods periods;
+  periods.run_down_begin = speed.off_since();
+  const DrivenTime d = driven_time(model, cycles, speed, periods, outcome);
+  judge_steadiness(model, d, tolerance, periods);
+  if (periods.steady && !speed.driven().empty()) find_run_up(model, speed.driven(), d, tolerance, periods);
+  if (periods.steady) periods.steady_speed = d.speed;
+  if (periods.run_down_begin) find_standstill(model, speed.coasting(), outcome, d.speed, tolerance, periods);
   return periods;
 }
 

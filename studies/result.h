@@ -32,14 +32,16 @@ struct ComponentState {
   std::optional<double> angle_error = {}, speed_error = {}, angle_out_error = {}, speed_out_error = {};
 };
 
-// Run-up, steady motion and run-down of the reduction link; times in s.
+// Run-up, steady motion and run-down of the reduction link; times in s. Defined in periods.h.
 struct Periods {
   std::optional<double> run_up_end;                         // from here on within the range of the steady cycle, ± 1 %
   std::optional<double> run_down_begin;                     // the last source went off
   std::optional<double> standstill;                         // came to rest
-  double run_up_resolution = 0, standstill_resolution = 0;  // what the samples leave open [s]
-  double steady_speed = 0;                                  // [rad/s]
-  bool steady = false;                                      // the last two cycles agree to 0.1 %
+  double run_up_resolution = 0, standstill_resolution = 0;  // how far errors as small as the tolerance move them [s]
+  double steady_speed = 0;                                  // of steady motion only [rad/s]
+  bool steady = false;                                      // what remains to the mean speed's limit is below 0.1 %
+  std::optional<double> remaining;                          // to the limit [rad/s]; nothing: none is in sight
+  std::string verdict;                                      // why steady, or why not, in words
 };
 
 struct EnergyBalance {
@@ -61,6 +63,7 @@ struct Result {
   double until = 0, accuracy = 0;
   double measured_accuracy = 0;  // largest error over its scale; 0 with errors not measured
   bool accuracy_confirmed = false, errors_measured = false;
+  bool confirmation_asked = false;  // not with --no-error: then nothing was to be confirmed
   double tolerance = 0;
   int runs = 0;
   std::int64_t flow_calls = 0;  // evaluations of the right-hand side, of all runs
@@ -81,6 +84,10 @@ struct Result {
   std::shared_ptr<const Model> model;
 
   const Figure* find(const std::string& name) const;
+  // Ran to the end, but not to the accuracy asked for: its figures stand with the errors that were measured, if any.
+  bool unconfirmed() const { return complete && confirmation_asked && !accuracy_confirmed; }
+  // "accuracy 1e-06 was asked for, 3.1e-05 measured"
+  std::string accuracy_in_words() const;
 };
 
 }  // namespace kurbel

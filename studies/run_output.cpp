@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/run_report.h"
 #include "studies/text_table.h"
 
@@ -17,7 +19,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
-std::string error_of(const std::optional<double>& error) { return error ? "± " + number(*error, 2) : ""; }
+std::string value_cell(const std::optional<double>& value, const std::optional<double>& error) {
+  return value ? figure_text(*value, error).value : "—";
+}
+std::string error_cell(const std::optional<double>& value, const std::optional<double>& error) {
+  return value ? error_cell(*value, error) : "";
+}
+// The time of a period's end from the figure that has it, if one has.
+std::string time_text(const Result& r, double t) {
+  for (const Figure& f : r.figures)
+    if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
+      return with_error(t, f.at_error ? f.at_error : f.error, "s");
+  return with_unit(t, "s", 6);
+}
 
 std::string heading(const Result& r) {
   std::string text =
@@ -29,6 +43,13 @@ std::string heading(const Result& r) {
     text += fmt::format("  what kept the steps short: {}\n", limits);
   if (!r.complete) text += fmt::format("  INCOMPLETE: {}\n", r.diagnosis);
   return text;
+}
+
+// What the figures of a cycle belong to, where there are any.
+std::string of_last_cycle(const Result& r) {
+  const bool any =
+      std::any_of(r.figures.begin(), r.figures.end(), [](const Figure& f) { return f.name.starts_with("delta."); });
+  return any && !r.periods.steady ? " (figures of a cycle are those of the last whole one)" : "";
 }
 
 std::string footing(const Result& r) {
@@ -44,32 +65,54 @@ std::string footing(const Result& r) {
   }
   if (r.errors_measured)
     text += fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}\n", r.accuracy, r.measured_accuracy,
-                        r.accuracy_confirmed ? "" : " — NOT reached");
+                        r.accuracy_confirmed ? "" : " — NOT confirmed");
   else if (r.complete)
-    text += "  errors were not measured (--no-error)\n";
+    text += r.unconfirmed() ? "  accuracy: errors could not be measured — NOT confirmed\n"
+                            : "  errors were not measured (--no-error): digits are not what is sure\n";
   const Periods& p = r.periods;
   if (p.run_up_end)
-    text +=
-        fmt::format("  run-up to {}", with_unit(*p.run_up_end, "s", 5)) +
-        (p.run_down_begin
-             ? fmt::format(", steady to {}, then run-down{}", with_unit(*p.run_down_begin, "s", 5),
-                           p.standstill ? fmt::format(" to standstill at {}", with_unit(*p.standstill, "s", 5)) : "")
-             : ", then steady motion") +
-        "\n";
-  else if (!p.steady && r.complete && r.trajectory)
-    text += "  no steady motion within the time simulated\n";
+    text += fmt::format("  run-up to {}", time_text(r, *p.run_up_end)) +
+            (p.run_down_begin
+                 ? fmt::format(", steady to {}, then run-down{}", with_unit(*p.run_down_begin, "s", 6),
+                               p.standstill ? fmt::format(" to standstill at {}", time_text(r, *p.standstill)) : "")
+                 : ", then steady motion") +
+            "\n";
+  if (r.complete && r.trajectory)
+    text += fmt::format("  {}{}: {}\n", p.steady ? "steady motion" : "no steady motion within the time simulated",
+                        of_last_cycle(r), p.verdict);
   for (const std::string& note : r.notes) text += "  note: " + note + "\n";
   return text;
 }
 
+Json optional_json(const std::optional<double>& v) { return v ? Json(*v) : Json(); }
+
 Json figure_json(const Figure& f) {
   Json j = {{"name", f.name}, {"value", f.value}, {"unit", f.unit}};
-  j["error"] = f.error ? Json(*f.error) : Json();
-  j["at"] = f.at ? Json(*f.at) : Json();
+  j["error"] = optional_json(f.error);
+  j["at"] = optional_json(f.at);
+  j["at_error"] = optional_json(f.at_error);
   return j;
 }
 
-Json optional_json(const std::optional<double>& v) { return v ? Json(*v) : Json(); }
+Json state_json(const ComponentState& s) {
+  Json j = {{"angle", s.angle}, {"speed", s.speed}};
+  j["angle_error"] = optional_json(s.angle_error);
+  j["speed_error"] = optional_json(s.speed_error);
+  if (!s.angle_out) return j;
+  j.update({{"angle_out", *s.angle_out}, {"speed_out", *s.speed_out}});
+  j["angle_out_error"] = optional_json(s.angle_out_error);
+  j["speed_out_error"] = optional_json(s.speed_out_error);
+  return j;
+}
+
+Json event_json(const Result& r, std::size_t k) {
+  const Event& e = r.events[k];
+  Json j = {{"t", e.t}, {"component", e.component}, {"what", e.what}};
+  if (!e.from.empty()) j["from"] = e.from;
+  j["error"] = r.event_errors.empty() ? Json() : optional_json(r.event_errors[k]);
+  if (!r.event_errors.empty() && !r.event_errors[k]) j["only_in_finer_run"] = true;
+  return j;
+}
 
 Json result_json(const Result& r) {
   Json j;
@@ -85,20 +128,15 @@ Json result_json(const Result& r) {
   j["figures"] = Json::array();
   for (const Figure& f : r.figures) j["figures"].push_back(figure_json(f));
   j["final"] = Json::object();
-  for (const auto& [name, state] : r.final_state) {
-    j["final"][name] = {{"angle", state.angle}, {"speed", state.speed}};
-    if (state.angle_out) j["final"][name].update({{"angle_out", *state.angle_out}, {"speed_out", *state.speed_out}});
-  }
+  for (const auto& [name, state] : r.final_state) j["final"][name] = state_json(state);
   j["events"] = Json::array();
-  for (const Event& e : r.events) {
-    Json event = {{"t", e.t}, {"component", e.component}, {"what", e.what}};
-    if (!e.from.empty()) event["from"] = e.from;
-    j["events"].push_back(event);
-  }
+  for (std::size_t k = 0; k < r.events.size(); ++k) j["events"].push_back(event_json(r, k));
   j["periods"] = {{"run_up_end", optional_json(r.periods.run_up_end)},
                   {"run_down_begin", optional_json(r.periods.run_down_begin)},
                   {"standstill", optional_json(r.periods.standstill)},
-                  {"steady", r.periods.steady}};
+                  {"steady", r.periods.steady},
+                  {"remaining_to_limit", optional_json(r.periods.remaining)},
+                  {"verdict", r.periods.verdict}};
   j["cycles"] = Json::array();
   for (const CycleRecord& c : r.cycles)
     j["cycles"].push_back({{"begin", c.begin},
@@ -121,7 +159,7 @@ Json result_json(const Result& r) {
   const StepperStatistics& s = r.statistics.stepper;
   j["accuracy"] = {{"asked", r.accuracy},
                    {"measured", r.errors_measured ? Json(r.measured_accuracy) : Json()},
-                   {"confirmed", r.accuracy_confirmed},
+                   {"confirmed", r.confirmation_asked ? Json(r.accuracy_confirmed) : Json()},
                    {"tolerance", r.tolerance}};
   j["statistics"] = {{"method", r.statistics.method},
                      {"reason", r.statistics.reason},
@@ -186,14 +224,13 @@ std::string csv_of(const Result& r) {
 
 std::string one_line(const Result& r) {
   if (!r.complete) return fmt::format("{}: INCOMPLETE: {}", r.title, r.diagnosis);
-  const std::string accuracy =
-      r.errors_measured ? fmt::format("accuracy {:.1e} measured{}", r.measured_accuracy,
-                                      r.accuracy_confirmed ? "" : fmt::format(", {:.1e} NOT reached", r.accuracy))
-                        : "errors not measured";
+  const std::string accuracy = r.unconfirmed()     ? "NOT confirmed: " + r.accuracy_in_words()
+                               : r.errors_measured ? fmt::format("accuracy {:.1e} measured", r.measured_accuracy)
+                                                   : "errors not measured";
   std::string peak;
   for (const Figure& f : r.figures)
     if (peak.empty() && f.name.starts_with("peak_torque."))
-      peak = fmt::format("peak torque in {} {}, ", f.name.substr(12), with_unit(f.value, "N*m", 6));
+      peak = fmt::format("peak torque in {} {}, ", f.name.substr(12), with_error(f.value, f.error, "N*m"));
   return fmt::format("{}: {} simulated, {}, {}{}, energy balance {:.1e}", r.title, with_unit(r.until, "s", 6), r.label,
                      peak, accuracy, r.energy.relative);
 }
@@ -204,8 +241,8 @@ std::string table_of(const Result& r) {
   std::string text = r.title + "\n" + heading(r);
   std::vector<std::vector<std::string>> rows = {{"figure", "value", "error", "unit", "at"}};
   for (const Figure& f : r.figures)
-    rows.push_back({f.name, number(f.value), error_of(f.error), pretty_unit(f.unit),
-                    f.at ? fmt::format("at {}", with_unit(*f.at, "s", 6)) : ""});
+    rows.push_back({f.name, value_cell(f.value, f.error), error_cell(f.value, f.error), pretty_unit(f.unit),
+                    f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""});
   return text + aligned(rows, 1) + footing(r);
 }
 
@@ -215,10 +252,11 @@ std::string table_of(const Comparison& c) {
   std::vector<std::vector<std::string>> rows = {
       {"figure", c.a.label, "error", c.b.label, "error", "unit", c.b.label + "/" + c.a.label}};
   for (const ComparisonRow& row : c.rows)
-    rows.push_back({row.name, row.a ? number(*row.a) : "—", error_of(row.a_error), row.b ? number(*row.b) : "—",
-                    error_of(row.b_error), pretty_unit(row.unit), row.ratio ? number(*row.ratio, 5) : ""});
+    rows.push_back({row.name, value_cell(row.a, row.a_error), error_cell(row.a, row.a_error),
+                    value_cell(row.b, row.b_error), error_cell(row.b, row.b_error), pretty_unit(row.unit),
+                    row.ratio ? number(*row.ratio, 4) : ""});
   for (const ComparisonRow& row : c.amplification)
-    rows.push_back({row.name, "1", "", number(*row.b), error_of(row.b_error), "", ""});
+    rows.push_back({row.name, "1", "", value_cell(row.b, row.b_error), error_cell(row.b, row.b_error), "", ""});
   text += aligned(rows, 1);
   for (const std::string& note : c.notes) text += "note: " + note + "\n";
   return text;
@@ -229,6 +267,7 @@ std::string json_of(const Comparison& c) { return comparison_json(c).dump(2); }
 
 StudyOutput output_of(const Result& r) {
   StudyOutput output{one_line(r), table_of(r), json_of(r), [&r] { return report_of(r); }, {}, r.complete, r.diagnosis};
+  if (r.unconfirmed()) output.unconfirmed = r.accuracy_in_words();
   if (r.trajectory) output.csv.push_back({"trajectory.csv", [&r] { return csv_of(r); }});
   return output;
 }
@@ -237,6 +276,7 @@ StudyOutput output_of(const Comparison& c) {
   StudyOutput output{c.conclusion, table_of(c), json_of(c), [&c] { return report_of(c); }};
   for (const Result* r : {&c.a, &c.b}) {
     if (r->trajectory) output.csv.push_back({"trajectory." + r->label + ".csv", [r] { return csv_of(*r); }});
+    if (r->unconfirmed()) output.unconfirmed = fmt::format("{} model: {}", r->label, r->accuracy_in_words());
     if (r->complete) continue;
     output.complete = false;
     if (output.diagnosis.empty()) output.diagnosis = r->diagnosis;

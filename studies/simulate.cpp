@@ -39,6 +39,7 @@ struct OneRun {
   std::shared_ptr<TrajectoryRecorder> trajectory;
   std::unique_ptr<ExtremeRecorder> extremes;
   CycleRecorder cycles;
+  std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
@@ -47,7 +48,8 @@ struct OneRun {
 
 class Figures {
  public:
-  Figures(const Model& model, Equations& equations, OneRun& run) : model_(model), equations_(equations), run_(run) {}
+  Figures(const Model& model, Equations& equations, OneRun& run, double tolerance)
+      : model_(model), equations_(equations), run_(run), tolerance_(tolerance) {}
 
   void collect() {
     collect_extremes();
@@ -66,8 +68,9 @@ class Figures {
            std::optional<double> time = {}) {
     run_.figures.push_back({name, value, unit, {}, time, scale, 0});
   }
-  void add_sampled(const std::string& name, double value, double resolution) {
-    add(name, value, "s", run_.outcome.t);
+  // A duration up to a time; `resolution`: how sharply that time is located.
+  void add_located(const std::string& name, double begin, double end, double resolution) {
+    add(name, end - begin, "s", run_.outcome.t, end);
     run_.figures.back().resolution = resolution;
   }
   std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
@@ -159,7 +162,7 @@ class Figures {
   }
   // Of the last complete cycle of steady motion, or the last one before run-down.
   void collect_cycles() {
-    run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.trajectory, run_.outcome);
+    run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.speed, run_.outcome, tolerance_);
     const CycleRecord* last = nullptr;
     for (const CycleRecord& c : run_.cycles.cycles())
       if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
@@ -175,12 +178,11 @@ class Figures {
     }
   }
   void collect_periods() {
-    if (run_.periods.run_up_end) add_sampled("run_up_time", *run_.periods.run_up_end, run_.periods.run_up_resolution);
-    if (run_.periods.steady_speed != 0)
-      add("steady_speed." + link(), run_.periods.steady_speed, "rad/s", model_.speed_scale);
-    if (run_.periods.run_down_begin && run_.periods.standstill)
-      add_sampled("run_down_time", *run_.periods.standstill - *run_.periods.run_down_begin,
-                  run_.periods.standstill_resolution);
+    const Periods& p = run_.periods;
+    if (p.run_up_end) add_located("run_up_time", 0, *p.run_up_end, p.run_up_resolution);
+    if (p.steady) add("steady_speed." + link(), p.steady_speed, "rad/s", model_.speed_scale);
+    if (p.run_down_begin && p.standstill)
+      add_located("run_down_time", *p.run_down_begin, *p.standstill, p.standstill_resolution);
   }
   void collect_work() {
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
@@ -195,6 +197,7 @@ class Figures {
   const Model& model_;
   Equations& equations_;
   OneRun& run_;
+  double tolerance_;
 };
 
 class Simulation {
@@ -206,6 +209,7 @@ class Simulation {
     if (options.method) settings_.method = *options.method;
     if (options.budget) settings_.budget = std::min(settings_.budget, *options.budget);
     result_.label = label;
+    result_.confirmation_asked = options.measure_error;
   }
 
   // Tolerances are tightened until two runs agree within the accuracy and the energy balance of the finer one closes
@@ -342,6 +346,7 @@ class Simulation {
     run->trajectory =
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
     run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(model));
+    run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
                        .method = elsewhere ? confirming_method() : settings_.method,
@@ -356,7 +361,8 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->energy.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
+                                        run->energy.get()};
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
@@ -366,7 +372,7 @@ class Simulation {
     run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
-    if (!run->outcome.state.empty()) Figures(model, equations, *run).collect();
+    if (!run->outcome.state.empty()) Figures(model, equations, *run, tolerance).collect();
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
@@ -524,6 +530,12 @@ class Simulation {
 const Figure* Result::find(const std::string& name) const {
   const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
   return found == figures.end() ? nullptr : &*found;
+}
+
+std::string Result::accuracy_in_words() const {
+  return fmt::format(
+      "accuracy {:.1e} was asked for, {}", accuracy,
+      errors_measured ? fmt::format("{:.1e} measured", measured_accuracy) : "errors could not be measured");
 }
 
 Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/size.h"
 #include "studies/text_table.h"
 
@@ -81,9 +82,9 @@ Table reached_table(const Sizing& s) {
           .rows = {},
           .text_columns = 2};
   for (const DeltaReached& r : s.reached)
-    t.rows.push_back({r.model, r.sized_by, number(r.flywheel), number(r.crank, 7),
-                      r.crank_error ? fmt::format("± {:.1g}", *r.crank_error) : "", number(r.motor, 7),
-                      r.motor_error ? fmt::format("± {:.1g}", *r.motor_error) : "", number(rpm(r.mean_speed)),
+    t.rows.push_back({r.model, r.sized_by, number(r.flywheel), figure_text(r.crank, r.crank_error).value,
+                      figure_text(r.crank, r.crank_error).error, figure_text(r.motor, r.motor_error).value,
+                      figure_text(r.motor, r.motor_error).error, number(rpm(r.mean_speed)),
                       r.cycles ? fmt::format("{}{}", r.cycles, r.settled ? "" : ", not settled") : "exact"});
   return t;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/report.h"
 #include "studies/report/trace.h"
 
@@ -740,9 +741,9 @@ class Study {
     for (const SteadyCycle& c : out_.cycles) {
       const Figure* mean = c.find("mean_speed." + out_.link);
       const Figure* delta = c.find("delta." + out_.link);
-      text += fmt::format("{}{}: mean speed {} {}, δ = {} {}, {}", text.empty() ? "Steady cycle, " : "; ", c.label,
-                          rounded(mean->value * 30 / std::numbers::pi, scaled(mean->error)), "rpm",
-                          rounded(delta->value, delta->error), error_text(delta->error), c.stability);
+      text += fmt::format("{}{}: mean speed {}, δ = {}, {}", text.empty() ? "Steady cycle, " : "; ", c.label,
+                          with_error(mean->value * 30 / std::numbers::pi, scaled(mean->error), "rpm"),
+                          with_error(delta->value, delta->error, ""), c.stability);
       if (options_.mean_speed)
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),

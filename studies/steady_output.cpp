@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/run_report.h"
 #include "studies/report/trace.h"
 #include "studies/text_table.h"
@@ -21,7 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr double per_minute = 30 / std::numbers::pi, degrees = 180 / std::numbers::pi;
 
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
-std::string error_of(const std::optional<double>& error) { return error ? "± " + number(*error, 2) : ""; }
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 Json optional_json(const std::optional<double>& v) { return v ? Json(*v) : Json(); }
 
@@ -112,8 +112,8 @@ std::vector<std::vector<std::string>> figure_rows(const SteadyStudy& s) {
     std::string unit;
     for (const SteadyCycle& c : s.cycles) {
       const Figure* f = c.find(name);
-      row.push_back(f ? number(f->value) : "—");
-      row.push_back(f ? error_of(f->error) : "");
+      row.push_back(f ? figure_text(f->value, f->error).value : "—");
+      row.push_back(f ? error_cell(f->value, f->error) : "");
       if (f) unit = pretty_unit(f->unit);
     }
     row.push_back(unit);
@@ -421,13 +421,12 @@ void add_formulas(ReportSection& section, const SteadyStudy& s) {
     const Figure *delta = c.find("delta." + s.link), *max = c.find("max_speed." + s.link),
                  *min = c.find("min_speed." + s.link);
     if (!delta || !max || !min) continue;
-    section.cards.push_back(Formula{
-        .title = fmt::format("Speed fluctuation of {}, {} model", s.link, c.label),
-        .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
-        .numbers =
-            fmt::format("δ = ({:.6g} − {:.6g}) rad/s / {:.6g} rad/s = {} {}", max->value, min->value,
-                        0.5 * (max->value + min->value), rounded(delta->value, delta->error), error_text(delta->error)),
-        .note = ""});
+    section.cards.push_back(
+        Formula{.title = fmt::format("Speed fluctuation of {}, {} model", s.link, c.label),
+                .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                .numbers = fmt::format("δ = ({:.6g} − {:.6g}) rad/s / {:.6g} rad/s = {}", max->value, min->value,
+                                       0.5 * (max->value + min->value), with_error(delta->value, delta->error, "")),
+                .note = ""});
   }
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/assets.h"
 #include "studies/report/thin.h"
 
@@ -303,10 +304,10 @@ std::string json_of(const Report& report) {
     w.list(report.figures, [&](const KeyFigure& figure) {
       w.object([&] {
         w.field("name", figure.name);
-        w.field("value", figure.digits > 0 ? fmt::format("{:.{}g}", figure.value, figure.digits)
-                                           : rounded(figure.value, figure.error));
+        const FigureText text = figure_text(figure.value, figure.error);
+        w.field("value", figure.digits > 0 ? fmt::format("{:.{}g}", figure.value, figure.digits) : text.value);
         w.field("unit", pretty_unit(figure.unit));
-        w.field("error", error_text(figure.error));
+        w.field("error", text.error);
         w.field("note", figure.note);
       });
     });
@@ -374,19 +375,6 @@ std::string json_string(const std::string& text) {
     }
   }
   return out + '"';
-}
-
-std::string rounded(double value, const std::optional<double>& error) {
-  if (!std::isfinite(value)) return "—";
-  int digits = 6;
-  if (error && *error > 0 && value != 0)
-    digits = std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / *error))) + 1, 3, 7);
-  return fmt::format("{:.{}g}", value, digits);
-}
-
-std::string error_text(const std::optional<double>& error) {
-  if (!error) return "";
-  return *error == 0 ? "± 0" : fmt::format("± {:.1g}", *error);
 }
 
 ReadableUnit readable_unit(double largest, const std::string& si_unit) {

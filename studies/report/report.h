@@ -183,10 +183,6 @@ int write_gnuplot(const Report& report, const std::string& folder);
 
 // --- helpers for studies ---
 
-// 6082.163 ± 7e-05 → "6082.163": as many digits as the error leaves, at most seven.
-std::string rounded(double value, const std::optional<double>& error = {});
-std::string error_text(const std::optional<double>& error);
-
 // Versions, for the foot of a page.
 std::string report_footer();
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/units.h"
+#include "studies/figure_text.h"
 #include "studies/report/trace.h"
 
 namespace kurbel {
@@ -41,15 +42,21 @@ std::string in_words(const std::string& name) {
   return dot == std::string::npos ? words : words + ", " + name.substr(dot + 1);
 }
 
-std::string sure(const Figure& f) {
-  return fmt::format("{}{}{}", rounded(f.value, f.error), f.error ? " " + error_text(f.error) : "",
-                     f.unit.empty() ? "" : " " + pretty_unit(f.unit));
-}
+std::string sure(const Figure& f) { return with_error(f.value, f.error, f.unit); }
+// Time with its error: a column's heading names the unit.
+std::string time_of(const Figure& f) { return f.at ? with_error(*f.at, f.at_error, "") : ""; }
+std::string at_time(const Figure& f) { return f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""; }
 
 std::vector<EventMark> marks_of(const Result& r) {
   std::vector<EventMark> marks;
   for (const Event& e : r.events) marks.push_back({e.t, e.component + ": " + e.what});
   return marks;
+}
+
+std::string time_of(const Result& r, std::size_t event) {
+  if (r.event_errors.empty()) return with_error(r.events[event].t, {}, "");
+  const std::optional<double>& error = r.event_errors[event];
+  return with_error(r.events[event].t, error, "") + (error ? "" : " (in the finer run only)");
 }
 
 double largest(const std::vector<const Trace*>& traces) {
@@ -187,8 +194,7 @@ Table events_table(const Result& r) {
               .text_columns = 3};
   constexpr std::size_t most = 500;
   for (std::size_t i = 0; i < r.events.size() && i < most; ++i)
-    table.rows.push_back(
-        {r.events[i].component, r.events[i].from, r.events[i].what, fmt::format("{:.9g}", r.events[i].t)});
+    table.rows.push_back({r.events[i].component, r.events[i].from, r.events[i].what, time_of(r, i)});
   if (r.events.size() > most)
     table.rows.push_back({"…", "", fmt::format("{} more in summary.json", r.events.size() - most), ""});
   return table;
@@ -343,17 +349,20 @@ void add_delta_formula(ReportSection& section, const Results& results) {
 std::string conclusion_of(const Result& r) {
   if (!r.complete) return fmt::format("The run is incomplete: {}", r.diagnosis);
   std::string text;
+  if (r.unconfirmed()) text = fmt::format("NOT confirmed: {}. ", r.accuracy_in_words());
+  const std::size_t begin = text.size();
   if (const Figure* peak = largest_peak(r))
-    text = fmt::format("The torque in {} reaches {}{}", peak->name.substr(std::string("peak_torque.").size()),
-                       sure(*peak), peak->at ? fmt::format(" at {:.4g} s", *peak->at) : "");
+    text += fmt::format("The torque in {} reaches {}{}", peak->name.substr(std::string("peak_torque.").size()),
+                        sure(*peak), peak->at ? " " + at_time(*peak) : "");
   if (const Figure* delta = first_with(r, "delta."))
-    text += fmt::format("{} speed of {} fluctuates by δ = {}", text.empty() ? "The" : "; the", delta->name.substr(6),
-                        sure(*delta));
-  if (text.empty())
+    text += fmt::format("{} speed of {} fluctuates by δ = {}{}", text.size() == begin ? "The" : "; the",
+                        delta->name.substr(6), sure(*delta),
+                        r.periods.steady ? "" : " in the last cycle, which is not steady");
+  if (text.size() == begin)
     if (const Figure* speed = first_with(r, "final_speed."))
-      text = fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
+      text += fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
   if (r.energy.checks > 0)
-    text += fmt::format("{}he energy balance closes to {:.1e}", text.empty() ? "T" : "; t", r.energy.relative);
+    text += fmt::format("{}he energy balance closes to {:.1e}", text.size() == begin ? "T" : "; t", r.energy.relative);
   return text + ".";
 }
 
@@ -414,8 +423,8 @@ Table figures_table(const Result& r, bool folded) {
               .rows = {},
               .folded = folded};
   for (const Figure& f : r.figures)
-    table.rows.push_back({f.name, rounded(f.value, f.error), error_text(f.error), pretty_unit(f.unit),
-                          f.at ? fmt::format("{:.6g}", *f.at) : ""});
+    table.rows.push_back(
+        {f.name, figure_text(f.value, f.error).value, error_cell(f.value, f.error), pretty_unit(f.unit), time_of(f)});
   return table;
 }
 
@@ -425,8 +434,7 @@ Report report_of(const Result& r) {
       .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
       .conclusion = conclusion_of(r),
       .complete = r.complete};
-  if (const Figure* peak = largest_peak(r))
-    report.figures.push_back(key_of(*peak, peak->at ? fmt::format("at {:.4g} s", *peak->at) : ""));
+  if (const Figure* peak = largest_peak(r)) report.figures.push_back(key_of(*peak, at_time(*peak)));
   for (const char* prefix : {"delta.", "mean_speed.", "peak_force.", "run_up_time"})
     if (const Figure* f = first_with(r, prefix)) report.figures.push_back(key_of(*f, ""));
   report.figures.push_back({"coordinates",
@@ -438,7 +446,10 @@ Report report_of(const Result& r) {
   ReportSection& figures = report.add("Figures");
   figures.cards.push_back(figures_table(r, false));
   add_delta_formula(figures, {&r});
-  add_notes(report, r.notes);
+  std::vector<std::string> notes = r.notes;
+  if (r.complete && !r.periods.verdict.empty())
+    notes.push_back(fmt::format("{}: {}", r.periods.steady ? "steady motion" : "no steady motion", r.periods.verdict));
+  add_notes(report, notes);
   add_background(report, {&r});
   report.footer = report_footer();
   return report;
@@ -454,7 +465,7 @@ Report report_of(const Comparison& c) {
     if (!f) return;
     const Figure* other = c.a.find(f->name);
     report.figures.push_back(
-        key_of(*f, other ? fmt::format("{}: {}{}", c.a.label, rounded(other->value, other->error),
+        key_of(*f, other ? fmt::format("{}: {}{}", c.a.label, with_error(other->value, other->error, ""),
                                        other->value != 0 ? fmt::format(" · ratio {:.3f}", f->value / other->value) : "")
                          : ""));
   };
@@ -475,22 +486,26 @@ Report report_of(const Comparison& c) {
               .columns = {"figure", c.a.label, "error", c.b.label, "error", "unit", c.b.label + "/" + c.a.label},
               .rows = {}};
   const auto number = [](const std::optional<double>& v, const std::optional<double>& e) {
-    return v ? rounded(*v, e) : "—";
+    return v ? figure_text(*v, e).value : "—";
+  };
+  const auto error = [](const std::optional<double>& v, const std::optional<double>& e) {
+    return v ? error_cell(*v, e) : "";
   };
   for (const ComparisonRow& row : c.rows)
-    table.rows.push_back({row.name, number(row.a, row.a_error), error_text(row.a_error), number(row.b, row.b_error),
-                          error_text(row.b_error), pretty_unit(row.unit),
+    table.rows.push_back({row.name, number(row.a, row.a_error), error(row.a, row.a_error), number(row.b, row.b_error),
+                          error(row.b, row.b_error), pretty_unit(row.unit),
                           row.ratio ? fmt::format("{:.4g}", *row.ratio) : ""});
   figures.cards.push_back(std::move(table));
   for (const ComparisonRow& row : c.amplification) {
     const std::string joint = row.name.substr(std::string("amplification.").size());
     const Figure *a = c.a.find("peak_torque." + joint), *b = c.b.find("peak_torque." + joint);
     if (!a || !b || !row.b) continue;
-    figures.cards.push_back(Formula{.title = fmt::format("Torque amplification in {}", joint),
-                                    .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
-                                    .numbers = fmt::format("K = |{:.7g}| / |{:.7g}| = {} {}", b->value, a->value,
-                                                           rounded(*row.b, row.b_error), error_text(row.b_error)),
-                                    .note = "Largest transmitted torques, each at its own time."});
+    figures.cards.push_back(
+        Formula{.title = fmt::format("Torque amplification in {}", joint),
+                .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
+                .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
+                                       figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),
+                .note = "Largest transmitted torques, each at its own time."});
   }
   add_delta_formula(figures, results);
   std::vector<std::string> notes = c.notes;

@@ -301,7 +301,21 @@ TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
   // Five seconds of this chain come no nearer than 2e-12: said in yellow.
   const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
   const std::string shown = on_terminal({"run", chain, "--accuracy", "1e-12", "--no-files"});
-  EXPECT_NE(shown.find("\033[33mNOT reached\033[0m"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("\033[33mNOT confirmed\033[0m"), std::string::npos) << shown;
+}
+
+// Figures that are not sure to what was asked for: told in the conclusion, in JSON, in the page, and by the exit code.
+TEST_F(CommandLine, AnAccuracyThatWasNotConfirmedIsToldEverywhereAndEndsWithThree) {
+  const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
+  const Ended quiet = kurbel({"run", chain, "--accuracy", "1e-12", "--quiet", "--out", "out"});
+  EXPECT_EQ(quiet.code, 3);
+  EXPECT_NE(quiet.out.find("NOT confirmed: accuracy 1.0e-12 was asked for"), std::string::npos) << quiet.out;
+  EXPECT_NE(quiet.err.find("not confirmed"), std::string::npos) << quiet.err;
+  EXPECT_NE(text_of(folder_ / "out/summary.json").find("\"confirmed\": false"), std::string::npos);
+  EXPECT_NE(text_of(folder_ / "out/report.html").find("NOT confirmed"), std::string::npos);
+  const Ended unasked = kurbel({"run", chain, "--no-error", "--no-files", "--json"});
+  EXPECT_EQ(unasked.code, 0);
+  EXPECT_NE(unasked.out.find("\"confirmed\": null"), std::string::npos);
 }
 
 TEST_F(CommandLine, ProgressIsShownForLongWorkOnATerminalAndWipedOut) {

@@ -90,11 +90,22 @@ TEST(JsonString, ClosesNoScriptAndParsesBack) {
   EXPECT_EQ(nlohmann::json::parse(json).get<std::string>(), nasty);
 }
 
-TEST(Rounded, ShowsTheDigitsThatTheErrorLeaves) {
-  EXPECT_EQ(rounded(6082.16283, 0.5), "6082.16");
-  EXPECT_EQ(rounded(6082.16283, 7e-5), "6082.163");
-  EXPECT_EQ(rounded(0.104382, 0.01), "0.104");
-  EXPECT_EQ(error_text(7.2e-5), "± 7e-05");
+// Terminal and page show one form of value and error, every figure's.
+TEST(Report, ShowsFiguresAsTheTerminalDoes) {
+  const Result r = test::run(geared_train);
+  const std::string html = html_of(report_of(r)), table = table_of(r);
+  ASSERT_FALSE(r.figures.empty());
+  for (const Figure& f : r.figures) {
+    const FigureText text = figure_text(f.value, f.error);
+    EXPECT_NE(html.find(json_string(f.name) + "," + json_string(text.value) + "," + json_string(text.error)),
+              std::string::npos)
+        << f.name;
+    const std::size_t line = table.find(" " + f.name + " ");
+    ASSERT_NE(line, std::string::npos) << f.name;
+    const std::string row = table.substr(line, table.find('\n', line) - line);
+    EXPECT_NE(row.find(" " + text.value + " "), std::string::npos) << row;
+    EXPECT_NE(row.find(text.error), std::string::npos) << row;
+  }
 }
 
 TEST(Report, LoadsNothingFromElsewhere) {

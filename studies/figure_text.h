@@ -1,0 +1,31 @@
+// figure_text.h — a figure and its error as people read them: the one form of terminal, report and README.
+//
+//   6257.169983 ± 5.3e-5   →  "6257.16998" "± 0.00006"
+//   0.104382 ± 0.0112      →  "0.104"      "± 0.012"
+//
+// The error is rounded up to one significant digit, to two where the first is a 1; what the rounding of the value does
+// counts as error. The value ends at the same place. At most nine significant digits of a value are shown: the error
+// shown is never less than what that leaves open. No error is known: six digits. An error of 0 stands for what is exact
+// by construction.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kurbel {
+
+struct FigureText {
+  std::string value;  // "6257.16998"; "—" if it is not finite
+  std::string error;  // "± 0.00006"; "± 0": exact; empty: not known
+};
+
+FigureText figure_text(double value, const std::optional<double>& error);
+
+// "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
+std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
+
+// What a column of errors says where none was measured.
+std::string error_cell(double value, const std::optional<double>& error);
+
+}  // namespace kurbel

@@ -1,0 +1,247 @@
+// periods_test.cpp — run-up, steady motion and run-down against closed forms; no figure depends on what is sampled.
+#include "studies/periods.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+using test::run;
+
+constexpr double noise = 1e-9;
+
+template <class F>
+Approach approach(int n, const F& f) {
+  std::vector<double> v;
+  for (int k = 0; k < n; ++k) v.push_back(f(k));
+  return approach_of(v, noise);
+}
+
+// 1 − q^k lacks q^(n−1) to its limit, however little it changes at each step.
+TEST(Approach, OfAGeometricSequenceIsExact) {
+  for (const double q : {0.1, 0.5, 0.9, 0.99, 0.9995})
+    for (const int n : {3, 4, 7, 40}) {
+      const Approach a = approach(n, [&](int k) { return 1 - std::pow(q, k); });
+      const double rest = std::pow(q, n - 1);
+      if (rest * (1 / q - 1) < 1e-8) continue;  // below the noise
+      ASSERT_TRUE(a.remaining) << q << " " << n;
+      EXPECT_NEAR(*a.remaining, rest, 1e-4 * rest) << q << " " << n;
+    }
+}
+
+TEST(Approach, HasNoLimitWhereTheChangeDoesNotShrink) {
+  for (const double rate : {1e-6, 1e-3, 1.0, -1e-3}) {
+    EXPECT_FALSE(approach(50, [&](int k) { return 10 + rate * k; }).remaining) << rate;
+    EXPECT_FALSE(approach(50, [&](int k) { return 10 + rate * k * k; }).remaining) << rate;
+  }
+  EXPECT_FALSE(approach(2, [](int) { return 1.0; }).remaining) << "two values tell no limit";
+}
+
+// A transient that dies at once, on a slow one: the slow one counts.
+TEST(Approach, OfTwoTransientsIsThatOfTheSlowOne) {
+  for (const int n : {24, 60}) {
+    const Approach a = approach(n, [](int k) { return 10 - 5 * std::pow(0.3, k) - std::pow(0.99, k); });
+    ASSERT_TRUE(a.remaining);
+    EXPECT_GT(*a.remaining, 0.8 * std::pow(0.99, n - 1)) << n;
+  }
+}
+
+TEST(Approach, ToAndFroIsBoundedByItsRange) {
+  const Approach beats = approach(60, [](int k) { return 10 + 1e-3 * std::cos(0.7 * k); });
+  EXPECT_NEAR(*beats.remaining, 2e-3, 3e-4);
+  EXPECT_LT(*approach(60, [](int k) { return 10 + std::pow(-0.8, k); }).remaining, 1e-3);
+  EXPECT_GT(*approach(60, [](int k) { return 10 + 1e-4 * std::pow(-1.2, k); }).remaining, 1);
+  EXPECT_LT(*approach(60, [](int k) { return 10 + 1e-10 * std::cos(k * k); }).remaining, 1e-9);
+}
+
+// M = 100 (1 − ω/100), I = 2: ω = 100 (1 − e^(−t/2)).
+std::string motor_and_rotor(double until, const std::string& rotor = "", double accuracy = 1e-7) {
+  return fmt::format(R"(
+line = ["motor", "rotor"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "100 N*m"
+no_load_speed = "100 rad/s"
+inertia = "1 kg*m2"
+[rotor]
+kind = "flywheel"
+inertia = "1 kg*m2"
+{}
+[run]
+until = "{} s"
+accuracy = {}
+)",
+                     rotor, until, accuracy);
+}
+
+// Within 1 % of ω(T) at t = −2 ln(1 − 0.99 (1 − e^(−T/2))).
+TEST(Periods, RunUpOfALinearMotorIsThatOfItsExponential) {
+  for (const double until : {15.3, 20.0, 40.0})
+    for (const double accuracy : {1e-4, 1e-6, 1e-8}) {
+      const Result r = run(motor_and_rotor(until, "", accuracy));
+      const Figure* f = r.find("run_up_time");
+      ASSERT_TRUE(f && f->error) << until << " " << r.periods.verdict;
+      EXPECT_NEAR(f->value, -2 * std::log(1 - 0.99 * (1 - std::exp(-until / 2))), *f->error) << until << accuracy;
+      EXPECT_LT(*f->error, 1e3 * accuracy);
+      EXPECT_NEAR(test::figure(r, "steady_speed.motor"), 100 * (1 - std::exp(-until / 2)), 1e2 * accuracy);
+      EXPECT_NEAR(*r.periods.remaining, 100 * std::exp(-until / 2), 100 * (std::exp(-until / 2) + accuracy));
+    }
+}
+
+// After six time constants the speed still lacks 0.25 %, although it changes by 0.09 % in a twentieth of the time.
+TEST(Periods, AMotionOnTheWayIsNotSteadyHoweverSlowly) {
+  const Result r = run(motor_and_rotor(12));
+  EXPECT_FALSE(r.periods.steady);
+  EXPECT_EQ(r.find("steady_speed.motor"), nullptr);
+  EXPECT_EQ(r.find("run_up_time"), nullptr);
+}
+
+// A crank without mass turns with the flywheel: a cycle of nearly nothing. T = 2 π/ω, τ = I ω∞/M.
+std::string with_crank(const std::string& motor, const std::string& flywheel, double speed, double until) {
+  return fmt::format(R"(
+line = ["motor", "flywheel", "crank"]
+[motor]
+{}
+[flywheel]
+kind = "flywheel"
+inertia = "{}"
+[crank]
+kind = "slider-crank"
+radius = "0.1 m"
+rod = "0.4 m"
+slider_mass = "1e-6 kg"
+[run]
+start = {{ speed = "{} rad/s" }}
+until = "{} s"
+accuracy = 1e-7
+)",
+                     motor, flywheel, speed, until);
+}
+
+// δω a cycle below 0.1 %, for a hundred cycles: 63 rad/s of 100.
+TEST(Periods, ALargeFlywheelIsNotSteadyBecauseItIsSlow) {
+  const Result r = run(with_crank(
+      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"\ninertia = \"1e-3 kg*m2\"",
+      "150 kg*m2", 50, 10));
+  ASSERT_GT(r.cycles.size(), 80u);
+  const double last = r.cycles.back().mean_speed(), before = r.cycles[r.cycles.size() - 2].mean_speed();
+  EXPECT_LT(last / before - 1, 1e-3);
+  EXPECT_FALSE(r.periods.steady);
+  EXPECT_EQ(r.find("steady_speed.crank"), nullptr);
+  // ω = 100 − 50 e^(−t/150)
+  EXPECT_NEAR(*r.periods.remaining, 50 * std::exp(-r.cycles.back().end / 150), 2);
+  EXPECT_NE(r.find("delta.crank"), nullptr) << "the last cycle has its figures";
+}
+
+// Constant torque without a load: ω̇ = M/I for ever, here by 1e-5 a cycle.
+TEST(Periods, ARunawayIsNeverSteady) {
+  const Result r = run(with_crank("kind = \"torque source\"\ntorque = \"1 N*m\"", "60 kg*m2", 50, 5));
+  EXPECT_FALSE(r.periods.steady) << r.periods.verdict;
+  EXPECT_FALSE(r.periods.remaining);
+  EXPECT_EQ(r.find("steady_speed.crank"), nullptr);
+  EXPECT_NE(r.periods.verdict.find("does not shrink"), std::string::npos) << r.periods.verdict;
+  const Result series = run(R"(
+line = ["motor", "rotor"]
+[motor]
+kind = "dc series motor"
+voltage = "220 V"
+resistance = "1 Ohm"
+constant = "0.02 N*m/A2"
+max_speed = "5000 rad/s"
+inertia = "1.5 kg*m2"
+[rotor]
+kind = "flywheel"
+inertia = "200 kg*m2"
+[run]
+until = "5 s"
+)");
+  ASSERT_TRUE(series.complete) << series.diagnosis;
+  EXPECT_FALSE(series.periods.steady) << series.periods.verdict;
+}
+
+// Started at its steady speed, which it keeps: nothing to run up.
+TEST(Periods, AMachineThatBeginsSteadyIsSteadyAndHasNoRunUp) {
+  const Result r = run(with_crank(
+      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"\ninertia = \"1e-3 kg*m2\"",
+      "1 kg*m2", 100, 1));
+  EXPECT_TRUE(r.periods.steady) << r.periods.verdict;
+  EXPECT_EQ(r.find("run_up_time"), nullptr);
+  EXPECT_NEAR(test::figure(r, "steady_speed.crank"), 100, 1e-4);
+}
+
+// Dry friction stops the rotor behind the coupling at once; the pendulum crank swings on: its turning points are no
+// rest.
+TEST(Periods, AMachineThatSwingsIsNotAtRestWhereItTurnsBack) {
+  const Result r = run(R"(
+line = ["motor", "crank"]
+[motor]
+kind = "torque source"
+torque = "40 N*m"
+stop = "0.5 s"
+inertia = "0.05 kg*m2"
+[crank]
+kind = "slider-crank"
+radius = "0.1 m"
+rod = "0.4 m"
+slider_mass = "20 kg"
+gravity = "9.81 m/s2"
+stroke_angle = "-90 deg"
+[run]
+start = { angle = "10 deg" }
+until = "6 s"
+accuracy = 1e-7
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  ASSERT_TRUE(r.periods.run_down_begin);
+  EXPECT_FALSE(r.periods.standstill);
+}
+
+// --- nothing depends on what is sampled ---
+
+void expect_same_figures(const Result& a, const Result& b, const std::string& what) {
+  ASSERT_EQ(a.figures.size(), b.figures.size()) << what;
+  for (std::size_t k = 0; k < a.figures.size(); ++k) {
+    EXPECT_EQ(a.figures[k].name, b.figures[k].name) << what;
+    EXPECT_EQ(a.figures[k].value, b.figures[k].value) << what << " " << a.figures[k].name;
+    EXPECT_EQ(a.figures[k].error, b.figures[k].error) << what << " " << a.figures[k].name;
+    EXPECT_EQ(a.figures[k].at, b.figures[k].at) << what << " " << a.figures[k].name;
+  }
+  EXPECT_EQ(a.periods.steady, b.periods.steady) << what;
+  EXPECT_EQ(a.periods.run_up_end, b.periods.run_up_end) << what;
+  EXPECT_EQ(a.periods.standstill, b.periods.standstill) << what;
+}
+
+class FiguresOf : public testing::TestWithParam<std::pair<const char*, double>> {};
+INSTANTIATE_TEST_SUITE_P(Each, FiguresOf,
+                         testing::Values(std::pair{"crank_press", 0.8}, std::pair{"driven_slider_crank", 2.0},
+                                         std::pair{"stick_slip", 0.5}, std::pair{"series_motor_crane", 1.0},
+                                         std::pair{"six_inertia_chain", 0.3}, std::pair{"diesel_generator", 0.2},
+                                         std::pair{"compressor", 0.4}, std::pair{"press_drive", 1.5},
+                                         std::pair{"planetary_brake", 2.0}, std::pair{"dc_hoist", 1.0},
+                                         std::pair{"worn_crank_pin", 0.05}, std::pair{"belt_mill", 1.0}),
+                         [](const auto& info) { return std::string(info.param.first); });
+
+TEST_P(FiguresOf, AScenesRunAreTheSameWhateverIsSampled) {
+  const std::string file = std::string("scenes/") + GetParam().first + ".toml";
+  Scene scene = test::scene_file(file);
+  scene.run.until = GetParam().second;
+  const Result usual = run(scene);
+  for (const int samples : {2, 50, 2000}) {
+    Scene other = scene;
+    other.run.samples = samples;
+    if (samples == 50) other.run.output = {scene.components.front().name};
+    if (samples == 2) other.run.output = {scene.components.back().name};
+    SimulateOptions options;
+    options.traces = samples == 2;
+    const Result r = simulate(other, other.effects, "test", options);
+    expect_same_figures(usual, r, fmt::format("{} samples", samples));
+  }
+}
+
+}  // namespace
+}  // namespace kurbel
