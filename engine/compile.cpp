@@ -306,21 +306,36 @@ class Compiler {
   }
 
   void check_inertias() {
+    const std::vector<int> undefined = shafts_without_motion(model_);
     for (std::size_t s = 0; s < model_.free_shafts; ++s) {
       const Shaft& shaft = model_.shafts[s];
-      if (shaft.mean_inertia > 0) {
-        check_dead_centres(shaft);
-        continue;
-      }
+      if (shaft.mean_inertia > 0) check_dead_centres(shaft);
+    }
+    for (const int s : undefined) {
+      const Shaft& shaft = model_.shafts[at(s)];
       std::set<std::string> names;
       for (const int n : shaft.nodes) names.insert(model_.node_label(n));
       messages_.add(location_of(net().nodes[at(shaft.nodes.front())].component),
-                    fmt::format("the shaft at {} has no inertia (0 kg·m²), so its motion is undefined; give a "
+                    fmt::format("the shaft at {} has no inertia (0 kg·m²), {}so its motion is undefined; give a "
                                 "component there an inertia (a coupling: inertia_in, inertia_out){}",
-                                listed({names.begin(), names.end()}, "and"),
+                                listed({names.begin(), names.end()}, "and"), ties_of_massless(s),
                                 model_.elastic.empty() ? "" : ", or switch the elasticity beside it off"));
     }
     messages_.throw_if_any();
+  }
+
+  // Why what ties a shaft without inertia to others does not give it its motion: they have none either, or it may slip.
+  std::string ties_of_massless(int shaft) const {
+    std::string text;
+    for (const ShaftRelation& relation : model_.relations)
+      if (std::any_of(relation.motion.begin(), relation.motion.end(),
+                      [&](const ShaftGain& g) { return g.shaft == shaft && g.gain != 0; }))
+        text += fmt::format("\"{}\" ties it to a shaft without inertia, ",
+                            model_.network.relations[at(relation.relation)].component);
+    for (const ElasticJoint& e : model_.elastic)
+      if (e.slips && (e.shaft_a == shaft || e.shaft_b == shaft))
+        text += fmt::format("\"{}\" may slip, ", model_.network.joints[at(e.joint)].component);
+    return text;
   }
 
   // A mechanism whose crank is massless may have no inertia to offer it at a dead centre, where its acceleration is
@@ -539,7 +554,8 @@ class Compiler {
   void estimate_fastest_rate() {
     std::vector<double> stiffness(model_.shafts.size(), 0.0), damping(model_.shafts.size(), 0.0);
     const auto over = [&](int shaft, double x) {
-      return model_.shafts[at(shaft)].prescribed >= 0 ? 0 : x / model_.shafts[at(shaft)].mean_inertia;
+      const Shaft& s = model_.shafts[at(shaft)];
+      return s.prescribed >= 0 || s.mean_inertia == 0 ? 0 : x / s.mean_inertia;  // without inertia it follows others
     };
     for (const ElasticJoint& e : model_.elastic) {
       const ConnectionMaker& element = *net().joints[at(e.joint)].element;

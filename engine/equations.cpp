@@ -261,6 +261,7 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
     for (std::size_t s = 0; s < m.free_shafts; ++s) {
       const double step = reaction_next_[s] - reaction_alpha_[s];
       reaction_alpha_[s] = reaction_next_[s];
+      if (inertia_[s] == 0) continue;  // follows others
       change = std::max(
           change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
     }
@@ -279,6 +280,7 @@ void Equations::flow(double t, std::span<const double> y, std::span<double> ydot
   double* const alpha = ydot.data() + speed_index(0);
   double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
   evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + own_begin());
+  refuse_broken_ties(t);
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
@@ -489,6 +491,7 @@ double Equations::angle_with_turns(std::size_t tracked, std::span<const double> 
 const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
   const Model& m = *model_;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate_.data());
+  refuse_broken_ties(t);
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
   find_joint_torques(alpha_.data());
   for (const std::size_t root : root_angles_)

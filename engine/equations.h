@@ -151,6 +151,9 @@ class Equations final : public OdeSystem {
   void tie_stuck_contacts();
   void add_known_contact_torques();
   void find_accelerations(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
+  void refuse_broken_ties(double t) const;
+  const std::string& name_of_row(std::size_t row) const;
+  int relation_that_locks() const;
   void publish_contacts(double* work_rate);
   void find_holds();
   Hold limits(std::size_t contact) const;
@@ -172,7 +175,7 @@ class Equations final : public OdeSystem {
                     const std::vector<std::size_t>& always, std::vector<Event>& log);
   void contact_guards(double t, std::span<const double> y, double* g);
   bool is_prescribed(const Contact& contact) const;
-  double effective_inertia(const Contact& contact) const;
+  double effective_inertia(const Contact& contact);
   void mix_coupled_rows(std::span<double> values);
   // the operating sequence (equations_sequence.cpp)
   void begin_sequence(double t, std::span<double> y, std::vector<Event>* log);

@@ -137,10 +137,10 @@ bool Equations::is_prescribed(const Contact& contact) const {
                      [&](const ShaftGain& g) { return at(g.shaft) >= model_->free_shafts; });
 }
 
-double Equations::effective_inertia(const Contact& contact) const {
-  double mobility = 0;
-  for (const ShaftGain& g : contact.motion)
-    if (at(g.shaft) < model_->free_shafts) mobility += g.gain * g.gain / inertia_[at(g.shaft)];
+// Of what a torque of the contact accelerates, by whatever else is tied.
+double Equations::effective_inertia(const Contact& contact) {
+  const auto& inertia = reacting_.empty() ? inertia_ : reaction_effective_inertia_;
+  const double mobility = std::abs(constraints_.mobility(inertia, contact.motion, contact.torque));
   return mobility > 0 ? 1 / mobility : 0;
 }
 
@@ -222,6 +222,48 @@ void Equations::find_accelerations(double t, std::span<const double> torque, std
             relation_torque_.begin());
   for (std::size_t k = 0; k < row_contact_.size(); ++k)
     contact_torque_[row_contact_[k]] = multiplier_[m.relations.size() + k];
+}
+
+const std::string& Equations::name_of_row(std::size_t row) const {
+  const std::size_t relations = model_->relations.size();
+  return row < relations ? model_->network.relations[at(model_->relations[row].relation)].component
+                         : contacts_[row_contact_[row - relations]].name;
+}
+
+// The gear with whose losses the last accelerations could not be found; −1: none.
+int Equations::relation_that_locks() const {
+  if (!tied_ || !constraints_.trouble() || constraints_.trouble()->cause != Constraints::Trouble::Cause::locked)
+    return -1;
+  const std::size_t row = constraints_.trouble()->row, relations = model_->relations.size();
+  if (row < relations) return static_cast<int>(row);
+  const Contact& contact = contacts_[row_contact_[row - relations]];
+  return contact.kind == Contact::Kind::loss ? contact.index : -1;
+}
+
+// A run whose ties are not kept must not go on.
+void Equations::refuse_broken_ties(double t) const {
+  if (!tied_ || !constraints_.trouble()) return;
+  const Constraints::Trouble& trouble = *constraints_.trouble();
+  const std::string& name = name_of_row(trouble.row);
+  switch (trouble.cause) {
+    case Constraints::Trouble::Cause::locked:
+      throw std::runtime_error(fmt::format(
+          "\"{}\" locks itself at {:.6g} s: with its losses no torques go with the motion that it allows, whatever the "
+          "acceleration; try less friction (a better efficiency), more inertia on its driving side, or gear_losses off",
+          name, t));
+    case Constraints::Trouble::Cause::contradicted:
+      throw std::runtime_error(
+          fmt::format("\"{}\" cannot be kept at {:.6g} s: the speeds that are prescribed for the shafts that it ties "
+                      "contradict each "
+                      "other; leave one of them free, or prescribe speeds that fit",
+                      name, t));
+    case Constraints::Trouble::Cause::lost:
+      break;
+  }
+  throw std::runtime_error(fmt::format(
+      "the shafts that \"{}\" ties part at {:.6g} s: their accelerations are lost to round-off; bring its inertias and "
+      "ratios nearer to each other, or its efficiency nearer to 1",
+      name, t));
 }
 
 // What contacts and relations transmit, as torques on the shafts, of the connections, and as work lost.
@@ -331,6 +373,8 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
     if (total && size > 0) *total += size;
     if (size > worst.size) worst = {size, which, better};
   };
+  if (const int r = relation_that_locks(); r >= 0)  // no torques go with these modes
+    consider(HUGE_VAL, contacts_.size() + at(r), -loss_sign_[at(r)]);
   for (const std::size_t c : among) {
     const Contact& contact = contacts_[c];
     if (contact.regularised) continue;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 
+#include "engine/elimination.h"
+
 namespace kurbel {
 namespace {
 
@@ -163,6 +165,37 @@ std::vector<ShaftRelation> relations_over_shafts(const Model& model) {
     relations.push_back(std::move(relation));
   }
   return relations;
+}
+
+std::vector<int> shafts_without_motion(const Model& model) {
+  std::vector<int> massless;
+  for (std::size_t s = 0; s < model.free_shafts; ++s)
+    if (!(model.shafts[s].mean_inertia > 0)) massless.push_back(static_cast<int>(s));
+  if (massless.empty()) return massless;
+  const std::size_t relations = model.relations.size();
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(relations), static_cast<Eigen::Index>(massless.size()));
+  std::vector<std::size_t> order;
+  for (std::size_t r = 0; r < relations; ++r) {
+    order.push_back(r);
+    for (const ShaftGain& g : model.relations[r].motion)
+      for (std::size_t k = 0; k < massless.size(); ++k)
+        if (massless[k] == g.shaft) rows(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)) += g.gain;
+  }
+  const Eliminated given = eliminate(rows, order, Eigen::VectorXd::Ones(rows.cols()));
+  // A motion of shafts without inertia alone that the relations allow: those that it moves are undefined.
+  std::vector<int> undefined;
+  for (std::size_t k = 0; k < massless.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const auto pivot = std::find(given.column.begin(), given.column.end(), column);
+    bool moves = pivot == given.column.end();
+    if (!moves) {
+      const Eigen::Index row = given.row[static_cast<std::size_t>(pivot - given.column.begin())];
+      for (Eigen::Index j = 0; j < rows.cols(); ++j) moves = moves || (j != column && given.rows(row, j) != 0);
+    }
+    if (moves || model.shafts[at(massless[k])].mean_inertia < 0) undefined.push_back(massless[k]);
+  }
+  return undefined;
 }
 
 std::vector<std::string> bound_self_locking(Model& model) {

@@ -19,6 +19,10 @@ std::vector<GearTorque> simplify_relations(Network& network, const Effects& effe
 // The relations over the merged shafts; where two members became one shaft their gains add.
 std::vector<ShaftRelation> relations_over_shafts(const Model& model);
 
+// Free shafts without inertia to whom the relations, which hold in every mode, do not give their motion. Each relation
+// can do so for one of its members, where the others have theirs.
+std::vector<int> shafts_without_motion(const Model& model);
+
 // A gear that locks itself wants help to be driven from its far side, λ = η₂ μ with η₂ < 0. That has one solution only
 // while |η₂| I_far < I_near; beyond it would jam at once. Bounds |η₂| by half of that; what was bounded, in words.
 std::vector<std::string> bound_self_locking(Model& model);
