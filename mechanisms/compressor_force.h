@@ -69,6 +69,10 @@ struct CompressorForce {
     g[1] = s.mode == 0 ? -beyond : 1;
   }
   int first_mode(const SliderState<double>& s) const { return end.distance(s.x) < opens_at(s.travel) ? 0 : 1; }
+  // After the sense of travel changed.
+  int turned_mode(const SliderState<double>& s) const {
+    return std::abs(end.distance(s.x) - opens_at(s.travel)) <= 1e-12 * stroke ? s.mode : first_mode(s);
+  }
   int next_mode(const SliderState<double>&, int which) const { return which; }
   std::string mode_name(const SliderState<double>& s) const {
     return s.mode == 0 ? "delivery valve opens" : "suction valve opens";

@@ -462,6 +462,21 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
   }
 }
 
+// A crank that turns back within its stroke takes its loads onto the branch of the other sense of travel: while they do
+// not resist, their pieces are not watched, and on a branch of its own pieces lie elsewhere.
+void MechanismPool::follow_directions(const Instant& now, int* mode) const {
+  for (const Placed& p : placed_) {
+    if (!p.watches_travel) continue;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
+      std::visit(
+          [&](const auto& law) {
+            if constexpr (requires(const SliderState<double>& s) { law.turned_mode(s); })
+              mode[p.at.mode + 1 + static_cast<int>(k)] = law.turned_mode(slider(p, now, k));
+          },
+          p.mechanism.loads[k].law);
+  }
+}
+
 // Forces that the loads can hold against the output, besides what they exert there.
 Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
   Hold sum;

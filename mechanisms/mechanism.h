@@ -109,6 +109,7 @@ class MechanismPool final : public ElementPool {
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const int* mode) const override;
   void first_modes(const Instant& now, int* mode) const override;
+  void follow_directions(const Instant& now, int* mode) const override;
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override;
   double kinetic_energy_of_bodies(const Instant& now) const override;
   void add_channels(std::vector<Channel>& channels) const override;

@@ -74,7 +74,24 @@ struct Profile {
     const auto i = static_cast<std::size_t>(p);
     return left[i] + (right[i] - left[i]) / (knot[i + 1] - knot[i]) * (d - knot[i]);
   }
+  // On a knot, the greater of both sides: an edge is a wall that holds whatever lies in its jump.
+  double greatest_at(double d, double near) const {
+    return std::max(value_in(piece(d - near), d), value_in(piece(d + near), d));
+  }
 };
+
+// A position this near to an edge, over the stroke, lies on it: rounding decides no piece.
+inline constexpr double on_edge = 1e-12;
+
+// The piece after the sense of travel has changed: it stays where it holds to round-off, so that an edge just passed is
+// not passed again.
+template <class Law>
+int piece_kept(const Law& law, const SliderState<double>& s, int pieces) {
+  if (s.mode < -1 || s.mode > pieces) return law.first_mode(s);
+  const double d = law.end.distance(s.x), near = on_edge * law.stroke;
+  const bool holds = d >= law.piece_begin(s) - near && d <= law.piece_end(s) + near;
+  return holds ? s.mode : law.first_mode(s);
+}
 
 // Press force over travel: the nominal force within the last millimetres before the working end, on the working stroke
 // only; then break-through. It resists and never drives, and holds the slider against motion towards the end.
@@ -110,16 +127,21 @@ struct PressForce {
   }
   bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
-    const double force = profile.value_in(profile.piece(end.distance(s.x)), end.distance(s.x));
+    const double force = profile.greatest_at(end.distance(s.x), on_edge * stroke);
     return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
   }
+  double piece_begin(const SliderState<double>& s) const { return profile.piece_begin(s.mode); }
+  double piece_end(const SliderState<double>& s) const { return profile.piece_end(s.mode); }
   void guard(const SliderState<double>& s, double* g) const {
     g[0] = g[1] = 1;
     if (!end.approached(s.travel)) return;
-    g[0] = std::min(1.0, (end.distance(s.x) - profile.piece_begin(s.mode)) / stroke);
-    g[1] = std::min(1.0, (profile.piece_end(s.mode) - end.distance(s.x)) / stroke);
+    g[0] = std::min(1.0, (end.distance(s.x) - piece_begin(s)) / stroke);
+    g[1] = std::min(1.0, (piece_end(s) - end.distance(s.x)) / stroke);
   }
   int first_mode(const SliderState<double>& s) const { return profile.piece(end.distance(s.x)); }
+  int turned_mode(const SliderState<double>& s) const {
+    return piece_kept(*this, s, static_cast<int>(profile.knot.size()) - 1);
+  }
   int next_mode(const SliderState<double>& s, int which) const {
     return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
   }
@@ -159,6 +181,11 @@ struct TravelForce {
     PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
   }
   int first_mode(const SliderState<double>& s) const { return branch(s.travel).piece(end.distance(s.x)); }
+  double piece_begin(const SliderState<double>& s) const { return branch(s.travel).piece_begin(s.mode); }
+  double piece_end(const SliderState<double>& s) const { return branch(s.travel).piece_end(s.mode); }
+  int turned_mode(const SliderState<double>& s) const {
+    return piece_kept(*this, s, static_cast<int>(branch(s.travel).x().size()) - 1);
+  }
   int next_mode(const SliderState<double>& s, int which) const {
     return PieceGuard::next(branch(s.travel), s.mode, which);
   }
