@@ -1,14 +1,18 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
-// and whether the hard cases end right.
+// whether the hard cases end right, and whether stated errors cover the true ones.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|coverage|all [--out FOLDER]
 //   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
+//   kurbel_bench coverage [--variants N] [--seed S] [--shard 1/8] [--jobs J] [--minutes M] [--budget SECONDS]
+//                         [--dump-ladder FILE.csv] [--print SCENE:SEED] [--out FOLDER]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 
 #include "bench/benches.h"
+#include "bench/coverage.h"
 
 namespace {
 
@@ -55,9 +59,21 @@ int main(int argc, char** argv) {
     costs_of_steady_cycles();
   }
   if (wants("hard")) hard_cases(book, only, budget);
+  if (part == "coverage") {  // half an hour of its own: not among all
+    try {
+      any = true;
+      const CoverageOptions options = coverage_options(argc, argv);
+      coverage_of_errors(book, options, folder);
+      if (!options.ladder.empty() || !options.print.empty()) return 0;
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "kurbel_bench: %s\n", error.what());
+      return 2;
+    }
+  }
   if (!any) {
-    std::fprintf(stderr,
-                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard or all\n");
+    std::fprintf(
+        stderr,
+        "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, coverage or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

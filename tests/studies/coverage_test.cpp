@@ -1,0 +1,64 @@
+// coverage_test.cpp — stated errors cover true ones: a small form of `kurbel_bench coverage`, and the parts it rests
+// on.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/coverage/records.h"
+#include "tests/coverage/statistics.h"
+#include "tests/coverage/variant.h"
+
+namespace kurbel::coverage {
+namespace {
+
+JudgedFigure judged(double stated, double error) {
+  JudgedFigure f{.name = "peak_torque.shaft", .unit = "N*m", .value = 100 + error, .scale = 100, .stated = stated};
+  f.truth = 100;
+  f.verdict = error <= stated ? Verdict::covered : Verdict::missed;
+  return f;
+}
+MeasuredVariant run_with(int covered, int missed) {
+  MeasuredVariant v{.scene = "crank_press", .method = "dop853", .words = {}, .figures = {}, .refused = {}};
+  v.whole = true;
+  for (int i = 0; i < covered; ++i) v.figures.push_back(judged(1e-6, 1e-8));
+  for (int i = 0; i < missed; ++i) v.figures.push_back(judged(1e-9, 1e-8));
+  return v;
+}
+
+TEST(Coverage, AVariantIsMadeAgainFromItsSceneAndSeed) {
+  const Variant first = make_variant("crank_press", 17), again = make_variant("crank_press", 17),
+                other = make_variant("crank_press", 18);
+  EXPECT_EQ(first.text, again.text);
+  EXPECT_EQ(first.method, again.method);
+  EXPECT_NE(first.text, other.text);
+}
+
+TEST(Coverage, FiguresOfOneRunErrTogetherSoThatTheBoundCountsRuns) {
+  // 10 misses among 1000 figures: spread over ten runs of 100, or all in one of them.
+  std::vector<MeasuredVariant> spread(10, run_with(99, 1)), together(9, run_with(100, 0));
+  together.push_back(run_with(90, 10));
+  EXPECT_DOUBLE_EQ(share_of(spread).share(), 0.99);
+  EXPECT_DOUBLE_EQ(share_of(together).share(), 0.99);
+  EXPECT_DOUBLE_EQ(share_of(spread).lower, 0.99);
+  EXPECT_LT(share_of(together).lower, 0.98);
+}
+
+TEST(Coverage, MeasuredVariantsReadBackAsWritten) {
+  MeasuredVariant v = run_with(1, 1);
+  v.words = "ends early, at 3 s";
+  v.accuracy = 1e-7;
+  v.flow_calls = 12345;
+  v.refused["a rod, too short"] = 3;
+  std::istringstream in(column_lines() + lines_of(v));
+  const std::vector<MeasuredVariant> read = read_lines(in);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].words, "ends early; at 3 s");
+  EXPECT_EQ(read[0].flow_calls, 12345);
+  EXPECT_EQ(read[0].refused.at("a rod; too short"), 3);
+  ASSERT_EQ(read[0].figures.size(), 2u);
+  EXPECT_EQ(read[0].figures[0].value, v.figures[0].value);
+  EXPECT_EQ(read[0].figures[1].verdict, Verdict::missed);
+}
+
+}  // namespace
+}  // namespace kurbel::coverage
