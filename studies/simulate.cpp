@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "mechanisms/mechanism.h"
+#include "studies/event_match.h"
 #include "studies/measured_errors.h"
 #include "studies/multibody.h"
 #include "studies/periods.h"
@@ -43,6 +45,7 @@ struct OneRun {
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
+  std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
   Periods periods;
 };
 
@@ -265,10 +268,12 @@ class Simulation {
     }
   }
 
-  std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere) const {
+  static constexpr double weight_of_coarse = 1, weight_of_elsewhere = 2;  // measured_errors.h says why
+  static std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
+                                        std::vector<Figure> OneRun::*what = &OneRun::figures) {
     std::vector<Witness> list;
-    if (coarse) list.push_back({&coarse->figures, 1});
-    if (elsewhere) list.push_back({&elsewhere->figures, 2});
+    if (coarse) list.push_back({&(coarse->*what), weight_of_coarse});
+    if (elsewhere) list.push_back({&(elsewhere->*what), weight_of_elsewhere});
     return list;
   }
   // Largest error over its scale that these runs find in the figures.
@@ -326,6 +331,9 @@ class Simulation {
     if (!coarse_ && !elsewhere_) return;
     const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
                  of_energy = fine_->energy->relative();
+    measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
+    if (coarse_) add_event_errors(*coarse_, weight_of_coarse);
+    if (elsewhere_) add_event_errors(*elsewhere_, weight_of_elsewhere);
     result_.measured_accuracy = std::max(of_figures, of_energy);
     result_.errors_measured = true;
     result_.accuracy_confirmed =
@@ -337,6 +345,23 @@ class Simulation {
           fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}: the tolerances cannot be tightened further",
                       settings_.accuracy, result_.measured_accuracy,
                       result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+  }
+
+  // Errors of the events' times; none where a run has no such event.
+  void add_event_errors(const OneRun& witness, double weight) {
+    const std::vector<Event>& events = fine_->outcome.events;
+    const bool first = result_.event_errors.empty();
+    if (first) result_.event_errors.resize(events.size());
+    const EventMatch match = match_events(witness.outcome.events, events);
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      std::optional<double>& error = result_.event_errors[k];
+      if (!match.error[k] || (!first && !error)) {
+        error.reset();
+      } else {
+        const double rounding = 8 * std::numeric_limits<double>::epsilon() * events[k].t;
+        error = std::max({error.value_or(0), weight * *match.error[k], rounding});
+      }
+    }
   }
 
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
@@ -449,7 +474,7 @@ class Simulation {
     result_.trajectory = run.trajectory;
     result_.model = model_;
     fill_energy(*run.energy);
-    if (!run.outcome.state.empty()) fill_final(run.outcome);
+    if (!run.last_state.empty()) fill_final(run);
     note_stall(run.outcome);
     for (const std::string& what : run.outcome.regularised)
       result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");
@@ -498,18 +523,38 @@ class Simulation {
     e.reduction_residual = audit.reduction_residual;
     e.checks = audit.checked;
   }
-  void fill_final(const RunOutcome& outcome) {
-    const Model& m = *model_;
-    const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
-    const auto speed = [&](int node) { return m.gain_of_node[at(node)] * s.now.speed[m.shaft_of_node[at(node)]]; };
+  static std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOutcome& outcome) {
+    const Snapshot& s = equations.snapshot(outcome.t, outcome.state);
+    std::vector<Figure> list;
+    const auto add = [&](int node) {
+      const int shaft = m.shaft_of_node[at(node)];
+      Figure angle, speed;
+      angle.value = s.node_angle[node];
+      angle.scale = std::max(1.0, m.scale_ratio[at(node)]);
+      speed.value = m.gain_of_node[at(node)] * s.now.speed[shaft];
+      speed.scale = m.speed_scale * m.scale_ratio[at(node)];
+      speed.exact = at(shaft) >= m.free_shafts || equations.at_standstill(at(shaft));
+      list.insert(list.end(), {angle, speed});
+    };
     for (const std::string& component : m.network.components) {
-      const Network::Ports& ports = m.network.ports.at(component);
-      ComponentState state{s.node_angle[ports.in], speed(ports.in), {}, {}};
+      add(m.network.ports.at(component).in);
+      add(m.network.ports.at(component).out);
+    }
+    return list;
+  }
+  void fill_final(const OneRun& run) {
+    std::size_t k = 0;
+    for (const std::string& component : model_->network.components) {
+      const Figure* const f = &run.last_state[k];
+      ComponentState state{f[0].value, f[1].value, {}, {}};
+      state.angle_error = f[0].error, state.speed_error = f[1].error;
+      const Network::Ports& ports = model_->network.ports.at(component);
       if (ports.out != ports.in) {
-        state.angle_out = s.node_angle[ports.out];
-        state.speed_out = speed(ports.out);
+        state.angle_out = f[2].value, state.speed_out = f[3].value;
+        state.angle_out_error = f[2].error, state.speed_out_error = f[3].error;
       }
       result_.final_state[component] = state;
+      k += 4;
     }
   }
 
