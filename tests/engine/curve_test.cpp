@@ -79,8 +79,8 @@ TEST(Curve, PeriodicRepeatsAndClosesItself) {
     for (const double x : {-7.3, -0.1, 0.4, 3.9})
       for (const int turns : {-3, 1, 10}) EXPECT_NEAR(c.value(x + 4.0 * turns), c.value(x), 1e-12);
     EXPECT_NEAR(c.value(4 - 1e-12), c.value(0.0), 1e-11);
-    EXPECT_EQ(c.offset(9.0), 8);
-    EXPECT_EQ(c.offset(-0.5), -4);
+    EXPECT_EQ(c.within(9.0), 1);
+    EXPECT_EQ(c.within(-0.5), 3.5);
   }
 }
 

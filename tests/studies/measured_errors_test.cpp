@@ -98,7 +98,7 @@ TEST(Confirmation, AnglesKeptElsewhereGiveTheSameMotion) {
   for (const int first : {0, 1}) {
     Equations equations(model, false);
     equations.keep_angles_from(first);
-    const RunOutcome out = integrate(equations, {.tolerance = 1e-10, .method = "dop853", .until = 1.3}, {});
+    const RunOutcome out = integrate(equations, {.tolerance = 1e-10, .method = "dop853", .until = 1.3, .progress = {}}, {});
     ASSERT_TRUE(out.complete) << out.diagnosis;
     const auto link = static_cast<std::size_t>(model->reduction_angle);
     angle[first] = equations.angle_with_turns(link, out.state);
