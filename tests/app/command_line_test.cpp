@@ -223,7 +223,7 @@ TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
     std::vector<std::string> arguments;
     std::string said;
   } bad[] = {{{"--setting", "none.json"}, "none.json: --setting: no such file; kurbel accuracy SCENE writes one"},
-             {{"--setting", "other.json"}, "other.json:1:14: --setting: is no JSON here"},
+             {{"--setting", "other.json"}, "other.json:1:13: --setting: is no JSON here"},
              {{"--setting", file, "--effects", "none", "--accuracy", "1e-12"}, file + ": --setting: no setting had an"},
              {{"--setting", file, "--method", "dop853"}, "give one of them"}};
   for (const auto& request : bad) {
