@@ -71,10 +71,24 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
     net.put(node, s.name, DcShuntMotor{stall, no_load, rated}, window);
 }
 
+// R/κ says little of a motor's rated speed, which in machines is some 5 … 20 times as much. At 100 times the current is
+// a hundredth of U/R and the torque 10⁻⁴ of the stall torque: no load of its size lets it come there.
+void limit_speed(const Section& s, DcSeriesMotor& motor) {
+  if (s.given("max_speed")) {
+    motor.max_speed = s.number("max_speed");
+  } else if (s.given("rated_speed")) {
+    motor.max_speed = 5 * s.number("rated_speed");
+    motor.limit_by = "by default 5 rated_speed";
+  } else {
+    motor.max_speed = 100 * motor.base_speed();
+    motor.limit_by = "by default 100 R/κ, as rated_speed is not given";
+  }
+}
+
 void build_dc_series(const Section& s, Network& net, Messages& messages) {
   const int node = single_shaft(s, net);
   DcSeriesMotor motor{s.number("voltage"), s.number("resistance"), s.number("constant"), 0, s.name};
-  motor.max_speed = s.number_or("max_speed", 5 * s.number_or("rated_speed", motor.base_speed()));
+  limit_speed(s, motor);
   if (s.given("rated_speed") && motor.max_speed <= s.number("rated_speed"))
     messages.add(
         s.where("max_speed"),
@@ -128,30 +142,30 @@ std::vector<Kind> dc_kinds() {
            window_keys()),
        .build = build_dc_shunt},
       {.name = "dc series motor",
-       .doc = "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away without "
-              "load, which ends the run",
+       .doc =
+           "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away where no load "
+           "holds it, which ends the run",
        .keys = joined(
-           joined({{.name = "voltage", .unit = "V", .domain = positive, .doc = "supply voltage U", .required = true},
-                   {.name = "resistance",
-                    .unit = "Ohm",
-                    .domain = positive,
-                    .doc = "R of armature and field together",
-                    .required = true},
-                   {.name = "constant",
-                    .unit = "N*m/A2",
-                    .domain = positive,
-                    .doc = "κ: torque over current squared",
-                    .required = true},
-                   {.name = "rated_speed",
-                    .unit = "rad/s",
-                    .domain = positive,
-                    .doc = "for max_speed; default: R/κ, where the torque is a quarter of the stall torque"},
-                   {.name = "max_speed",
-                    .unit = "rad/s",
-                    .domain = positive,
-                    .doc = "beyond it the motor ran away; default: 5 rated_speed"},
-                   inertia_key("", "rotor inertia")},
-                  circuit_keys("L of armature and field together")),
+           joined(
+               {{.name = "voltage", .unit = "V", .domain = positive, .doc = "supply voltage U", .required = true},
+                {.name = "resistance",
+                 .unit = "Ohm",
+                 .domain = positive,
+                 .doc = "R of armature and field together",
+                 .required = true},
+                {.name = "constant",
+                 .unit = "N*m/A2",
+                 .domain = positive,
+                 .doc = "κ: torque over current squared",
+                 .required = true},
+                {.name = "rated_speed", .unit = "rad/s", .domain = positive, .doc = "for the default of max_speed"},
+                {.name = "max_speed",
+                 .unit = "rad/s",
+                 .domain = positive,
+                 .doc = "beyond it the motor ran away; default: 5 rated_speed, without it 100 R/κ, where the current "
+                        "is a hundredth of U/R"},
+                inertia_key("", "rotor inertia")},
+               circuit_keys("L of armature and field together")),
            window_keys()),
        .build = build_dc_series},
   };

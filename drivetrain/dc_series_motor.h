@@ -4,7 +4,7 @@
 // A command c of the operating sequence sets the voltage to |c| U; c < 0 reverses the armature against the field, and
 // with it the torque: M = sgn c · κ (c U)²/(R + κ ω sgn c)². 0 opens the circuit.
 //
-// Its torque never reaches zero: without a load it **runs away**. At `max_speed` it says so and ends the run.
+// Its torque never reaches zero: where no load holds it, it **runs away**. At `max_speed` it says so and ends the run.
 // Driven backwards it brakes, U and the induced voltage add, and the current grows without bound as ω → −R/κ (in a
 // machine iron saturates first and a fuse melts). The law is taken down to half of that speed, where the current is
 // twice the stall current U/R; there the run ends in words, too.
@@ -27,11 +27,12 @@ struct DcSeriesMotor {
   static constexpr bool commanded = true;
   static constexpr bool reversible = true;
   static constexpr int guards = 2;
-  double voltage = 0;     // U [V], > 0
-  double resistance = 0;  // R of armature and field [Ω], > 0
-  double constant = 0;    // κ, torque over current squared [N·m/A²], > 0
-  double max_speed = 0;   // [rad/s], > 0
-  std::string name = {};  // of the component, for what is said of it
+  double voltage = 0;         // U [V], > 0
+  double resistance = 0;      // R of armature and field [Ω], > 0
+  double constant = 0;        // κ, torque over current squared [N·m/A²], > 0
+  double max_speed = 0;       // [rad/s], > 0
+  std::string name = {};      // of the component, for what is said of it
+  std::string limit_by = {};  // where max_speed comes from, if not from the scene
 
   // R/κ: the speed at which the torque is a quarter of the stall torque [rad/s].
   double base_speed() const { return resistance / constant; }
@@ -74,9 +75,10 @@ struct DcSeriesMotor {
   }
   [[noreturn]] void say_it_ran_away() const {
     throw std::runtime_error(fmt::format(
-        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm. Without a load it has no no-load "
-        "speed; load it, or raise max_speed if the machine can bear it",
-        name, max_speed * 30 / std::numbers::pi));
+        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm{}. Nothing on its shaft held it "
+        "below, and its own torque reaches zero at no speed; load it more, or raise max_speed if the machine can bear "
+        "it",
+        name, max_speed * 30 / std::numbers::pi, limit_by.empty() ? "" : " (" + limit_by + ")"));
   }
   std::string mode_name(int mode) const { return mode == 0 ? "" : "ran away: passed its max_speed"; }
 

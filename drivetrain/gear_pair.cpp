@@ -100,8 +100,8 @@ void add_path(GearPair& p) {
   const double tangent = std::tan(p.working_angle), sign = two.internal() ? -1 : 1;
   p.limit_start = -0.5 * one.base_diameter * tangent;
   p.limit_end = 0.5 * two.base_diameter * tangent;  // behind C for an internal wheel
-  p.end = tip_tangent(one) + p.limit_start;
-  p.start = p.limit_end - sign * tip_tangent(two);
+  p.end = p.tip_end = tip_tangent(one) + p.limit_start;
+  p.start = p.tip_start = p.limit_end - sign * tip_tangent(two);
   // Undercut flanks begin later.
   const auto form = [](const GearWheel& w) {
     return 0.5 * std::sqrt(std::max(0.0, squared(w.form_diameter) - squared(w.base_diameter)));
@@ -143,6 +143,8 @@ void add_wheels_in_mesh(GearPair& p) {
                       1e3 * std::abs(w.root_diameter)));
     w.inertia = w.width > 0 ? wheel_inertia(w, w.width, p.data.density, w.bore) : 0;
   }
+  p.wheel[0].reached_diameter = 2 * p.radius(std::max(p.tip_start, p.limit_start))[0];
+  p.wheel[1].reached_diameter = 2 * p.radius(p.internal() ? p.tip_end : std::min(p.tip_end, p.limit_end))[1];
   // Never below the base circle.
   p.wheel[0].active_diameter = 2 * p.radius(std::max(p.start, p.limit_start))[0];
   p.wheel[1].active_diameter = p.internal() ? -2 * p.radius(p.end)[1] : 2 * p.radius(std::min(p.end, p.limit_end))[1];

@@ -35,6 +35,7 @@ struct MeshedWheel : GearWheel {
   double active_diameter = 0;        // d_Nf: the mate's tip reaches down to here
   double tip_clearance = 0;          // c, from its tip to the mate's root
   double greatest_tip_diameter = 0;  // |d_a| whose path ends at the mate's T: beyond it involutes interfere
+  double reached_diameter = 0;       // |d| that the mate's tip comes down to on the line of action, ≥ |d_b|
   double width = 0, inertia = 0;     // b; J [kg·m²], 0 without a width
   double bore = 0;                   // or rim of an internal wheel
 };
@@ -51,17 +52,18 @@ struct GearPair {
   GearPairData data;
   std::array<MeshedWheel, 2> wheel;
 
-  double ratio = 1;                              // u = z₂/z₁, with its sign
-  double reference_centre_distance = 0;          // a
-  double centre_distance = 0;                    // a_w
-  double working_angle = 0;                      // α_wt
-  double shift_sum = 0;                          // x₁ + x₂
-  double mating_shift_sum = 0;                   // Σx whose flanks touch on both sides at this a_w
-  double tip_shortening = 0;                     // k, in modules, ≤ 0
-  double base_pitch = 0;                         // p_et = π m_t cos α_t
-  double start = 0, end = 0;                     // g of A and E: by the tips, or where undercut flanks begin
-  double limit_start = 0, limit_end = 0;         // g of T₁ and T₂, where the line of action leaves the base circles
-  double contact_ratio = 0, overlap_ratio = 0;   // ε_α, ε_β
+  double ratio = 1;                             // u = z₂/z₁, with its sign
+  double reference_centre_distance = 0;         // a
+  double centre_distance = 0;                   // a_w
+  double working_angle = 0;                     // α_wt
+  double shift_sum = 0;                         // x₁ + x₂
+  double mating_shift_sum = 0;                  // Σx whose flanks touch on both sides at this a_w
+  double tip_shortening = 0;                    // k, in modules, ≤ 0
+  double base_pitch = 0;                        // p_et = π m_t cos α_t
+  double start = 0, end = 0;                    // g of A and E: by the tips, or where undercut flanks begin
+  double tip_start = 0, tip_end = 0;            // g where the tip circles of wheel 2 and wheel 1 cut the line of action
+  double limit_start = 0, limit_end = 0;        // g of T₁ and T₂, where the line of action leaves the base circles
+  double contact_ratio = 0, overlap_ratio = 0;  // ε_α, ε_β
   double backlash_arc = 0, backlash_normal = 0;  // j_wt on the working circle, j_bn [m]
 
   bool internal() const { return data.teeth[1] < 0; }
@@ -100,6 +102,19 @@ std::vector<GearVerdict> verdicts(const GearPair& pair);
 // Interferences of internal pairs (SDP/SI, Handbook of Metric Gears, section 5.2): ≥ 0 is free [rad].
 double tip_fouling_margin(const GearPair& pair);      // tips outside the path of contact ("trochoid")
 double radial_assembly_margin(const GearPair& pair);  // wheel 1 can be moved in radially ("trimming")
+
+// Interference of a wheel (0 or 1): the mate's tip goes further down on the line of action than the involute does, to
+// beyond the point T on the base circle, or below the form circle where fillet or undercut begins. The path of contact
+// leaves the involute there, undercut or not (THEORY 6; ISO 21771: d_Nf < d_Ff).
+struct Interference {
+  bool beyond_base_circle = false;  // past T
+  bool below_form_circle = false;   // |d_reached| < |d_Ff|
+  bool found() const { return beyond_base_circle || below_form_circle; }
+};
+Interference interference(const GearPair& pair, int wheel);
+// Room that an undercut root leaves to the corners of the mate's tip below its form circle, along the arc, at the
+// nearest: < 0 they cut into it, ∞ they do not come there [m].
+double root_room(const GearPair& pair, int wheel);
 
 // Mesh stiffness by ISO 6336-1 method B. Simplified: solid wheels (C_R = 1), loads of at least 100 N/mm, E of both
 // wheels the same; valid for x₁ ≥ x₂, −0.5 ≤ Σx ≤ 2, 1.2 < ε_α < 2.5: `within` says so. No width, no torsional

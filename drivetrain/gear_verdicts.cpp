@@ -61,16 +61,7 @@ class Verdicts {
           "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} "
           "mm.",
           i + 1, w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
-    else if (beyond_base_circle(i))
-      add(Finding::fault,
-          "Interference: the tip of wheel {} would touch wheel {} beyond the end of the line of action "
-          "on its base circle; its tip diameter must be at {} {:.4f} mm.",
-          2 - i, i + 1, mate.internal() ? "least" : "most", mm * mate.greatest_tip_diameter);
-    else if (runs_into_fillet(i))
-      add(Finding::fault,
-          "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
-          "fillet at {:.4f} mm.",
-          2 - i, mm * std::abs(w.active_diameter), i + 1, mm * std::abs(w.form_diameter));
+    interfering(i, w, mate);
     const double tip = w.tip_thickness() / p_.data.module;
     if (tip <= 0)
       add(Finding::fault, "Wheel {} is pointed: its flanks meet at {:.4f} mm, inside the tip circle of {:.4f} mm.",
@@ -90,14 +81,41 @@ class Verdicts {
           w.tip_clearance / p_.data.module);
   }
 
-  // Contact would begin before T₁ or end after T₂.
-  bool beyond_base_circle(int i) const {
-    return i == 0 ? p_.start < p_.limit_start : !p_.internal() && p_.end > p_.limit_end;
+  // A verdict of its own: undercut may have made room for the tip, or not enough.
+  void interfering(int i, const MeshedWheel& w, const MeshedWheel& mate) {
+    const Interference found = interference(p_, i);
+    if (!found.found()) return;
+    if (w.undercut) {
+      after_undercut(i, w, mate);
+    } else if (found.beyond_base_circle) {
+      add(Finding::fault,
+          "Interference: the tip of wheel {} would touch wheel {} beyond the end of the line of action "
+          "on its base circle; its tip diameter must be at {} {:.4f} mm.",
+          2 - i, i + 1, mate.internal() ? "least" : "most", mm * mate.greatest_tip_diameter);
+    } else {
+      add(Finding::fault,
+          "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
+          "fillet at {:.4f} mm.",
+          2 - i, mm * w.reached_diameter, i + 1, mm * std::abs(w.form_diameter));
+    }
   }
-  // The mate's tip goes below the involute.
-  bool runs_into_fillet(int i) const {
-    const MeshedWheel& w = p_.wheel[static_cast<std::size_t>(i)];
-    return (std::abs(w.form_diameter) - std::abs(w.active_diameter)) * (w.internal() ? -1 : 1) > 1e-4 * p_.data.module;
+  void after_undercut(int i, const MeshedWheel& w, const MeshedWheel& mate) {
+    const double room = root_room(p_, i), lost = i == 0 ? p_.start - p_.tip_start : p_.tip_end - p_.end;
+    // The tip whose path of contact begins where this flank does.
+    const double flank = 0.5 * std::sqrt(w.form_diameter * w.form_diameter - w.base_diameter * w.base_diameter);
+    const double leg = std::abs(p_.centre_distance) * std::sin(p_.working_angle) + (mate.internal() ? flank : -flank);
+    const std::string remedy =
+        fmt::format("a tip diameter of at {} {:.4f} mm ends it", mate.internal() ? "least" : "most",
+                    mm * 2 * std::hypot(0.5 * mate.base_diameter, std::max(0.0, leg)));
+    if (room < 0)
+      add(Finding::fault, "Interference: the tip of wheel {} cuts {:.4f} mm into the undercut root of wheel {}; {}.",
+          2 - i, -mm * room, i + 1, remedy);
+    else
+      add(Finding::warning,
+          "Interference: the tip of wheel {} goes {:.4f} mm past the begin of the flank of wheel {} on the line of "
+          "action. The undercut root has room for it{}, but that part of the path of contact is lost; {}.",
+          2 - i, mm * lost, i + 1, std::isfinite(room) ? fmt::format(" ({:.4f} mm)", mm * room) : std::string(),
+          remedy);
   }
 
   void internal_pair() {
@@ -133,6 +151,44 @@ class Verdicts {
 };
 
 }  // namespace
+
+Interference interference(const GearPair& p, int i) {
+  const MeshedWheel& w = p.wheel[static_cast<std::size_t>(i)];
+  constexpr double nothing = 1e-4;  // of the module: less is no interference that a wheel would notice
+  Interference found;
+  found.beyond_base_circle = i == 0 ? p.tip_start < p.limit_start : !p.internal() && p.tip_end > p.limit_end;
+  found.below_form_circle =
+      (std::abs(w.form_diameter) - w.reached_diameter) * (w.internal() ? -1 : 1) > nothing * p.data.module;
+  return found;
+}
+
+double root_room(const GearPair& p, int i) {
+  const MeshedWheel &w = p.wheel[static_cast<std::size_t>(i)], &mate = p.wheel[static_cast<std::size_t>(1 - i)];
+  const std::vector<FlankPoint> half = half_tooth(w, 200);
+  const double pitch = 2 * std::numbers::pi / w.teeth, form = 0.5 * w.form_diameter;
+  const double tip = 0.5 * std::abs(mate.tip_diameter),
+               corner = std::max(0.0, 0.5 * mate.thickness(mate.tip_diameter)) / tip;
+  double least = HUGE_VAL;
+  constexpr int steps = 800;  // of two pitches of wheel 1, within which a tooth goes through the mesh
+  for (int step = 0; step <= steps; ++step) {
+    const MeshPlace place = mesh_place(p, 2 * std::numbers::pi / p.data.teeth[0] * (2.0 * step / steps - 1));
+    const double own = i == 0 ? place.angle_1 : place.angle_2, other = i == 0 ? place.angle_2 : place.angle_1;
+    const double centre = i == 0 ? p.centre_distance : -p.centre_distance;
+    for (int tooth = -2; tooth <= 2; ++tooth)
+      for (const int side : {-1, 1}) {
+        const double angle = other + tooth * 2 * std::numbers::pi / std::abs(mate.teeth) + side * corner;
+        const double x = centre + tip * std::cos(angle), y = tip * std::sin(angle), r = std::hypot(x, y);
+        if (r >= form || r <= half.front().radius) continue;
+        const auto above = std::lower_bound(half.begin(), half.end(), r,
+                                            [](const FlankPoint& q, double radius) { return q.radius < radius; });
+        const FlankPoint &b = *above, &a = above == half.begin() ? *above : *(above - 1);
+        const double part = b.radius > a.radius ? (r - a.radius) / (b.radius - a.radius) : 0;
+        const double from_tooth = std::abs(std::remainder(std::atan2(y, x) - own, pitch));
+        least = std::min(least, r * (from_tooth - (a.angle + part * (b.angle - a.angle))));
+      }
+  }
+  return least;
+}
 
 std::vector<GearVerdict> verdicts(const GearPair& pair) { return Verdicts(pair).found(); }
 

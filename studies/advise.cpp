@@ -155,6 +155,7 @@ class Adviser {
   void refuse_to_drop() {
     EffectSet on = a_.tried[a_.chosen].on;
     bool changed = false;
+    std::vector<std::string> doubts;
     for (std::size_t k = 0; k < on.size(); ++k) {
       if (on[k] || a_.screens[k].empty()) continue;
       const bool all_expect =
@@ -166,12 +167,17 @@ class Adviser {
       // A deviation that is small beside the tolerance settles the matter; one near it does not.
       if (alone.refused.empty() && alone.deviation < 0.2 * options_.within) continue;
       on[k] = changed = true;
-      a_.warnings.push_back(fmt::format("{}: the screens expect it to matter ({}), the run found {:.2g} %: it stays",
-                                        a_.units[k].words, a_.screens[k].front().verdict, 100 * alone.deviation));
+      kept_by_screens_.push_back(k);
+      doubts.push_back(fmt::format("{}: the screens expect it to matter ({}), the run found {:.2g} %",
+                                   a_.units[k].words, a_.screens[k].front().verdict, 100 * alone.deviation));
     }
     if (!changed) return;
     const TriedSet& safer = try_set(on);
-    if (safer.within) a_.chosen = static_cast<std::size_t>(&safer - a_.tried.data());
+    const bool stays = safer.within;
+    if (stays) a_.chosen = static_cast<std::size_t>(&safer - a_.tried.data());
+    if (!stays) kept_by_screens_.clear();
+    for (const std::string& doubt : doubts)
+      a_.warnings.push_back(doubt + (stays ? ": it stays" : "; the set with it was run and is not within: it goes"));
   }
   std::string reason(std::size_t k) const {
     const TriedSet& chosen = a_.tried[a_.chosen];
@@ -179,7 +185,18 @@ class Adviser {
     other[k] = !other[k];
     const auto found = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
     if (!chosen.on[k]) return "goes: the set without it was run and stays within";
-    if (found == a_.tried.end()) return "stays: no set without it was found within";
+    if (std::count(kept_by_screens_.begin(), kept_by_screens_.end(), k))
+      return "stays: the screens expect it to matter, and no run settles that it does not";
+    if (found == a_.tried.end()) {  // the greedy search left it on after running everything but it
+      other.assign(chosen.on.size(), true);
+      other[k] = false;
+      const auto alone =
+          std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
+      if (alone == a_.tried.end()) return "stays: no set without it was run";
+      return !alone->refused.empty() ? "stays: the full model does not run without it"
+                                     : fmt::format("stays: the full model without it is {:.2g} % off in {}",
+                                                   100 * alone->deviation, alone->figure);
+    }
     if (!found->refused.empty()) return "stays: the machine does not run without it";
     return found->within ? "stays: leaving it out saves no time"
                          : fmt::format("stays: without it {} is {:.2g} % off", found->figure, 100 * found->deviation);
@@ -250,6 +267,7 @@ class Adviser {
   const Scene& scene_;
   const AdviseOptions& options_;
   SimulateOptions simulate_;
+  std::vector<std::size_t> kept_by_screens_;  // units that stay although a set without them is within
   Advice a_;
 };
 

@@ -33,7 +33,19 @@ double work_of(const Result& r, const std::string& line) {
   const auto found = r.energy.by_line.find(line);
   return found == r.energy.by_line.end() ? 0 : found->second;
 }
-double driving_work(const Result& r) { return std::max(std::abs(work_of(r, "driving")), 1e-300); }
+// What shares of work are of: the driving work; of a machine that nothing drives, the energy that it has or gives away.
+struct EnergyBase {
+  double energy = 0;  // [J], > 0
+  std::string name;
+};
+EnergyBase energy_base(const Result& r) {
+  constexpr double hardly = 1e-6;
+  const double driving = std::abs(work_of(r, "driving")), useful = std::abs(work_of(r, "useful"));
+  const double motion = std::max(std::abs(r.energy.kinetic_start), std::abs(r.energy.kinetic_end));
+  if (driving > hardly * std::max(useful, motion)) return {driving, "the driving work"};
+  if (useful > hardly * motion) return {useful, "the useful work"};
+  return {std::max(motion, 1e-300), "the energy of the motion"};
+}
 
 // The drive with every elastic element flexible and nothing else; none where it cannot be linearised.
 std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
@@ -51,7 +63,7 @@ std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<Effe
 class Screening {
  public:
   Screening(const Result& full, const std::optional<Modes>& modes, double within)
-      : full_(full), modes_(modes), within_(within) {
+      : full_(full), modes_(modes), within_(within), base_(energy_base(full)) {
     if (modes_) find_quasi_static();
   }
 
@@ -71,13 +83,15 @@ class Screening {
     const auto twist = channel_of(full_, "twist." + component), torque = channel_of(full_, "torque." + component);
     if (twist && torque) {
       const auto [share, swing] = activity_and_swing(*twist, *torque);
+      const bool about_zero = !std::isfinite(swing);
       screens.push_back({"activity", share,
-                         fmt::format("∫|τ dθ| is {:.2g} of the driving work: {}", share,
+                         fmt::format("∫|τ dθ| is {:.2g} of {}: {}", share, base_.name,
                                      share > within_ ? "it takes part in the motion" : "little goes through it"),
                          share > within_});
       screens.push_back({"swing", swing,
-                         fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
-                                     swing > 1.5 ? "it swings, or is shaken" : "it follows the mean"),
+                         about_zero ? std::string("its torque swings about zero")
+                                    : fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
+                                                  swing > 1.5 ? "it swings, or is shaken" : "it follows the mean"),
                          swing > 1.5});
     }
     for (std::size_t j = 0; modes_ && j < modes_->joint_names.size(); ++j) {
@@ -88,7 +102,7 @@ class Screening {
     return screens;
   }
 
-  // ∫|τ dθ| over the driving work, and the largest torque over its mean.
+  // ∫|τ dθ| over the energy that goes through, and the largest torque over its mean; ∞ about zero.
   std::pair<double, double> activity_and_swing(std::size_t twist, std::size_t torque) const {
     const TrajectoryRecorder& t = *full_.trajectory;
     double activity = 0, mean = 0, largest = 0;
@@ -99,7 +113,9 @@ class Screening {
       largest = std::max(largest, std::abs(m));
       if (i > 0) activity += std::abs(0.5 * (m + t.value(i - 1, torque)) * (t.value(i, twist) - t.value(i - 1, twist)));
     }
-    return {activity / driving_work(full_), mean != 0 ? largest / std::abs(mean) : HUGE_VAL};
+    constexpr double about_zero = 1e-6;
+    if (largest == 0) return {0, 1};
+    return {activity / base_.energy, std::abs(mean) > about_zero * largest ? largest / std::abs(mean) : HUGE_VAL};
   }
 
   // min |1 − rΩ/ω_n| over the orders that excite and the modes that this joint takes part in.
@@ -177,9 +193,8 @@ class Screening {
             count > 0};
   }
   Screen losses() const {
-    const double share = std::abs(work_of(full_, "harmful")) / driving_work(full_);
-    return {"share of losses", share, fmt::format("harmful work is {:.2g} of the driving work", share),
-            share > within_};
+    const double share = std::abs(work_of(full_, "harmful")) / base_.energy;
+    return {"share of losses", share, fmt::format("harmful work is {:.2g} of {}", share, base_.name), share > within_};
   }
 
   Screen impacts() const {
@@ -193,7 +208,7 @@ class Screening {
   }
   // The rod under its own inertia, which goes mostly once and twice a turn.
   std::vector<Screen> rods() const {
-    double fastest = 0;
+    double fastest = 0;  // of the link
     for (const Figure& f : full_.figures)
       if (f.name.starts_with("max_speed.") || f.name.starts_with("min_speed."))
         fastest = std::max(fastest, std::abs(f.value));
@@ -201,7 +216,8 @@ class Screening {
     for (const Network::ShaftElement& e : full_.model->network.elements) {
       const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get());
       if (!maker || maker->dynamics().rod().bending == 0) continue;
-      const double ratio = maker->dynamics().rod().frequency(1) / std::max(fastest, 1e-300);
+      const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
+      const double ratio = maker->dynamics().rod().frequency(1) / std::max(crank, 1e-300);
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
       screens.push_back({"rod frequency", ratio,
                          fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it amplifies by "
@@ -215,6 +231,7 @@ class Screening {
   const Result& full_;
   const std::optional<Modes>& modes_;
   double within_;
+  EnergyBase base_;
   SpeedResponse quasi_static_;
 };
 

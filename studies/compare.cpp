@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/units.h"
+#include "studies/effect_study.h"
 #include "studies/figure_text.h"
 
 namespace kurbel {
@@ -20,7 +21,8 @@ void add_rows(Comparison& c) {
       row.a = other->value;
       row.a_error = other->error;
       row.difference = f.value - other->value;
-      if (other->value != 0) row.ratio = f.value / other->value;
+      // Over what is zero but for its error there is no ratio.
+      if (std::abs(other->value) > floor_of(*other, c.a)) row.ratio = f.value / other->value;
     }
     c.rows.push_back(std::move(row));
   }
@@ -47,6 +49,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
 
 // Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (THEORY 5).
 void note_sudden_loads(Comparison& c) {
+  if (c.b.model && c.b.model->elastic.empty()) return;  // nothing swings
   std::vector<std::string> sudden;
   const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
   for (const ComparisonRow& row : c.amplification) {
@@ -61,13 +64,14 @@ void note_sudden_loads(Comparison& c) {
   const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) {
     return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off";
   });
-  if (edges > 0) sudden.push_back(fmt::format("{} load edges or switchings", edges));
+  if (edges > 0)
+    sudden.push_back(fmt::format("{} load edge{} or switching{}", edges, edges > 1 ? "s" : "", edges > 1 ? "s" : ""));
   if (sudden.empty()) return;
   std::string text = "sudden loads (";
   for (std::size_t i = 0; i < sudden.size() && i < 3; ++i) text += (i ? "; " : "") + sudden[i];
   c.notes.push_back(text +
-                    "): however stiff the drive, its peak torque after a step tends to twice the rigid one, not to the "
-                    "rigid one; the motion does converge");
+                    "): however stiff the drive, after a step its peak torque tends not to the rigid one but to as "
+                    "much as twice it, the less it is damped; the motion does converge");
 }
 
 void conclude(Comparison& c) {
@@ -75,23 +79,31 @@ void conclude(Comparison& c) {
     c.conclusion = fmt::format("A model did not run to the end: {}", c.a.complete ? c.b.diagnosis : c.a.diagnosis);
     return;
   }
+  if (c.a.effects == c.b.effects) {
+    c.conclusion = c.a.effects == "none"
+                       ? "Both models are the same rigid machine: the scene has no effect to switch on"
+                       : "Both models are the same: " + c.a.effects;
+    c.conclusion += ".";
+    return;
+  }
   const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(),
                                       [](const ComparisonRow& x, const ComparisonRow& y) {
                                         return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
                                       });
-  if (worst != c.amplification.end()) {
+  if (worst != c.amplification.end() && *worst->b > 0) {
     const std::string joint = worst->name.substr(std::string("amplification.").size());
     const Figure* peak = c.b.find("peak_torque." + joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
                                with_error(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
   }
+  const char* of_cycle = c.a.periods.steady && c.b.periods.steady ? "" : " of the last cycle, which is not steady,";
   for (const ComparisonRow& row : c.rows)
     if (row.name.starts_with("delta.") && row.ratio)
       c.conclusion += (c.conclusion.empty() ? "" : "; ") +
-                      (*row.ratio > 2 ? fmt::format("δ is {:.3g} × as great", *row.ratio)
-                                      : fmt::format("δ changes by {:+.2g} %", 100 * (*row.ratio - 1)));
-  if (c.conclusion.empty()) c.conclusion = "The two models have no torque or cycle in common to compare";
-  c.conclusion += fmt::format("; it costs {:.3g} × the time.",
+                      (*row.ratio > 2 ? fmt::format("δ{} is {:.3g} × as great", of_cycle, *row.ratio)
+                                      : fmt::format("δ{} changes by {:+.2g} %", of_cycle, 100 * (*row.ratio - 1)));
+  if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";
+  c.conclusion += fmt::format("; the {} model costs {:.3g} × the time.", c.b.label,
                               c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
   for (const Result* r : {&c.a, &c.b})
     if (r->unconfirmed())

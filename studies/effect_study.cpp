@@ -19,9 +19,13 @@ bool is_telling(const Figure& figure) {
                                          [&](const std::string& begin) { return figure.name.starts_with(begin); });
 }
 
+double floor_of(const Figure& figure, const Result& run) {
+  constexpr double rounding = 1e-9;
+  return figure.error.value_or(0) + std::max(rounding, run.tolerance) * figure.scale;
+}
+
 std::vector<FigureChange> changes_between(const Result& full, const Result& other,
                                           const std::vector<std::string>& wanted) {
-  constexpr double least = 0.05;  // of the scale: a figure smaller than that is not judged by its own size
   std::vector<FigureChange> changes;
   for (const Figure& figure : full.figures) {
     const bool asked = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
@@ -30,10 +34,15 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
     if (wanted.empty() ? !is_telling(figure) : !asked) continue;
     const Figure* same = other.find(figure.name);
     if (!same) continue;
-    const double size = std::max(std::abs(figure.value), least * figure.scale);
-    if (size == 0) continue;
+    const double nothing = floor_of(figure, full);
+    if (std::abs(figure.value) <= nothing && std::abs(same->value) <= floor_of(*same, other)) continue;  // both zero
+    // Of two equal peaks of opposite sign either may be the larger one.
+    const bool magnitude = figure.name.starts_with("peak_");
+    const double difference =
+        magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
+    const double size = std::max({std::abs(figure.value), nothing, 1e-300});
     changes.push_back(
-        {figure.name, figure.unit, figure.value, same->value, std::abs(same->value - figure.value) / size});
+        {figure.name, figure.unit, figure.value, same->value, difference / size, std::abs(figure.value) <= nothing});
   }
   std::stable_sort(changes.begin(), changes.end(),
                    [](const FigureChange& a, const FigureChange& b) { return a.relative > b.relative; });
@@ -47,15 +56,23 @@ std::string conclusion_of(const EffectStudy& s) {
   std::string text;
   const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(),
                                       [](const LeftOut& l) { return l.refused.empty() && !l.changes.empty(); });
-  if (strongest == s.left_out.end()) return "No effect of this scene can be left out.";
+  if (strongest == s.left_out.end()) {
+    const bool any_ran =
+        std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.refused.empty(); });
+    return any_ran ? "No figure that is compared is other than zero, with or without an effect: nothing to rank by."
+                   : "No effect of this scene can be left out: without any of them it does not run.";
+  }
   const FigureChange& most = strongest->changes.front();
-  text = fmt::format("Most depends on {}: without it {} is {} instead of {} ({:.2g} % off)", strongest->effect.words,
-                     most.figure, with_unit(most.without, most.unit, 4), with_unit(most.full, most.unit, 4),
-                     100 * most.relative);
+  if (most.relative == 0) return "No effect changes any figure compared.";
+  const int digits = most.relative < 1e-2 ? 7 : 4;  // so that the two differ
+  text = fmt::format("Most depends on {}: without it {} is {} instead of {}{}", strongest->effect.words, most.figure,
+                     with_unit(most.without, most.unit, digits), with_unit(most.full, most.unit, digits),
+                     most.from_nothing ? std::string(", which is zero within its error")
+                                       : fmt::format(" ({:.2g} % off)", 100 * most.relative));
   std::vector<std::string> idle;
   for (const LeftOut& l : s.left_out)
     if (l.refused.empty() && !l.changes.empty() && l.changes.front().relative < 1e-3) idle.push_back(l.effect.words);
-  if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure: {}", listed(idle, "and"));
+  if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
   const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
                                         [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
   if (dearest->time_ratio > 1.05)

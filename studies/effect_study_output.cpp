@@ -19,7 +19,10 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr std::size_t most_figures = 8;  // columns of the matrix of changes
 constexpr double least_shown = 1e-6;     // percent; smaller changes lie on the axis
 
-std::string percent(double relative) { return fmt::format("{:.3g} %", 100 * relative); }
+std::string percent(const FigureChange& change) {
+  return change.from_nothing && change.relative > 1 ? std::string("from zero")
+                                                    : fmt::format("{:.3g} %", 100 * change.relative);
+}
 
 Rows ranking(const EffectStudy& s) {
   Rows rows = {{"left out", "greatest change", "in", "states", "nonzeros", "guards", "events", "time ×", ""}};
@@ -29,10 +32,10 @@ Rows ranking(const EffectStudy& s) {
       continue;
     }
     const bool any = !l.changes.empty();
-    rows.push_back({l.effect.words, any ? percent(l.changes.front().relative) : "—",
-                    any ? l.changes.front().figure : "—", fmt::format("{}", l.saved.states),
-                    fmt::format("{}", l.saved.nonzeros), fmt::format("{}", l.saved.guards),
-                    fmt::format("{:+d}", l.events_added), fmt::format("{:.2f}", l.time_ratio), ""});
+    rows.push_back({l.effect.words, any ? percent(l.changes.front()) : "—", any ? l.changes.front().figure : "—",
+                    fmt::format("{}", l.saved.states), fmt::format("{}", l.saved.nonzeros),
+                    fmt::format("{}", l.saved.guards), fmt::format("{:+d}", l.events_added),
+                    fmt::format("{:.2f}", l.time_ratio), ""});
   }
   return rows;
 }
@@ -64,7 +67,7 @@ Rows matrix(const EffectStudy& s) {
     for (const std::string& name : figures) {
       const auto found =
           std::find_if(l.changes.begin(), l.changes.end(), [&](const FigureChange& c) { return c.figure == name; });
-      row.push_back(found == l.changes.end() ? "—" : percent(found->relative));
+      row.push_back(found == l.changes.end() ? "—" : percent(*found));
     }
     rows.push_back(std::move(row));
   }

@@ -34,6 +34,7 @@ struct PowerFlow {
   double kinetic_rate = 0;  // dT/dt
   double friction = 0;      // lost in the joints, ≥ 0
   double residual = 0;      // of crank + load + weight − friction = dT/dt, relative to the largest power of the cycle
+  double nothing = 0;       // powers up to this are rounding beside the cycle's largest [W]
 
   // 1 − loss/Σ(powers that go in, kinetic energy given up included); empty where nothing goes in.
   std::optional<double> efficiency() const;
@@ -63,8 +64,10 @@ struct Peak {
 
 struct CycleWork {
   std::string name;
-  std::string kind;  // driving, useful, harmful, weight
-  double work = 0;   // done on the mechanism [J]
+  std::string kind;     // driving, useful, harmful, weight
+  double work = 0;      // done on the mechanism [J]
+  double turnover = 0;  // ∫|dA|: what goes to and fro [J]
+  double error = 0;     // of the second problem: difference to a run with 30 × looser tolerance [J]
 };
 
 // One of the two problems over one cycle.
@@ -73,20 +76,27 @@ struct ForceCycle {
   std::string description;                                     // for people
   double cycle = 0;                                            // [rad]
   double mean_speed = 0, least_speed = 0, greatest_speed = 0;  // of the crank [rad/s]
-  double closure = 0;                    // speed at the end − at the begin, over the mean: steady motion has none
-  int stride = 1;                        // every so many positions makes a row of the tables
-  std::vector<CyclePosition> positions;  // evenly over the cycle, both ends
-  Peak reaction[joint_count];            // [N]
+  double first_speed = 0, last_speed = 0;  // of the crank at the cycle's begin and end in time [rad/s]
+  std::optional<double> speed_before;      // one cycle before its begin, where the run has it
+  double closure = 0;                      // speed at the end − at the begin, over the mean: steady motion has none
+  std::vector<CyclePosition> positions;    // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<CyclePosition> rows;         // those asked for, both ends
+  std::vector<CyclePosition> curve;        // positions, both sides of every load edge, and the peaks
+  Peak reaction[joint_count];              // [N]
   Peak torque, shaking_force, shaking_moment;
+  CyclePosition at_torque_peak;
   int both_edges = 0;  // positions where both edges bear
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
   double torque_mean = 0;
-  std::vector<CycleWork> work;                // by account: crank, loads, weight, friction of each joint
-  double kinetic_change = 0;                  // over the cycle [J]
-  double input = 0, useful = 0, harmful = 0;  // work that goes in, comes out usefully, is lost [J], ≥ 0
-  std::optional<double> efficiency;           // useful/input
-  double power_residual = 0;                  // largest
-  double friction_residual = 0;               // largest, of the friction laws
+  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
+  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
+  double kinetic_error = 0;                     // of the change, as that of a work [J]
+  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                             // input less what the motion stores [J]
+  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
+  std::string no_efficiency;                    // else why
+  double power_residual = 0;                    // largest
+  double friction_residual = 0;                 // largest, of the friction laws
   int most_iterations = 0;
 };
 
@@ -116,11 +126,6 @@ struct Forces {
 // Throws SceneError where the scene makes no machine; std::invalid_argument where it has no slider-crank or options
 // are senseless; std::runtime_error with the position where the joints jam.
 Forces find_forces(const Scene& scene, const ForcesOptions& options);
-
-// Counterweights for a crank at constant speed: none, rotating masses, half of the reciprocating first order besides,
-// and what makes the largest shaking force least (convex in the counterweight; by golden section).
-std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& statics,
-                                                  const std::vector<CyclePosition>& turn);
 
 // Orders 0 … highest of values given evenly over `turns` turns, both ends (trapezium rule, exact for smooth functions).
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);

@@ -26,9 +26,7 @@ std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
-std::string percent(const std::optional<double>& share) {
-  return share ? fmt::format("{:.4g} %", 100 * *share) : std::string("—");
-}
+bool is_nothing(const Peak& p) { return std::abs(p.value) <= p.error.value_or(0); }
 std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
 
 std::vector<const ForceCycle*> problems_of(const Forces& f) {
@@ -65,15 +63,18 @@ std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
   const Peak& bearing = c.reaction[0];
   std::string text = fmt::format(
-      "{} at {}: the main bearing carries up to {} (at {}), the balancing torque peaks at {} (at {}), the "
-      "shaking force at {}",
-      f.mechanism, with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
-      in_words(c.torque, "N*m"), at_angle(c.torque), in_words(c.shaking_force, "N"));
-  if (has_friction(f)) {
-    const double work = c.input - c.kinetic_change;
-    text += fmt::format("; efficiency of the cycle {}{}", percent(c.efficiency),
-                        work > 0 && c.harmful > 0 ? fmt::format(", {} of it lost", with_unit(c.harmful, "J", 4)) : "");
-  }
+      "{} at {}: the main bearing carries up to {} (at {}), {}, the shaking force peaks at {}", f.mechanism,
+      with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
+      is_nothing(c.torque)
+          ? std::string("no balancing torque is needed")
+          : fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque)),
+      in_words(c.shaking_force, "N"));
+  if (has_friction(f))
+    text += c.efficiency ? fmt::format("; efficiency of the cycle {:.4g} %{}", 100 * *c.efficiency,
+                                       c.harmful > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful, "J", 4),
+                                                                   with_unit(c.spent, "J", 4))
+                                                     : "")
+                         : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
   return text + ".";
 }
 
@@ -109,8 +110,7 @@ std::string beside(double value, double largest) {
 Rows position_rows(const ForceCycle& c) {
   Rows rows = {{"φ [°]", "ω [rad/s]", "M [N·m]", "R main [N]", "R crank pin [N]", "R slider pin [N]", "N guide [N]",
                 "at [mm]", "shaking [N]", "η"}};
-  for (std::size_t i = 0; i < c.positions.size(); i += static_cast<std::size_t>(c.stride)) {
-    const CyclePosition& p = c.positions[i];
+  for (const CyclePosition& p : c.rows) {
     const SliderCrankForces& s = p.forces;
     rows.push_back({number(degrees(p.state.phi), 5), number(p.state.omega), beside(s.torque, c.torque.value),
                     number(s.main_bearing.magnitude()), number(s.crank_pin.magnitude()),
@@ -247,8 +247,12 @@ Json cycle_json(const ForceCycle& c) {
                           {"error", optional_json(p.peak->error)},
                           {"phi", p.peak->phi}});
   j["work"] = Json::array();
-  for (const CycleWork& w : c.work) j["work"].push_back({{"name", w.name}, {"line", w.kind}, {"work", w.work}});
+  for (const CycleWork& w : c.work) {
+    j["work"].push_back({{"name", w.name}, {"line", w.kind}, {"work", w.work}});
+    if (w.error > 0) j["work"].back()["error"] = w.error;
+  }
   j["efficiency"] = optional_json(c.efficiency);
+  if (!c.efficiency) j["no_efficiency"] = c.no_efficiency;
   j["work_in"] = c.input;
   j["work_useful"] = c.useful;
   j["work_harmful"] = c.harmful;
@@ -262,8 +266,7 @@ Json cycle_json(const ForceCycle& c) {
                     {"balancing_torque", orders_json(c.torque_orders)},
                     {"balancing_torque_mean", c.torque_mean}};
   j["positions"] = Json::array();
-  for (std::size_t i = 0; i < c.positions.size(); i += static_cast<std::size_t>(c.stride))
-    j["positions"].push_back(position_json(c.positions[i]));
+  for (const CyclePosition& p : c.rows) j["positions"].push_back(position_json(p));
   return j;
 }
 
@@ -326,7 +329,7 @@ class AnglePlot {
   template <class F>
   AnglePlot& add(const std::string& name, Role role, const ForceCycle& c, F&& value, bool dashed = false) {
     Series s{.name = name, .role = role, .x = {}, .y = {}, .dashed = dashed};
-    for (const CyclePosition& p : c.positions) {
+    for (const CyclePosition& p : c.curve) {
       const double v = value(p);
       if (!std::isfinite(v)) continue;
       s.x.push_back(degrees(p.state.phi));
@@ -362,7 +365,7 @@ Plot locus(const std::string& title, const std::string& x, const std::string& y,
   double largest = 0;
   for (const ForceCycle* c : problems_of(f)) {
     Series s{.name = c->label, .role = role_of(*c), .x = {}, .y = {}};
-    for (const CyclePosition& p : c->positions) {
+    for (const CyclePosition& p : c->curve) {
       const Force2 v = force(p);
       s.x.push_back(v.x);
       s.y.push_back(v.y);
@@ -398,9 +401,7 @@ void add_torque(Report& report, const Forces& f) {
                                [](const CyclePosition& p) { return p.forces.torque; }));
   // With the numbers of the peak.
   const ForceCycle& c = front_of(f);
-  const CyclePosition* peak = &c.positions.front();
-  for (const CyclePosition& p : c.positions)
-    if (std::abs(p.forces.torque) > std::abs(peak->forces.torque)) peak = &p;
+  const CyclePosition* const peak = &c.at_torque_peak;
   const SliderCrankGeometry g(f.data);
   const auto inertia = g.inertia(peak->state.phi);
   const double w = peak->state.omega, slope = g.slider(peak->state.phi).slope,
@@ -549,9 +550,12 @@ void add_friction(Report& report, const Forces& f) {
   if (c.efficiency)
     section.cards.push_back(Formula{
         .title = fmt::format("Efficiency of the cycle, {} motion", c.label),
-        .symbols = "η = A_useful / A_in",
-        .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.input, *c.efficiency),
+        .symbols = "η = A_useful / (A_in − ΔT)",
+        .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
         .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", c.harmful, c.kinetic_change)});
+  else
+    section.cards.push_back(
+        Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label), .body = c.no_efficiency + "."});
   if (!has_friction(f)) {
     section.cards.push_back(Text{.title = "",
                                  .body =

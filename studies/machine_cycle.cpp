@@ -194,6 +194,9 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
   constexpr int steps = 80;
   for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
   for (int i = 1; i <= steps; ++i) look(top * i / steps);
+  // Rated quantities need not be near where the machine runs: a series motor's R/κ is far below.
+  constexpr double farthest = 1e3;
+  while (scan.back().mean.net() > 0 && scan.back().speed < farthest * top) look(1.1 * scan.back().speed);
   OperatingSpeed found;
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     if (!(scan[i].mean.net() > 0 && scan[i + 1].mean.net() <= 0)) continue;
@@ -204,25 +207,36 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
   if (found.speed > 0) {
     const double step = 1e-4 * found.speed;
     found.mean_drive = mean_torque(machine, found.speed).drive;
-    found.slope =
-        (mean_torque(machine, found.speed + step).net() - mean_torque(machine, found.speed - step).net()) / (2 * step);
+    const MeanTorque faster = mean_torque(machine, found.speed + step),
+                     slower = mean_torque(machine, found.speed - step);
+    found.slope = (faster.net() - slower.net()) / (2 * step);
+    found.drive_slope = (faster.drive - slower.drive) / (2 * step);
     return found;
   }
   const auto best =
       std::max_element(scan.begin(), scan.end(), [](const At& a, const At& b) { return a.mean.net() < b.mean.net(); });
   if (best->mean.net() > 0)
-    throw std::invalid_argument(fmt::format(
-        "nothing limits the machine's speed: up to {:.6g} rpm the drive gives more than the load takes; give "
-        "--mean-speed, or a motor whose torque falls with its speed",
-        rpm(top)));
+    throw std::invalid_argument(
+        fmt::format("no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, "
+                    "at the end {:.4g} "
+                    "against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
+                    rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
+  const std::string balance = fmt::format(
+      "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
+      "takes "
+      "{:.6g} N·m; {:.6g} N·m are missing ({:.3g} % of the load)",
+      rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
+      100 * -best->mean.net() / std::abs(best->mean.load));
+  if (machine.uses_time())
+    throw WeakDrive(
+        fmt::format("as it is at t = 0 the drive is too weak for the cycle: {}. Some torque depends on time "
+                    "and may be another later (a converter's ramp, a switching): give the machine without "
+                    "that, or simulate it with kurbel run",
+                    balance));
   throw WeakDrive(
-      fmt::format("the drive is too weak for the cycle: at its best, at {:.6g} rpm of the reduction link, it gives a "
-                  "mean torque of "
-                  "{:.6g} N·m there while the load takes {:.6g} N·m; {:.6g} N·m are missing ({:.3g} % of the load); "
-                  "take a stronger "
-                  "motor, a larger ratio, or a smaller load",
-                  rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
-                  100 * -best->mean.net() / std::abs(best->mean.load)));
+      fmt::format("the drive is too weak for the cycle: {}; take a stronger motor, a larger ratio, or a "
+                  "smaller load",
+                  balance));
 }
 
 SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& cycle, double more_inertia,

@@ -36,6 +36,7 @@ struct OperatingSpeed {
   double speed = 0;            // [rad/s]
   double mean_drive = 0;       // [N·m]
   double slope = 0;            // d(mean M_d − mean M_c)/dω [N·m·s/rad], < 0: stable
+  double drive_slope = 0;      // of mean M_d alone
   std::vector<double> others;  // further stable ones [rad/s]
 };
 // The fastest stable one. Throws std::invalid_argument in words: no torque depends on the speed (then any mean speed is

@@ -27,10 +27,15 @@ class Study {
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
       : options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
     for (const EffectFlag& flag : effect_flags())
-      if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine)
-        found_.notes.push_back(
-            fmt::format("{} left out of modes and forced response, counted in the simulated torque", flag.words));
-    if (!scene.sequence.steps.empty()) found_.notes.push_back("clutches count as locked and brakes as released");
+      if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine && has_parameters(scene, flag))
+        found_.notes.push_back(fmt::format("{} left out of modes and forced response{}", flag.words,
+                                           options.torque.empty() ? "" : ", counted in the simulated torque"));
+    const auto told_to = [&](std::string_view what) {
+      return std::any_of(scene.components.begin(), scene.components.end(),
+                         [&](const Section& s) { return s.kind && s.kind->name.find(what) != std::string::npos; });
+    };
+    if (told_to("clutch")) found_.notes.push_back("clutches count as locked");
+    if (told_to("brake")) found_.notes.push_back("brakes count as released");
     found_.title = scene.title;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
@@ -139,9 +144,8 @@ class Study {
     for (const DampedMode& d : found_.damped)
       if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
         found_.notes.push_back(
-            fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable, e.g. a "
-                        "motor below its "
-                        "breakdown speed",
+            fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the "
+                        "torques there feed it more than they damp it (as those of a motor below its breakdown speed)",
                         d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
                                             : "the motion as a "
                                               "whole",

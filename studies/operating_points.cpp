@@ -86,7 +86,8 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
   if (last.net() > 0)
     return fmt::format(
         "runaway: up to {} the drive's mean torque on \"{}\" exceeds the loads', there still by {} ({} against {}); "
-        "nothing ends the acceleration. A load that grows with speed, or a drive that weakens with it, is needed",
+        "nothing up to there ends the acceleration. A load that grows with speed, or a drive that weakens with it, is "
+        "needed",
         speed_text(last.omega), link, with_unit(last.net(), "N*m", 4), with_unit(last.drive, "N*m", 5),
         with_unit(last.load, "N*m", 5));
   return fmt::format(

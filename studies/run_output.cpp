@@ -59,9 +59,9 @@ std::string footing(const Result& r) {
     text += "  work:";
     for (const auto& [line, work] : e.by_line) text += fmt::format(" {} {},", line, with_unit(work, "J", 5));
     text.back() = '\n';
-    text += fmt::format(
-        "  energy balance closed to {:.1e} of the energy turned over; bodies against reduced inertia {:.1e}\n",
-        e.relative, e.reduction_residual);
+    text += "  " + told(e);
+    if (e.reduction_residual > 0) text += fmt::format("; bodies against reduced inertia {:.1e}", e.reduction_residual);
+    text += "\n";
   }
   if (r.errors_measured)
     text += fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}\n", r.accuracy, r.measured_accuracy,
@@ -231,11 +231,24 @@ std::string one_line(const Result& r) {
   for (const Figure& f : r.figures)
     if (peak.empty() && f.name.starts_with("peak_torque."))
       peak = fmt::format("peak torque in {} {}, ", f.name.substr(12), with_error(f.value, f.error, "N*m"));
-  return fmt::format("{}: {} simulated, {}, {}{}, energy balance {:.1e}", r.title, with_unit(r.until, "s", 6), r.label,
-                     peak, accuracy, r.energy.relative);
+  std::string balance;
+  if (r.energy.checks > 0)
+    balance = nothing_turned_over(r.energy) ? ", no energy turned over"
+                                            : fmt::format(", energy balance {:.1e}", r.energy.relative);
+  return fmt::format("{}: {} simulated, {}, {}{}{}", r.title, with_unit(r.until, "s", 6), r.label, peak, accuracy,
+                     balance);
 }
 
 }  // namespace
+
+std::string told(const EnergyBalance& e) {
+  if (!nothing_turned_over(e))
+    return fmt::format("energy balance closed to {:.1e} of the energy turned over", e.relative);
+  return e.kinetic_end > 0
+             ? fmt::format("no work is done and the kinetic energy stays {}: no balance of energy to prove anything by",
+                           with_unit(e.kinetic_end, "J", 5))
+             : std::string("nothing moves and no work is done: no balance of energy to prove anything by");
+}
 
 std::string table_of(const Result& r) {
   std::string text = r.title + "\n" + heading(r);

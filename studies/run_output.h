@@ -13,6 +13,10 @@ std::string table_of(const Comparison& comparison);
 std::string json_of(const Result& result);
 std::string json_of(const Comparison& comparison);
 
+// What the energy balance proves: "energy balance closed to 1e-9 of the energy turned over"; of a run in which no work
+// is done and no energy changes its form nothing, which is said instead.
+std::string told(const EnergyBalance& energy);
+
 // Files: trajectory.csv, of a comparison one per model. The result must outlive the output.
 StudyOutput output_of(const Result& result);
 StudyOutput output_of(const Comparison& comparison);

@@ -148,9 +148,9 @@ class Sizer {
         s_.operating = operating_speed(*machine_);
       } catch (const WeakDrive&) {
         throw;
-      } catch (const std::invalid_argument&) {
+      } catch (const std::invalid_argument& error) {
         if (!options_.mean_speed) throw;
-        s_.notes.push_back("no operating speed: nothing in the machine limits its speed");
+        s_.notes.push_back(fmt::format("no operating speed: {}", error.what()));
       }
     }
     if (options_.mean_speed) {
@@ -162,7 +162,8 @@ class Sizer {
                         rpm(s_.mean_speed), rpm(s_.operating->speed)));
     } else if (s_.operating) {
       s_.mean_speed = s_.operating->speed;
-      s_.mean_speed_source = "operating speed of the motor under the mean load";
+      s_.mean_speed_source = s_.motor.empty() ? "operating speed, where the mean torques balance"
+                                              : "operating speed of the motor under the mean load";
       for (const double other : s_.operating->others)
         s_.notes.push_back(fmt::format("the machine can also run steadily at {:.5g} rpm", rpm(other)));
     } else {
@@ -185,11 +186,23 @@ class Sizer {
     const double rest = drive.mean() - load.mean();
     if (!(drive.mean() > 0)) with_constant_load(drive);  // says that the drive does no net work
     if (std::abs(rest) > 1e-6 * drive.mean())
-      s_.notes.push_back(
-          fmt::format("the driving torque varies with the angle; the load of the scene takes {:.5g} N·m of its "
-                      "mean of {:.5g} N·m, and a constant load is made to take the rest",
-                      load.mean(), drive.mean()));
+      s_.notes.push_back(unbalanced(drive.mean(), load.largest() > 0 ? load.mean() : 0, rest));
     s_.diagram = work_diagram(drive, load + load.constant(rest));
+  }
+
+  // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.
+  static std::string unbalanced(double drive, double load, double rest) {
+    const std::string text =
+        load == 0 ? fmt::format(
+                        "the driving torque varies with the angle and the scene has no load on the cycle: its "
+                        "mean of {:.5g} N·m is not balanced",
+                        drive)
+                  : fmt::format(
+                        "the driving torque varies with the angle; of its mean of {:.5g} N·m the load of the "
+                        "scene takes {:.5g} N·m{}",
+                        drive, load, rest < 0 ? ", more than there is" : "");
+    return text + fmt::format("; sized as if a constant {} of {:.5g} N·m, which the scene does not have, balanced them",
+                              rest > 0 ? "load" : "drive", std::abs(rest));
   }
 
   void compare_constant_drive(double drive, double load) {
@@ -244,7 +257,12 @@ class Sizer {
     const double exact = s_.methods.front().drive_inertia;
     s_.with_motor = steady(exact);
     if (!s_.with_motor->found)
-      s_.notes.push_back("with its real motor the sized machine has no steady cycle: " + s_.with_motor->why);
+      s_.notes.push_back("with its torques as they are the sized machine has no steady cycle: " + s_.with_motor->why);
+    else if (s_.with_motor->multiplier > 1)
+      s_.notes.push_back(fmt::format(
+          "with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy grows to "
+          "{:.3g} of itself within a cycle, and the machine leaves it",
+          s_.with_motor->multiplier));
     const auto excess = [&](double log_inertia) {
       const SteadyRigidCycle c = steady(std::exp(log_inertia));
       return (c.found ? c.delta() : 2.0) - s_.delta;
@@ -253,12 +271,13 @@ class Sizer {
     for (int i = 0; i < 20 && at_high > 0; ++i) low = high, at_low = at_high, at_high = excess(high += 0.5);
     for (int i = 0; i < 14 && at_low <= 0; ++i) high = low, at_high = at_low, at_low = excess(low -= 0.5);
     if (at_low <= 0 || at_high > 0) {
-      s_.soft_why = at_high > 0 ? "no inertia tried gives the demanded δ with this motor"
-                                : "the motor holds δ with a thousandth of the inertia; it does not limit it";
+      s_.soft_why = at_high > 0
+                        ? "no inertia tried gives the demanded δ with the torques as they are over the speed"
+                        : "with the torques as they are over the speed δ holds down to a thousandth of the inertia";
       return;
     }
     const double root = find_root(excess, low, at_low, high, at_high, 1e-12 * s_.delta);
-    s_.soft = method("motor's slope counted", std::exp(root));
+    s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
     s_.soft_cycle = steady(std::exp(root));
     s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;
   }
@@ -308,7 +327,7 @@ class Sizer {
     if (!s_.with_motor || !s_.with_motor->found) return;
     reach("Wittenbauer", s_.methods.front().flywheel, *s_.with_motor);
     if (s_.soft && s_.soft->flywheel > 0 && s_.soft_cycle && s_.soft_cycle->found)
-      reach("motor's slope counted", s_.soft->flywheel, *s_.soft_cycle);
+      reach(s_.soft->name, s_.soft->flywheel, *s_.soft_cycle);
   }
 
   // Torques of the angle alone, in balance: the cycle is the one that energy gives.
@@ -369,11 +388,21 @@ class Sizer {
     r.crank_error = sim.link_error, r.motor_error = sim.motor_error;
     r.mean_speed = sim.mean_speed, r.settled = sim.settled, r.cycles = sim.cycles;
     r.phi = std::move(sim.phi), r.speed = std::move(sim.link), r.motor_speed = std::move(sim.motor);
-    if (!r.settled)
-      s_.notes.push_back(
-          fmt::format("{} ({}): after {} cycles δ still changes; the figures are those of the last cycle", name,
-                      sized_by, r.cycles));
+    if (!r.settled) s_.notes.push_back(unsettled(fmt::format("{} ({})", name, sized_by), sim));
     s_.reached.push_back(std::move(r));
+  }
+
+  static std::string unsettled(const std::string& name, const SteadySimulation& sim) {
+    constexpr double still = 1e-5;
+    const std::string text = fmt::format("{}: not settled after {} cycles: ", name, sim.cycles);
+    const std::string last = "; the figures are those of the last cycle, not of steady motion";
+    if (sim.speed_to_come <= still) return text + "the speed keeps, δ still changes" + last;
+    const std::string change = fmt::format("the speed still {} by {:.2g} % a cycle",
+                                           sim.speed_change > 0 ? "rises" : "falls", 100 * std::abs(sim.speed_change));
+    return text + change +
+           (std::isfinite(sim.speed_to_come) ? fmt::format(", some {:.2g} % are still to come", 100 * sim.speed_to_come)
+                                             : std::string(" and tends nowhere within that time")) +
+           last;
   }
 
   const SizeOptions& options_;
@@ -400,6 +429,11 @@ Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, co
   scene.components.push_back(std::move(section));
   scene.lines.push_back({.from = on, .names = {flywheel}, .at = {}, .name_at = {}});
   return scene;
+}
+
+std::string slope_of_what(const Sizing& s) {
+  const bool drive = s.operating && std::abs(s.operating->drive_slope) >= 0.5 * std::abs(s.operating->slope);
+  return !drive ? "the load's slope" : s.motor.empty() ? "the drive's slope" : "the motor's slope";
 }
 
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options) { return Sizer(scene, options).run(); }

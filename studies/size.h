@@ -42,7 +42,7 @@ struct DeltaReached {
   double crank = 0, motor = 0;  // δ
   std::optional<double> crank_error, motor_error;
   double mean_speed = 0;                        // of the link [rad/s]
-  bool settled = true;                          // the last two cycles agree to 1e-5
+  bool settled = true;                          // speed and δ have come to 1e-5 of where they tend to
   int cycles = 0;                               // simulated
   std::vector<double> phi, speed, motor_speed;  // last cycle [rad], [rad/s]; motor reduced to the link
 };
@@ -91,6 +91,9 @@ struct Sizing {
 // Throws SceneError where the scene makes no machine; std::invalid_argument in words for bad options, a load without
 // net resistance, and a motor too weak for the cycle.
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options);
+
+// Whose torque it is that changes with the speed at the operating point: "the motor's slope", "the load's slope".
+std::string slope_of_what(const Sizing& sizing);
 
 // The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);

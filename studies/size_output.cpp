@@ -28,25 +28,37 @@ const DeltaReached* reached(const Sizing& s, const std::string& model) {
   return nullptr;
 }
 
+// What the classical methods take the torques for.
+std::string basis_of(const Sizing& s) {
+  return s.engine ? "at torques of the angle alone" : "at constant driving torque";
+}
+
+const char* unless_settled(const DeltaReached& r) {
+  return r.settled ? "" : " in its last cycle, for it does not settle (see the notes)";
+}
+
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (!s.needed)
     return fmt::format(
-        "{}: no flywheel is needed for δ = {:g}: without any, δ is smaller already; the drive would have to be "
-        "lighter by {:.5g} kg·m² on {}",
-        s.title, s.delta, -exact.flywheel, s.flywheel);
-  std::string text = fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} at constant driving torque",
-                                 s.title, exact.flywheel, s.flywheel, s.delta);
+        "{}: no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title, s.delta,
+        exact.drive_inertia > 0
+            ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
+            : std::string("its torques would not swing the speed as far with any inertia"));
+  std::string text = fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title, exact.flywheel,
+                                 s.flywheel, s.delta, basis_of(s));
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
-    text += s.soft->flywheel > 0 ? fmt::format("; with the motor's slope counted {:.6g} kg·m² do ({:.3g} % {})",
+    text += s.soft->flywheel > 0 ? fmt::format("; with {} counted {:.6g} kg·m² do ({:.3g} % {})", slope_of_what(s),
                                                s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
-                                 : std::string("; with the motor's slope counted none is needed");
+                                 : fmt::format("; with {} counted none is needed", slope_of_what(s));
   }
   if (const DeltaReached* rigid = reached(s, "rigid, simulated"))
-    text += fmt::format("; simulated rigid it reaches {:.5g}", rigid->crank);
+    text += fmt::format("; simulated rigid it reaches {:.5g}{}", rigid->crank, unless_settled(*rigid));
   if (const DeltaReached* elastic = reached(s, "elastic, simulated"))
-    text += fmt::format(", elastic {:.5g} at the crank and {:.5g} at the motor", elastic->crank, elastic->motor);
+    text += fmt::format(", elastic {:.5g} at the crank{}{}", elastic->crank,
+                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor),
+                        unless_settled(*elastic));
   return text;
 }
 
@@ -54,7 +66,7 @@ std::string comparison_with_scene(const Sizing& s) {
   if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of {}.", s.link);
   const double needed = exact_method(s).flywheel;
   const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
-                                                  : fmt::format("δ = {:.5g} at constant driving torque", s.delta_now);
+                                                  : fmt::format("δ = {:.5g} {}", s.delta_now, basis_of(s));
   return fmt::format("The scene's \"{}\" has {:.6g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
                      s.flywheel_now >= needed ? "already larger than needed" : "too small");
 }
@@ -83,8 +95,9 @@ Table reached_table(const Sizing& s) {
           .text_columns = 2};
   for (const DeltaReached& r : s.reached)
     t.rows.push_back({r.model, r.sized_by, number(r.flywheel), figure_text(r.crank, r.crank_error).value,
-                      figure_text(r.crank, r.crank_error).error, figure_text(r.motor, r.motor_error).value,
-                      figure_text(r.motor, r.motor_error).error, number(rpm(r.mean_speed)),
+                      figure_text(r.crank, r.crank_error).error,
+                      s.motor.empty() ? "—" : figure_text(r.motor, r.motor_error).value,
+                      s.motor.empty() ? "" : figure_text(r.motor, r.motor_error).error, number(rpm(r.mean_speed)),
                       r.cycles ? fmt::format("{}{}", r.cycles, r.settled ? "" : ", not settled") : "exact"});
   return t;
 }
@@ -432,8 +445,8 @@ std::optional<Plot> speed_plot(const Sizing& s) {
     } catch (const std::invalid_argument&) {  // it would stop within the cycle
     }
   };
-  if (!s.flywheel_added && s.flywheel_now > 0) add("scene as it is, constant torque", Role::reference, now, true);
-  if (s.needed) add("sized, constant torque", Role::green, s.exact.inertia, true);
+  if (!s.flywheel_added && s.flywheel_now > 0) add("scene as it is, " + basis_of(s), Role::reference, now, true);
+  if (s.needed) add("sized, " + basis_of(s), Role::green, s.exact.inertia, true);
   for (const DeltaReached& r : s.reached) {
     if (r.sized_by != "Wittenbauer" || r.model == "rigid, work equation") continue;
     Series series{.name = "sized, " + r.model,
@@ -445,7 +458,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
       series.y.push_back(rpm(r.speed[k]));
     }
     p.series.push_back(std::move(series));
-    if (!r.model.starts_with("elastic")) continue;
+    if (!r.model.starts_with("elastic") || s.motor.empty()) continue;
     Series motor{.name = fmt::format("sized, elastic, {} (reduced)", s.motor),
                  .role = Role::sky,
                  .x = p.series.back().x,
@@ -572,24 +585,26 @@ void add_dimension_formulas(ReportSection& section, const FlywheelDimensions& d,
 
 void add_motor_section(Report& report, const Sizing& s) {
   if (!s.operating && s.reached.empty()) return;
-  ReportSection& section = report.add("With the real motor, rigid and elastic");
+  ReportSection& section = report.add("With the torques as they are over the speed, rigid and elastic");
   if (s.with_motor && s.with_motor->found)
     section.cards.push_back(Formula{
-        .title = "The motor gives way: its torque rises as the speed falls",
+        .title = s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
+                                              : "The drive does not give way: what holds the speed is the load",
         .symbols = "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
         .numbers = fmt::format("δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
                                s.with_motor->slowest.value, s.with_motor->mean_speed(), s.with_motor->delta(), s.delta),
         .note = fmt::format(
-            "Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy shrinks to "
+            "Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy {} to "
             "{:.3g} of itself within a cycle.",
-            s.operating->slope, s.with_motor->multiplier)});
+            s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier)});
   if (s.soft)
     section.cards.push_back(Formula{
-        .title = "Inertia that gives δ with this motor",
+        .title = "Inertia that gives δ with these torques",
         .symbols = "δ(I₀) = δ",
-        .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % less than at constant torque",
+        .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
                                s.soft->drive_inertia, s.soft->flywheel,
-                               100 * (1 - s.soft->flywheel / exact_method(s).flywheel)),
+                               std::abs(100 * (1 - s.soft->flywheel / exact_method(s).flywheel)),
+                               s.soft->flywheel <= exact_method(s).flywheel ? "less" : "more"),
         .note =
             s.soft_cycle && s.soft_cycle->found
                 ? fmt::format("Its mean speed (ω_max + ω_min)/2 is then {:.6g} rpm.", rpm(s.soft_cycle->mean_speed()))
@@ -603,13 +618,15 @@ Report report_of(const Sizing& s) {
                 .subtitle = fmt::format("Flywheel for δ = {:g}", s.delta),
                 .conclusion = conclusion_of(s),
                 .complete = s.complete};
-  report.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact at constant torque"}};
-  if (s.soft) report.figures.push_back({"flywheel with the motor's slope", s.soft->flywheel, "kg*m2", {}, ""});
+  report.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s)}};
+  if (s.soft) report.figures.push_back({"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, ""});
   for (const DeltaReached& r : s.reached)
     if (r.sized_by == "Wittenbauer" && r.model != "rigid, work equation") {
-      report.figures.push_back({"δ at the crank, " + r.model, r.crank, "", r.crank_error, ""});
-      if (r.model.starts_with("elastic"))
-        report.figures.push_back({"δ at the motor, " + r.model, r.motor, "", r.motor_error, ""});
+      report.figures.push_back(
+          {"δ at the crank, " + r.model, r.crank, "", r.crank_error, r.settled ? "" : "last cycle, not settled"});
+      if (r.model.starts_with("elastic") && !s.motor.empty())
+        report.figures.push_back(
+            {"δ at the motor, " + r.model, r.motor, "", r.motor_error, r.settled ? "" : "last cycle, not settled"});
     }
   report.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, ""});
   if (s.dimensions) report.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name});

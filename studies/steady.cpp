@@ -535,9 +535,12 @@ class Search {
     const Round other = RoundFigures(loose, point, looser_tolerance).collect();
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)
-        if (f.name == g.name)
+        if (f.name == g.name) {
           f.error =
               std::max(std::abs(f.value - g.value), 8 * std::numeric_limits<double>::epsilon() * std::abs(f.value));
+          // Below what the steps resolve of the rated quantity nothing is told from zero.
+          if (std::abs(f.value) <= map_tolerance * f.scale) f.error = std::max(*f.error, std::abs(f.value));
+        }
   }
 
   // Two rounds, so that one whole cycle from the link's zero is among them.
@@ -607,8 +610,10 @@ class Study {
     if (transients)
       out_.notes.push_back("motors count by their static characteristics: their currents are no unknowns here");
     if (scene.effects.joint_clearance || scene.effects.flexible_rod)
-      out_.notes.push_back(
-          "the rigid cycle has ideal joints and a rigid rod: joint clearance and flexible rod are left out");
+      out_.notes.push_back(fmt::format("the rigid cycle has ideal joints and a rigid rod: {} left out",
+                                       !scene.effects.flexible_rod      ? "joint clearance is"
+                                       : !scene.effects.joint_clearance ? "the flexible rod is"
+                                                                        : "joint clearance and flexible rod are"));
   }
 
   SteadyStudy run() {
@@ -672,7 +677,7 @@ class Study {
     running.locked = true;
     SteadyCycle cycle = Search(scene_, running, out_, options_).run();
     log(fmt::format(
-        "{}: {} unknowns; {} after {} rounds, {} with derivative; cost {:.1f} of {:.0f} cycles allowed; "
+        "{}: {} unknowns; {} after {} rounds, {} with derivative; cost {:.1f} cycles, {:.0f} aimed at; "
         "residual {:.1e}; {:.3g} ms",
         cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.point.rounds,
         cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual, 1e3 * cycle.cpu_seconds));

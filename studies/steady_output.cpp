@@ -39,8 +39,8 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   if (!c.found) return {fmt::format("NOT found: {}", c.why)};
   words.push_back(c.stability);
   words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; found in {} rounds ({} with derivative), {:.3g} cycles' worth of {:.0f} "
-      "allowed, {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      "{} unknown{} on the section at {:.4g}°; found in {} rounds ({} with derivative), {:.3g} cycles' worth ({:.0f} "
+      "aimed at), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees, c.point.rounds, c.point.derivatives, c.cost,
       c.cost_limit, 1e3 * c.cpu_seconds, c.point.residual, c.work_residual));
   if (c.point.grazed)
@@ -60,6 +60,11 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   return words;
 }
 
+// Rounding of differences beside the other slope reads as zero.
+std::string beside(double value, double other) {
+  return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value, 4);
+}
+
 std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   if (!s.diagram) return {"no operating diagram: " + s.no_diagram};
   std::vector<std::string> words;
@@ -67,8 +72,8 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   for (const OperatingPoint& p : d.points)
     words.push_back(fmt::format("operating point {} rpm at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
                                 number(p.mean.omega * per_minute, 6), with_unit(p.mean.load, "N*m", 6),
-                                p.stable() ? "stable" : "unstable", number(p.drive_slope, 4), p.stable() ? "<" : "≥",
-                                number(p.load_slope, 4)));
+                                p.stable() ? "stable" : "unstable", beside(p.drive_slope, p.load_slope),
+                                p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
     words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {} rpm), {} times what it needs",
                                 with_unit(d.strongest.drive, "N*m", 5), number(d.strongest.omega * per_minute, 5),

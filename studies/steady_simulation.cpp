@@ -16,7 +16,8 @@ class CycleSpeeds final : public Observer {
   struct Cycle {
     double most[2] = {-HUGE_VAL, -HUGE_VAL}, least[2] = {HUGE_VAL, HUGE_VAL};
     std::vector<double> phi, speed[2];
-    double delta(int which) const { return (most[which] - least[which]) / (0.5 * (most[which] + least[which])); }
+    double mid(int which) const { return 0.5 * (most[which] + least[which]); }
+    double delta(int which) const { return (most[which] - least[which]) / mid(which); }
   };
 
   CycleSpeeds(const Model& model, double cycle, int link, int motor)
@@ -78,9 +79,38 @@ class CycleSpeeds final : public Observer {
   std::vector<Cycle> cycles_;
 };
 
-bool agree(double a, double b) { return std::abs(a - b) <= 1e-5 * std::max(std::abs(a), std::abs(b)); }
+constexpr double tolerance = 1e-9, near_enough = 1e-5;
+constexpr double noise = 100 * tolerance;  // that integration leaves in a speed, over itself
+
+// Settled is what has nothing left to change: δ of a machine that runs away may stand still long before.
+void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
+  const std::size_t n = speeds.whole();
+  std::vector<double> mid, delta[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    mid.push_back(speeds.cycle(i).mid(0));
+    for (const std::size_t which : {0u, 1u}) delta[which].push_back(speeds.cycle(i).delta(static_cast<int>(which)));
+  }
+  const double speed = std::abs(mid.back());
+  result.speed_change = (mid[n - 1] - mid[n - 2]) / speed;
+  result.speed_to_come = still_to_come(mid, noise * speed) / speed;
+  result.settled = n > 2 && result.speed_to_come <= near_enough;
+  for (const std::vector<double>& d : delta)
+    result.settled = result.settled && still_to_come(d, noise) <= std::max(noise, near_enough * std::abs(d.back()));
+}
 
 }  // namespace
+
+double still_to_come(const std::vector<double>& course, double noise) {
+  if (course.size() < 3) return HUGE_VAL;
+  const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
+  const double now = course[last] - course[last - quarter];
+  const double before = course[last - quarter] - course[last - 2 * quarter];
+  if (std::abs(now) <= noise) return 0;
+  constexpr double no_nearer = 0.999;  // of the quarter before: shrinking so slowly is not told from a straight run
+  if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
+  const double ratio = now / before;
+  return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
+}
 
 SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle, int motor_node,
                                  const SimulateOptions& options, int most_cycles) {
@@ -90,9 +120,9 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
   const auto model = compile(scene, effects);
   const double period = cycle / start_speed;
   SteadySimulation result;
-  const auto once = [&](double tolerance, int cycles, CycleSpeeds& speeds) {
+  const auto once = [&](double local_tolerance, int cycles, CycleSpeeds& speeds) {
     Equations equations(model, false);
-    RunOptions run{.tolerance = tolerance,
+    RunOptions run{.tolerance = local_tolerance,
                    .method = options.method.value_or("auto"),
                    .until = (cycles + 0.5) * period,
                    .budget = scene.run.budget,
@@ -100,7 +130,6 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
                    .progress = {}};
     return integrate(equations, run, {&speeds});
   };
-  constexpr double tolerance = 1e-9;
   for (int cycles = 10;; cycles *= 2) {
     if (options.log) options.log(fmt::format("sized machine, effects {}: {} cycles", effects.describe(), cycles));
     CycleSpeeds speeds(*model, cycle, model->reduction_node, motor_node);
@@ -113,12 +142,12 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
       result.complete = false;
       return result;
     }
-    const CycleSpeeds::Cycle &last = speeds.cycle(whole - 1), &before = speeds.cycle(whole - 2);
-    result.settled = agree(last.delta(0), before.delta(0)) && agree(last.delta(1), before.delta(1));
+    const CycleSpeeds::Cycle& last = speeds.cycle(whole - 1);
+    judge(speeds, result);
     result.cycles = static_cast<int>(whole);
     result.link_delta = last.delta(0);
     result.motor_delta = last.delta(1);
-    result.mean_speed = 0.5 * (last.most[0] + last.least[0]);
+    result.mean_speed = last.mid(0);
     result.phi = last.phi;
     result.link = last.speed[0];
     result.motor = last.speed[1];

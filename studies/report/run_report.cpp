@@ -153,7 +153,7 @@ Plot energy_plot(const Result& r) {
   for (std::size_t i = 0; i < traces.size(); ++i)
     if (largest({traces[i]}) > 0)
       plot.series.push_back(series_of(*traces[i], found[i].name, found[i].role, 1, unit.factor));
-  if (r.energy.checks == 0) return plot;
+  if (r.energy.checks == 0 || nothing_turned_over(r.energy)) return plot;
   plot.note = fmt::format(
       "Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.",
       r.energy.relative);
@@ -221,8 +221,11 @@ Table statistics_table(const Results& results) {
   row("accuracy measured", [](const Result& r) {
     return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
   });
-  row("energy balance closes to",
-      [](const Result& r) { return r.energy.checks ? fmt::format("{:.1e}", r.energy.relative) : std::string("—"); });
+  row("energy balance closes to", [](const Result& r) {
+    return r.energy.checks == 0            ? std::string("—")
+           : nothing_turned_over(r.energy) ? std::string("no energy turned over")
+                                           : fmt::format("{:.1e}", r.energy.relative);
+  });
   return table;
 }
 
@@ -361,12 +364,19 @@ std::string conclusion_of(const Result& r) {
   if (text.size() == begin)
     if (const Figure* speed = first_with(r, "final_speed."))
       text += fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
-  if (r.energy.checks > 0)
+  if (r.energy.checks > 0 && nothing_turned_over(r.energy))
+    text += fmt::format("{}o work is done and no energy changes its form", text.size() == begin ? "N" : "; n");
+  else if (r.energy.checks > 0)
     text += fmt::format("{}he energy balance closes to {:.1e}", text.size() == begin ? "T" : "; t", r.energy.relative);
   return text + ".";
 }
 
 }  // namespace
+
+bool nothing_turned_over(const EnergyBalance& e) {
+  return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&
+         std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
+}
 
 std::vector<Plot> motion_plots(const Results& results) {
   std::vector<Plot> plots;

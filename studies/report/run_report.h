@@ -9,6 +9,9 @@ namespace kurbel {
 Report report_of(const Result& result);
 Report report_of(const Comparison& comparison);
 
+// No account has done work, and what is stored is what it was: a balance of energy proves nothing.
+bool nothing_turned_over(const EnergyBalance& energy);
+
 // Cards that other studies may want too.
 MachineView machine_view(const std::vector<const Result*>& results);  // the last in front
 std::vector<Plot> motion_plots(const std::vector<const Result*>& results);
