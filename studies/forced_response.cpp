@@ -138,7 +138,10 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     const LinearDrive::Joint& data = drive.joints[j];
     const double twist = amplitude / std::abs(Complex(data.stiffness, omega * data.damping));
     joint.power += 0.5 * data.damping * std::pow(omega * twist, 2);
-    if (amplitude > joint.dominant_amplitude) joint.dominant_amplitude = amplitude, joint.dominant = harmonic;
+    if (amplitude <= joint.dominant_amplitude) return;
+    joint.dominant_amplitude = amplitude;
+    joint.dominant_omega = omega;
+    joint.dominant = harmonic;
   };
   for (std::size_t r = 1; r <= excitations.harmonics && !excitations.by_order.empty(); ++r) {
     Eigen::VectorXcd force = Eigen::VectorXcd::Zero(drive.size());

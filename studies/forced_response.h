@@ -22,6 +22,7 @@ struct JointResponse {
   double power = 0;          // dissipated by its damping [W]
   std::size_t dominant = 0;  // harmonic with the largest amplitude; 0: a fixed frequency, or none
   double dominant_amplitude = 0;
+  double dominant_omega = 0;  // its frequency [rad/s]
 };
 
 struct SpeedResponse {

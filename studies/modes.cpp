@@ -515,8 +515,7 @@ void Study::add_verdicts(std::size_t j) {
   }
   if (limits.vibratory > 0) {
     // Continuous swing: S_f = √(f/10 Hz) above 10 Hz.
-    const double f =
-        here.dominant > 0 ? found_.excitations.order(here.dominant) * std::abs(found_.drive.at.speed) / (2 * pi) : 10.0;
+    const double f = here.dominant_omega / (2 * pi);
     const double factor = f > 10 ? std::sqrt(f / 10) : 1;
     found_.verdicts.push_back({name, "vibratory torque: S_f T_W ≤ T_KW", factor * here.peak, limits.vibratory, "N*m",
                                fmt::format("S_f = √(f/10 Hz) = {:.3g} at {:.4g} Hz", factor, f)});
