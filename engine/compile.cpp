@@ -10,6 +10,7 @@
 #include "engine/model.h"
 #include "engine/no_element.h"
 #include "engine/relations.h"
+#include "engine/rigid_machine.h"
 #include "engine/units.h"
 
 namespace kurbel {
@@ -102,6 +103,7 @@ class Compiler {
     for (std::string& line : bound_self_locking(model_)) model_.merged.push_back(std::move(line));
     check_inertias();
     find_scales();
+    find_cycle();
     track_angles();
     place_elements();
     list_torque_joints();
@@ -357,6 +359,12 @@ class Compiler {
                                 mechanism->element->own_states().empty()
                                     ? "at a dead centre (its output stands still there)"
                                     : "while its rod flies free of the crank or stands at a dead centre"));
+  }
+
+  // All mechanisms are back in place, each at its own ratio; where none of a few turns does it, the link's own cycle.
+  void find_cycle() {
+    if (model_.cycle == 0) return;
+    if (const auto [angle, periodic] = cycle_of(model_); periodic) model_.cycle = angle;
   }
 
   // Rated speed and torque, carried to the reduction link and from there to every shaft.

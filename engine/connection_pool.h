@@ -125,8 +125,8 @@ class ConnectionPool final : public ElementPool {
       mode[p.more.mode] = p.element.next_mode(motion(p, now), guard % E::guards);
     }
   }
-  GuardLabel label(int guard, const int* mode) const override {
-    if constexpr (Guarded<E>) return {owner(guard).more.component, mode_text(owner(guard), mode)};
+  GuardLabel label(int guard, const Instant& now) const override {
+    if constexpr (Guarded<E>) return {owner(guard).more.component, mode_text(owner(guard), now.mode)};
     return {};
   }
   void first_modes(const Instant& now, int* mode) const override {

@@ -109,7 +109,8 @@ class ElementPool {
   // Positive while the present modes hold, of order one.
   virtual void guards(const Instant&, double*) const {}
   virtual void fire(const Instant&, int /*guard*/, int* /*mode*/) const {}
-  virtual GuardLabel label(int /*guard*/, const int* /*mode*/) const { return {}; }
+  // Names the mode that holds, or the edge that was just passed.
+  virtual GuardLabel label(int /*guard*/, const Instant&) const { return {}; }
   virtual void first_modes(const Instant&, int* /*mode*/) const {}
   // Modes that hang on the sense of motion, after that has changed.
   virtual void follow_directions(const Instant&, int* /*mode*/) const {}

@@ -326,7 +326,8 @@ void Equations::find_joint_torques(const double* alpha) {
     for (std::size_t e = 0; e < net.elements.size(); ++e) {
       const std::size_t n = at(net.elements[e].node);
       if (m.shaft_of_node[n] != s) continue;
-      const double share = rest / capacity * (rest > 0 ? element_hold_[e].high : element_hold_[e].low);
+      const bool upwards = (rest > 0) == (m.gain_of_node[n] > 0);  // on the element's own shaft
+      const double share = rest / capacity * (upwards ? element_hold_[e].high : element_hold_[e].low);
       balance_[n] -= share;
     }
   }

@@ -70,6 +70,9 @@ class Equations final : public OdeSystem {
   // A state of the rigid machine with all modes found anew, for integrators that know no events.
   std::vector<double> modes_from_scratch(double t, double reduction_angle, double reduction_speed);
 
+  // The pieces of laws that hold in this state; senses of motion stay.
+  void modes_at(double t, std::span<const double> y);
+
   // --- events ---
   std::size_t guard_count() const { return guard_count_; }
   void guards(double t, std::span<const double> y, std::span<double> g);

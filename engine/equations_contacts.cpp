@@ -503,7 +503,8 @@ std::string Equations::sharing(const Contact& contact) {
   double sum = 0;
   for (std::size_t e = 0; e < m.network.elements.size(); ++e) {
     if (m.shaft_of_node[at(m.network.elements[e].node)] != contact.index) continue;
-    const double own = element_hold_[e].high - element_hold_[e].low;
+    const double own = std::abs(m.gain_of_node[at(m.network.elements[e].node)]) *
+                       (element_hold_[e].high - element_hold_[e].low);  // on the merged shaft
     if (own <= 0) continue;
     capacity[m.network.elements[e].component] += own;
     sum += own;
@@ -632,7 +633,10 @@ std::string Equations::guard_owner(std::size_t guard) const {
   }
   std::size_t p = model_->pools.size() - 1;
   while (guard_begin_[p] > guard) --p;
-  return model_->pools[p]->label(static_cast<int>(guard - guard_begin_[p]), mode_.data()).component;
+  Instant modes;
+  modes.mode = mode_.data();
+  modes.direction = direction_.data();
+  return model_->pools[p]->label(static_cast<int>(guard - guard_begin_[p]), modes).component;
 }
 
 std::string Equations::regularise(const std::vector<std::size_t>& guards) {

@@ -48,9 +48,9 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
     std::size_t p = m.pools.size() - 1;
     while (guard_begin_[p] > guard) --p;
     const int local = static_cast<int>(guard - guard_begin_[p]);
-    const std::string before = m.pools[p]->label(local, mode_.data()).what;
+    const std::string before = m.pools[p]->label(local, instant(t, y)).what;
     m.pools[p]->fire(instant(t, y), local, mode_.data());
-    const GuardLabel label = m.pools[p]->label(local, mode_.data());
+    const GuardLabel label = m.pools[p]->label(local, instant(t, y));
     // Edges over the angle are told as such; elsewhere a label names the mode.
     const bool edge = m.pools[p]->guards_are_of_angle();
     if (!label.what.empty() && (edge || label.what != before))

@@ -225,15 +225,24 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   std::fill(turns_.begin(), turns_.end(), 0.0);
   wrap(y);
   set_timed_modes(t);
-  for (const int s : directional_) direction_[at(s)] = reduction_speed > 0 ? 1 : reduction_speed < 0 ? -1 : 0;
+  const auto speed = [&](int s) { return reduction_speed * m.node_ratio[at(m.shafts[at(s)].reference)]; };
+  for (const int s : directional_) direction_[at(s)] = speed(s) > 0 ? 1 : speed(s) < 0 ? -1 : 0;
   for (std::size_t i = 0; i < m.elastic.size(); ++i) slip_[i] = m.elastic[i].slips ? 0 : 1;  // clutches locked
-  std::fill(loss_direction_.begin(), loss_direction_.end(), reduction_speed >= 0 ? 1 : -1);
+  for (const int r : lossy_) {
+    double sliding = 0;
+    for (const ShaftGain& g : m.relations[at(r)].sliding) sliding += g.gain * speed(g.shaft);
+    loss_direction_[at(r)] = sliding >= 0 ? 1 : -1;
+  }
   for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   snapshot_.now = instant(t, y);
   find_holds();
   tie_stuck_contacts();
   return y;
+}
+
+void Equations::modes_at(double t, std::span<const double> y) {
+  for (const auto& pool : model_->pools) pool->first_modes(instant(t, y), mode_.data());
 }
 
 // Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.

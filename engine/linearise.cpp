@@ -105,11 +105,14 @@ class Lineariser {
     double torque = 0, inertia = 0;
     int root = m_.shaft_of_node[at(m_.reduction_node)];
     bool free = true;
+    std::vector<char> joined(shafts, 0);  // to the link; the frame that holds a gear's carrier is not
+    joined[at(root)] = 1;
+    for (const Step& step : walk_from(root)) joined[at(step.child)] = 1;
     for (std::size_t s = 0; s < shafts; ++s) {
       ratio[s] = m_.node_ratio[at(m_.shafts[s].reference)];
       torque += torque_[s] * ratio[s];
       inertia += m_.shafts[s].mean_inertia * ratio[s] * ratio[s];
-      if (drive_.coordinate[s] < 0) root = static_cast<int>(s), free = false;
+      if (drive_.coordinate[s] < 0 && joined[s]) root = static_cast<int>(s), free = false;
     }
     drive_.mean_torque = torque;
     const double acceleration = free ? torque / inertia : 0;
@@ -169,6 +172,7 @@ class Lineariser {
         const Network::Joint& joint = m_.network.joints[at(m_.elastic[i].joint)];
         y[first_twist + i] = twist_[i] + joint.element->rest_twist(angle * m_.node_ratio[at(joint.a)]);
       }
+      equations_.modes_at(0, y);  // the pieces of laws that hold at these twists
       equations_.jacobian(0, y, values);
       const double* inertia = equations_.snapshot(0, y).sums.inertia;
       if (drive_.at.angle)

@@ -297,12 +297,16 @@ void CycleRecorder::begin(double, std::span<const double> y, Equations& equation
   cycle_ = m.cycle;
   if (cycle_ == 0) return;
   const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
-  next_angle_ = cycle_ * std::ceil(angle / cycle_ - 1e-12);
-  if (std::abs(next_angle_ - angle) < 1e-9) {  // starts on the boundary
+  const double nearest = cycle_ * std::round(angle / cycle_);
+  if (std::abs(nearest - angle) < 1e-9) {  // starts on the boundary
     open_ = true;
     begin_ = 0;
     work_at_begin_.assign(m.accounts.size(), 0.0);
-    next_angle_ += cycle_;
+    low_ = nearest - cycle_;
+    high_ = nearest + cycle_;
+  } else {
+    low_ = cycle_ * std::floor(angle / cycle_);
+    high_ = low_ + cycle_;
   }
   const double omega =
       m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
@@ -314,14 +318,14 @@ void CycleRecorder::see_speed(double omega) {
   min_ = std::min(min_, omega);
 }
 
-void CycleRecorder::close(double t, StepView& view) {
+void CycleRecorder::pass(double t, int sense, StepView& view) {
   const Model& m = view.equations().model();
   const Snapshot& s = view.snapshot(t);
   std::vector<double> work(m.accounts.size(), 0.0);
   if (s.quadrature) std::copy(s.quadrature, s.quadrature + work.size(), work.begin());
   const double omega = m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
   see_speed(omega);
-  if (open_) {
+  if (open_ && (sense_ == 0 || sense == sense_)) {
     CycleRecord record{begin_, t, max_, min_, work};
     for (std::size_t k = 0; k < work.size(); ++k) record.work[k] -= work_at_begin_[k];
     cycles_.push_back(std::move(record));
@@ -330,7 +334,10 @@ void CycleRecorder::close(double t, StepView& view) {
   begin_ = t;
   max_ = min_ = omega;
   work_at_begin_ = std::move(work);
-  next_angle_ += cycle_;
+  sense_ = sense;
+  const double here = sense > 0 ? high_ : low_;
+  low_ = sense > 0 ? here : here - cycle_;
+  high_ = low_ + cycle_;
 }
 
 void CycleRecorder::step(StepView& view) {
@@ -362,13 +369,20 @@ void CycleRecorder::step(StepView& view) {
     }
     from = t;
   };
-  const auto beyond = [&](double t) { return equations.angle_with_turns(tracked, view.at(t)) - next_angle_; };
-  while (beyond(view.t()) >= 0) {
-    const double b0 = beyond(from), b1 = beyond(view.t());
-    const double crossing = b0 < 0 ? find_root(beyond, from, b0, view.t(), b1) : from;
-    extreme_until(crossing);
-    close(crossing, view);
-  }
+  // What was passed last is passed again, backwards, only when it is left behind for good.
+  constexpr double left_behind = 1e-9;
+  const auto beyond = [&](double t, int sense) {
+    const double angle = equations.angle_with_turns(tracked, view.at(t));
+    return sense > 0 ? angle - high_ - (sense_ < 0 ? left_behind : 0) : low_ - angle - (sense_ > 0 ? left_behind : 0);
+  };
+  for (const int sense : {1, -1})
+    while (beyond(view.t(), sense) >= 0) {
+      const auto above = [&](double t) { return beyond(t, sense); };
+      const double b0 = above(from), b1 = above(view.t());
+      const double crossing = b0 < 0 ? find_root(above, from, b0, view.t(), b1) : from;
+      extreme_until(crossing);
+      pass(crossing, sense, view);
+    }
   extreme_until(view.t());
 }
 

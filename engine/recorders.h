@@ -1,6 +1,7 @@
 // recorders.h — observers of a run: the trajectory, extremes of chosen quantities, cycles, and the energy balance.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -85,9 +86,12 @@ struct CycleRecord {
   double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
   std::vector<double> work;             // per account [J]
   double mean_speed() const { return 0.5 * (omega_max + omega_min); }
-  double delta() const { return (omega_max - omega_min) / mean_speed(); }  // (2.6)
+  // (2.6), whichever way it turns
+  double delta() const { return (omega_max - omega_min) / std::abs(mean_speed()); }
 };
 
+// A cycle lies between two multiples of its angle that are passed one after the other in the same sense; where the
+// link turns round it begins anew.
 class CycleRecorder final : public Observer {
  public:
   void begin(double t, std::span<const double> y, Equations& equations) override;
@@ -96,10 +100,11 @@ class CycleRecorder final : public Observer {
 
  private:
   void see_speed(double omega);
-  void close(double t, StepView& view);
+  void pass(double t, int sense, StepView& view);
   std::vector<CycleRecord> cycles_;
-  double cycle_ = 0, next_angle_ = 0, origin_ = 0;
-  bool open_ = false;  // a cycle began at a multiple of its angle
+  double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, the one passed last among them [rad]
+  int sense_ = 0;                          // of that passing; 0: none yet
+  bool open_ = false;                      // a cycle began at a multiple of its angle
   double begin_ = 0, max_ = 0, min_ = 0;
   std::vector<double> work_at_begin_;
 };

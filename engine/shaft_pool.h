@@ -24,6 +24,14 @@ struct ShaftPorts {
   int account = 0;
   int own = 0;       // first of its own states
   int command = -1;  // −1: none
+
+  // Sign of the element's own speed: its shaft may turn against the merged one.
+  int direction(const Instant& now) const { return gain < 0 ? -now.direction[shaft] : now.direction[shaft]; }
+  // Adds what the element can hold to what its shaft can.
+  void add_hold(const Hold& own, Hold* of_shaft) const {
+    of_shaft[shaft].low += gain * (gain < 0 ? own.high : own.low);
+    of_shaft[shaft].high += gain * (gain < 0 ? own.low : own.high);
+  }
 };
 
 // What a pool needs of an element only now and then.
@@ -131,10 +139,10 @@ class ShaftPool final : public ElementPool {
       mode[p.at.mode] = p.element.next_mode(state(p, now), guard % E::guards);
     }
   }
-  GuardLabel label(int guard, const int* mode) const override {
+  GuardLabel label(int guard, const Instant& now) const override {
     if constexpr (Guarded<E>) {
       const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      return {label_[static_cast<std::size_t>(guard / E::guards)].component, p.element.mode_name(mode[p.at.mode])};
+      return {label_[static_cast<std::size_t>(guard / E::guards)].component, p.element.mode_name(now.mode[p.at.mode])};
     }
     return {};
   }
@@ -168,8 +176,7 @@ class ShaftPool final : public ElementPool {
         if (!now.active[p.at.id]) continue;
         const Hold hold = p.element.hold(state(p, now));
         element[p.at.id] = hold;
-        shaft[p.at.shaft].low += p.at.gain * hold.low;
-        shaft[p.at.shaft].high += p.at.gain * hold.high;
+        p.at.add_hold(hold, shaft);
       }
   }
   double next_edge(double t) const override {
@@ -204,8 +211,7 @@ class ShaftPool final : public ElementPool {
   ShaftState<double> state(const Placed& p, const Instant& now) const {
     double angle = 0;
     if constexpr (UsesAngle<E>) angle = now.angle[p.at.angle] + p.at.phase;
-    ShaftState<double> x{now.t, angle, p.at.gain * now.speed[p.at.shaft], now.mode[p.at.mode],
-                         now.direction[p.at.shaft]};
+    ShaftState<double> x{now.t, angle, p.at.gain * now.speed[p.at.shaft], now.mode[p.at.mode], p.at.direction(now)};
     if constexpr (HasStates<E>) x.own = now.own + p.at.own;
     x.on = now.active[p.at.id] != 0;
     if constexpr (Commanded<E>)

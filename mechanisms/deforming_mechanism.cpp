@@ -483,14 +483,14 @@ void DeformingMechanismPool::fire(const Instant& now, int guard, int* mode) cons
   }
 }
 
-GuardLabel DeformingMechanismPool::label(int guard, const int* mode) const {
+GuardLabel DeformingMechanismPool::label(int guard, const Instant& now) const {
   using Kind = GuardOwner::Kind;
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   const Placed& p = placed_[owner.placed];
   if (owner.kind == Kind::travel) return {p.mechanism.name, {}};
   if (owner.kind == Kind::load) {
     SliderState<double> s{};
-    s.mode = mode[p.at.mode + 1 + static_cast<int>(owner.index)];
+    s.mode = now.mode[p.at.mode + 1 + static_cast<int>(owner.index)];
     const SliderLoad& load = p.mechanism.loads[owner.index];
     std::string what;
     std::visit(
@@ -505,7 +505,7 @@ GuardLabel DeformingMechanismPool::label(int guard, const int* mode) const {
                                         "folded lower corner"};
   std::string what = p.dynamics->clearances()[place.clearance].name();
   if (place.corner >= 0) what += std::string(", ") + corners[place.corner];
-  switch (mode[p.contact_mode() + static_cast<int>(owner.index)]) {
+  switch (now.mode[p.contact_mode() + static_cast<int>(owner.index)]) {
     case JointContact::flight:
       return {p.mechanism.name, what + ": in flight"};
     case JointContact::touching:

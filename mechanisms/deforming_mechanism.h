@@ -56,7 +56,7 @@ class DeformingMechanismPool final : public ElementPool {
   int guard_count() const override { return static_cast<int>(owners_.size()); }
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
-  GuardLabel label(int guard, const int* mode) const override;
+  GuardLabel label(int guard, const Instant& now) const override;
   void first_modes(const Instant& now, int* mode) const override;
   bool regularise(int guard, int* mode) const override;
   void first_states(const Instant& now, double* own) const override;

@@ -209,7 +209,7 @@ SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, s
   const double phi = angle_of(p.at, now), omega = p.at.gain * now.speed[p.at.shaft];
   const auto here = p.mechanism.reduced->at(phi);
   const auto [x, ratio] = here.output_position();
-  const int travel = p.watches_travel ? now.mode[p.at.mode] * now.direction[p.at.shaft] : (ratio * omega >= 0 ? 1 : -1);
+  const int travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (ratio * omega >= 0 ? 1 : -1);
   return {phi, x, ratio * omega, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
 }
 
@@ -258,7 +258,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
     if (!p.mechanism.loads.empty()) {
       const double x = here.position, ratio = here.ratio;
       SliderState<double> s{phi, x, ratio * omega, 0, 0};
-      s.travel = p.watches_travel ? now.mode[p.at.mode] * now.direction[p.at.shaft] : (s.v >= 0 ? 1 : -1);
+      s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (s.v >= 0 ? 1 : -1);
       for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
         const double force = std::visit([&](const auto& law) { return law.value(s); }, p.mechanism.loads[k].law);
@@ -288,9 +288,8 @@ double MechanismPool::load_force(const Placed& p, const Instant& now, double phi
 // --- joint friction: −M_f(φ, ω, ε, F) on the crank, found together with ε (slider_crank_forces.h) ---
 
 CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha) const {
-  const int direction = now.direction[p.at.shaft] * (p.at.gain < 0 ? -1 : 1);
   return {angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft], p.at.gain * alpha[p.at.shaft], load_force(p, now),
-          direction};
+          p.at.direction(now)};
 }
 
 void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums) const {
@@ -416,7 +415,7 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     if (!p.mechanism.loads[k].depends_on_travel()) continue;
     SliderState<double> s = slider(p, now, k);
-    s.travel = mode[p.at.mode] * now.direction[p.at.shaft];
+    s.travel = mode[p.at.mode] * p.at.direction(now);
     std::visit(
         [&](const auto& law) {
           if constexpr (has_pieces<std::decay_t<decltype(law)>>)
@@ -426,13 +425,14 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
   }
 }
 
-GuardLabel MechanismPool::label(int guard, const int* mode) const {
+GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   const Placed& p = placed_[owner.placed];
-  if (owner.load < 0) return {p.mechanism.name, name_of_reversal(p.mechanism, mode[p.at.mode] > 0)};
+  if (owner.load < 0)
+    return {p.mechanism.name, name_of_reversal(p.mechanism, now.mode[p.at.mode] * p.at.direction(now) > 0)};
   const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
   SliderState<double> s{};
-  s.mode = mode[p.at.mode + 1 + owner.load];
+  s.mode = now.mode[p.at.mode + 1 + owner.load];
   std::string what;
   std::visit(
       [&](const auto& law) {
@@ -448,7 +448,7 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
     double ratio = here.output_position().slope;
     // On a dead centre the sign is that of the motion to come.
     if (std::abs(ratio) < 1e-12 * p.output_scale)
-      ratio = here.output_velocity().slope * (now.direction[p.at.shaft] >= 0 ? 1 : -1);
+      ratio = here.output_velocity().slope * (p.at.direction(now) >= 0 ? 1 : -1);
     mode[p.at.mode] = ratio >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);
@@ -507,8 +507,7 @@ void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) co
     }
     element[p.at.id].low += hold.low;
     element[p.at.id].high += hold.high;
-    shaft[p.at.shaft].low += p.at.gain > 0 ? p.at.gain * hold.low : p.at.gain * hold.high;
-    shaft[p.at.shaft].high += p.at.gain > 0 ? p.at.gain * hold.high : p.at.gain * hold.low;
+    p.at.add_hold(hold, shaft);
   }
 }
 

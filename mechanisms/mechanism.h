@@ -107,7 +107,7 @@ class MechanismPool final : public ElementPool {
   bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
-  GuardLabel label(int guard, const int* mode) const override;
+  GuardLabel label(int guard, const Instant& now) const override;
   void first_modes(const Instant& now, int* mode) const override;
   void follow_directions(const Instant& now, int* mode) const override;
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override;

@@ -1,6 +1,7 @@
 // steady.h — the periodic motion of a machine, found directly: figures, stability, operating points.
 #pragma once
 
+#include <cmath>
 #include <complex>
 #include <optional>
 #include <string>
@@ -30,7 +31,7 @@ struct ShaftFluctuation {
   double ratio = 1;   // of its mean speed to the link's
   double max = 0, min = 0;
   double mean() const { return 0.5 * (max + min); }
-  double delta() const { return (max - min) / mean(); }
+  double delta() const { return (max - min) / std::abs(mean()); }  // also of a shaft that turns backwards
 };
 
 struct MotorUse {

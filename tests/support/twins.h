@@ -1,0 +1,369 @@
+// twins.h — one machine written in two ways: behind an ideal gear or reduced to the shaft before it, forwards or
+// mirrored; and the comparison of all that its runs put out.
+//
+// A scene's text holds its values in angle brackets, each with the letter of its kind:
+//     <J 0.3> kg·m²   <k 200> N·m/rad   <c 2> N·m·s/rad   <q 0.1> N·m·s²/rad²   <M 40> N·m   <w 30> rad/s   <a 0.1> rad
+// and any other quantity by the power of the ratio that it goes with: <^-3 kg/m3 870>. Written so they are magnitudes;
+// a plus makes them turn their sign with the sense of rotation: <M+ 40>, <w+ 30>, <^0+ m 0.2>. <?a|b> is the text a, in
+// a mirrored machine b. <curve+ speed N*m: 0 40, 60 -5; interpolation = "smooth"> is a table. "F:" before any of them
+// takes the view of the far group in a text of the near one.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/scene.h"
+#include "studies/result.h"
+
+namespace kurbel::test {
+
+// What is written with ω is seen as sign · ratio · ω: inertias as J/ratio², stiffness and damping alike, torques as
+// sign · M/ratio.                                                                                  (THEORY 5)
+struct View {
+  double ratio = 1;
+  int sign = 1;
+  double power(int n) const { return std::pow(ratio, n); }
+};
+
+// --- texts -----------------------------------------------------------------------------------------------------------
+
+inline double number_in(const std::string& text) {
+  double value = 0;
+  const auto begin = text.data() + text.find_first_not_of(' '), end = text.data() + text.size();
+  if (std::from_chars(begin, end, value).ec != std::errc()) throw std::logic_error("no number: " + text);
+  return value;
+}
+
+inline std::string twin_curve(const std::string& token, bool turns, const View& view) {
+  const std::size_t colon = token.find(':'), tail = token.find(';');
+  const std::size_t space = token.find(' ');
+  const std::string over = token.substr(0, space), unit = token.substr(space + 1, colon - space - 1);
+  const int sign = turns ? view.sign : 1;
+  const double of_x = over == "speed" || over == "angle" || over == "twist" ? view.ratio * sign : 1;
+  const double of_y = unit == "N*m" ? sign / view.ratio : unit == "rad/s" ? sign * view.ratio : 1;
+  const char* x_unit = over == "speed" ? "rad/s" : over == "time" ? "s" : over == "speed ratio" ? "1" : "rad";
+  std::vector<std::pair<double, double>> points;
+  const std::string list = token.substr(colon + 1, tail == std::string::npos ? tail : tail - colon - 1);
+  for (std::size_t from = 0; from != std::string::npos && from < list.size();) {
+    const std::size_t comma = list.find(',', from), first = list.find_first_not_of(' ', from);
+    const std::size_t gap = list.find(' ', first);
+    points.emplace_back(of_x * number_in(list.substr(first, gap - first)), of_y * number_in(list.substr(gap)));
+    from = comma == std::string::npos ? comma : comma + 1;
+  }
+  if (of_x < 0) std::reverse(points.begin(), points.end());
+  std::string text = fmt::format("{{ over = \"{}\", unit = [\"{}\", \"{}\"], points = [",
+                                 over == "ratio" ? "speed ratio" : over, over == "ratio" ? "1" : x_unit, unit);
+  for (const auto& [x, y] : points) text += fmt::format("[{:.17g}, {:.17g}], ", x, y);
+  text += "]";
+  if (tail != std::string::npos) {
+    const std::string option = token.substr(tail + 2);
+    const std::string period = "period ";
+    text += ", " + (option.starts_with(period)
+                        ? fmt::format("period = \"{:.17g} {}\"",
+                                      std::abs(of_x) * number_in(option.substr(period.size())), x_unit)
+                        : option);
+  }
+  return text + " }";
+}
+
+inline std::string twin_value(std::string token, const View& view) {
+  static const std::map<char, std::pair<const char*, int>> kinds = {
+      {'J', {"kg*m2", -2}}, {'k', {"N*m/rad", -2}}, {'c', {"N*m*s/rad", -2}}, {'q', {"N*m*s2/rad2", -3}},
+      {'M', {"N*m", -1}},   {'w', {"rad/s", 1}},    {'a', {"rad", 1}}};
+  if (token.front() == '?') {
+    const std::size_t bar = token.find('|');
+    return view.sign > 0 ? token.substr(1, bar - 1) : token.substr(bar + 1);
+  }
+  const std::size_t space = token.find(' ');
+  const bool turns = token[space - 1] == '+';
+  const std::string head = token.substr(0, turns ? space - 1 : space), rest = token.substr(space + 1);
+  if (head == "curve") return twin_curve(rest, turns, view);
+  const double sign = turns ? view.sign : 1;
+  if (head.front() == '^') {
+    const std::size_t gap = rest.find(' ');
+    const std::string unit = rest.substr(0, gap);
+    const double value = sign * std::pow(view.ratio, number_in(head.substr(1))) * number_in(rest.substr(gap));
+    return unit == "1" ? fmt::format("{:.17g}", value) : fmt::format("\"{:.17g} {}\"", value, unit);
+  }
+  const auto& [unit, power] = kinds.at(head.front());
+  return fmt::format("\"{:.17g} {}\"", sign * view.power(power) * number_in(rest), unit);
+}
+
+inline std::string seen(const std::string& text, const View& here, const View& far) {
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t open = text.find('<', from);
+    out += text.substr(from, open - from);
+    if (open == std::string::npos) break;
+    const std::size_t close = text.find('>', open);
+    const std::string token = text.substr(open + 1, close - open - 1);
+    out += token.starts_with("F:") ? twin_value(token.substr(2), far) : twin_value(token, here);
+    from = close + 1;
+  }
+  return out;
+}
+
+// An ideal gear of ω_in = ratio · ω_out: a gearbox, or, where the ratio is negative, a planetary gear with its carrier
+// held.
+struct IdealGear {
+  std::vector<std::pair<int, int>> teeth;  // of the stages; of a planetary gear of sun and ring
+  bool reversing = false;
+  double ratio() const {
+    double product = reversing ? -1 : 1;
+    for (const auto& [driving, driven] : teeth) product *= static_cast<double>(driven) / driving;
+    return product;
+  }
+  View view() const { return {std::abs(ratio()), reversing ? -1 : 1}; }
+  std::string text(const std::string& name, bool back) const {
+    if (reversing)
+      return fmt::format(
+          "\n[{}]\nkind = \"planetary gear\"\nsun = {}\nring = {}\nin = \"{}\"\nout = \"{}\"\nfixed = \"carrier\"\n",
+          name, teeth[0].first, teeth[0].second, back ? "ring" : "sun", back ? "sun" : "ring");
+    std::string stages;
+    for (const auto& [driving, driven] : teeth)
+      stages += fmt::format("{{ teeth = [{}, {}] }}, ", back ? driven : driving, back ? driving : driven);
+    return fmt::format("\n[{}]\nkind = \"gearbox\"\nstages = [{}]\n", name, stages);
+  }
+};
+
+// --- scenes ----------------------------------------------------------------------------------------------------------
+
+// A text of tables, table by table.
+inline std::vector<std::pair<std::string, std::string>> tables_in(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> tables;
+  for (std::size_t from = text.find("\n["); from != std::string::npos;) {
+    const std::size_t next = text.find("\n[", from + 1), close = text.find(']', from);
+    tables.emplace_back(text.substr(from + 2, close - from - 2), text.substr(from, next - from));
+    from = next;
+  }
+  return tables;
+}
+
+struct TwinScene {
+  std::string name;
+  std::vector<std::string> near, far, rest;     // along the line: a gear stands before and after the far ones
+  std::vector<std::string> far_besides = {};    // further components of the far group: on a shaft, in branches
+  std::string near_text, far_text;              // tables of all components, in the view of their group
+  std::string end;                              // branches, effects, sequence, run
+  std::map<std::string, int> output_sign = {};  // of mechanisms' outputs in the mirrored machine; default: 1
+  bool reversible = true;                       // the far group has a mirrored form
+  std::size_t gears = 4;                        // behind the first of these: laws over the angle fit few ratios
+};
+
+inline std::string line_of(const std::vector<std::vector<std::string>>& groups) {
+  std::string text;
+  for (const auto& group : groups)
+    for (const std::string& name : group) text += fmt::format("\"{}\", ", name);
+  return "line = [" + text + "]\n";
+}
+
+// The machine without gears: each group in its view.
+inline std::string direct(const TwinScene& s, const View& near, const View& far) {
+  return line_of({s.near, s.far, s.rest}) + seen(s.near_text, near, far) + seen(s.far_text, far, far) +
+         seen(s.end, near, far);
+}
+// The machine with gears, each group as it is written.
+inline std::string geared(const TwinScene& s, const IdealGear& gear) {
+  std::vector<std::vector<std::string>> groups = {s.near, {"gear_to"}, s.far};
+  if (!s.rest.empty()) groups.push_back({"gear_back"}), groups.push_back(s.rest);
+  const std::string gears = gear.text("gear_to", false) + (s.rest.empty() ? "" : gear.text("gear_back", true));
+  return line_of(groups) + seen(s.near_text, {}, {}) + seen(s.far_text, {}, {}) + gears + seen(s.end, {}, {});
+}
+
+// --- comparison ------------------------------------------------------------------------------------------------------
+
+// How what the first run says of a component becomes what the second one says.
+struct TwinMap {
+  std::map<std::string, View> view = {};
+  View other = {};                              // of those that are not named
+  double turned = 0;                            // all angles are that much further [rad]
+  std::map<std::string, int> output_sign = {};  // of mechanisms' outputs
+  View of(const std::string& component) const {
+    const auto found = view.find(component);
+    return found == view.end() ? other : found->second;
+  }
+  // "torque.gear.sun" → gear
+  static std::string component_in(const std::string& name) {
+    const std::size_t first = name.find('.');
+    return first == std::string::npos ? name : name.substr(first + 1, name.find('.', first + 1) - first - 1);
+  }
+  double offset(const std::string& name) const {
+    return name.starts_with("angle.") || name.starts_with("final_angle.") ? turned : 0;
+  }
+  double factor(const std::string& name, const std::string& unit) const {
+    const View v = of(component_in(name));
+    std::string quantity = name.substr(0, name.find('.'));
+    for (const char* prefix : {"peak_", "rms_"})
+      if (quantity.starts_with(prefix)) quantity = quantity.substr(std::string(prefix).size());
+    // Across the stroke a mirrored slider-crank has everything on the other side.
+    for (const char* across : {"crank_pin_shift_y", "crank_pin_shift_y_rate", "guide_reaction", "rod_deflection"})
+      if (quantity == across) return other.sign;
+    if (quantity.starts_with("bending_")) return other.sign;
+    for (const char* of_output : {"position", "velocity", "acceleration", "force", "load_torque"})
+      if (quantity == of_output) {
+        const auto found = output_sign.find(component_in(name));
+        return found == output_sign.end() ? 1 : found->second;
+      }
+    const bool magnitude = name.starts_with("rms_");
+    if (unit == "rad" || unit == "rad/s" || unit == "rad/s2") return (magnitude ? 1 : v.sign) * v.ratio;
+    if (unit == "N*m") return (magnitude ? 1 : v.sign) / v.ratio;
+    return 1;
+  }
+};
+
+inline TwinMap map_of(const TwinScene& s, const View& near, const View& far) {
+  TwinMap map;
+  map.other = near;
+  for (const auto* group : {&s.far, &s.far_besides})
+    for (const std::string& name : *group) map.view[name] = far;
+  if (near.sign < 0) map.output_sign = s.output_sign;
+  return map;
+}
+
+inline bool of_a_gear(const std::string& name) {
+  return name.find("gear_to") != name.npos || name.find("gear_back") != name.npos;
+}
+
+inline std::string turned(std::string words, int sign) {
+  if (sign > 0) return words;
+  if (words == "slips") return "slips backwards";  // of a belt
+  if (words == "slips backwards") return "slips";
+  for (const auto& [a, b] :
+       {std::pair{"forwards", "backwards"}, {"driving flank", "rear flank"}, {"upper limit", "lower limit"}}) {
+    const std::size_t of_a = words.find(a), of_b = words.find(b);
+    if (of_a != words.npos) words.replace(of_a, std::string(a).size(), b);
+    if (of_b != words.npos) words.replace(of_b, std::string(b).size(), a);
+  }
+  return words;
+}
+
+// Channel by channel and row by row, over the largest value that the channel takes.
+inline void expect_same_channels(const Result& first, const Result& second, const TwinMap& map, double allowed) {
+  const TrajectoryRecorder &a = *first.trajectory, &b = *second.trajectory;
+  ASSERT_EQ(a.time().size(), b.time().size());
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < a.channels().size(); ++k) {
+    const Channel& channel = a.channels()[k];
+    if (of_a_gear(channel.name)) continue;
+    const auto same = std::find_if(b.channels().begin(), b.channels().end(),
+                                   [&](const Channel& c) { return c.name == channel.name && c.unit == channel.unit; });
+    if (same == b.channels().end()) {
+      ADD_FAILURE() << "the second run has no channel " << channel.name;
+      continue;
+    }
+    const auto m = static_cast<std::size_t>(same - b.channels().begin());
+    const double factor = map.factor(channel.name, channel.unit), offset = map.offset(channel.name);
+    double largest = 1e-4;
+    for (std::size_t row = 0; row < a.time().size(); ++row) largest = std::max(largest, std::abs(b.value(row, m)));
+    for (std::size_t row = 0; row < a.time().size(); ++row)
+      if (!(std::abs(factor * a.value(row, k) + offset - b.value(row, m)) <= allowed * largest)) {
+        ADD_FAILURE() << fmt::format(
+            "{} at {:.6g} s: {:.10g} · {:.6g} = {:.10g}, but {:.10g}; off by {:.2g} of the largest", channel.name,
+            a.time()[row], a.value(row, k), factor, factor * a.value(row, k) + offset, b.value(row, m),
+            std::abs(factor * a.value(row, k) + offset - b.value(row, m)) / largest);
+        break;
+      }
+    ++compared;
+  }
+  EXPECT_GT(compared, 0u);
+}
+
+inline void expect_same_figures(const std::vector<Figure>& first, const std::vector<Figure>& second, const TwinMap& map,
+                                double allowed) {
+  const auto counterpart = [&](std::string name) -> const Figure* {
+    if (map.of(TwinMap::component_in(name)).sign < 0) {
+      if (name.starts_with("max_speed"))
+        name.replace(0, 3, "min");
+      else if (name.starts_with("min_speed"))
+        name.replace(0, 3, "max");
+    }
+    const auto found = std::find_if(second.begin(), second.end(), [&](const Figure& f) { return f.name == name; });
+    return found == second.end() ? nullptr : &*found;
+  };
+  for (const Figure& f : first) {
+    if (of_a_gear(f.name)) continue;
+    const Figure* other = counterpart(f.name);
+    if (!other) {
+      ADD_FAILURE() << "the second run has no figure " << f.name;
+      continue;
+    }
+    EXPECT_EQ(f.unit, other->unit) << f.name;
+    const double factor = map.factor(f.name, f.unit);
+    // Of two equal peaks of opposite sign either may be the larger one.
+    const bool peak = f.name.starts_with("peak_");
+    const double a = peak ? std::abs(factor * f.value) : factor * f.value + map.offset(f.name),
+                 b = peak ? std::abs(other->value) : other->value;
+    const double scale = std::max({std::abs(b), 1e-3 * other->scale, 1e-9});
+    if (!(std::abs(a - b) <= 3 * allowed * scale))
+      ADD_FAILURE() << fmt::format("{}: {:.10g} · {:.6g}, but {:.10g}; off by {:.2g}", f.name, f.value, factor,
+                                   other->value, std::abs(a - b) / scale);
+  }
+  const auto own = [](const std::vector<Figure>& list) {
+    return std::count_if(list.begin(), list.end(), [](const Figure& f) { return !of_a_gear(f.name); });
+  };
+  EXPECT_EQ(own(first), own(second));
+}
+
+inline void expect_same_events(const Result& first, const Result& second, const TwinMap& map, double allowed) {
+  const auto own = [](const std::vector<Event>& all) {
+    std::vector<Event> kept;
+    for (const Event& e : all)
+      if (!of_a_gear(e.component)) kept.push_back(e);
+    return kept;
+  };
+  const std::vector<Event> a = own(first.events), b = own(second.events);
+  const auto told = [](const std::vector<Event>& list) {
+    std::string text;
+    for (const Event& e : list)
+      text += fmt::format("    {:.9g} s {}: {} (from {})\n", e.t, e.component, e.what, e.from);
+    return text;
+  };
+  bool same = a.size() == b.size();
+  for (std::size_t k = 0; same && k < a.size(); ++k) {
+    const int sign = map.of(a[k].component.substr(0, a[k].component.find('.'))).sign;
+    same = a[k].component == b[k].component && turned(a[k].what, sign) == b[k].what &&
+           turned(a[k].from, sign) == b[k].from && std::abs(a[k].t - b[k].t) <= 30 * allowed * second.until;
+  }
+  EXPECT_TRUE(same) << "events\n" << told(a) << "and\n" << told(b);
+}
+
+inline void expect_same_energy(const EnergyBalance& a, const EnergyBalance& b, double allowed) {
+  double turnover = std::max({std::abs(b.kinetic_end), std::abs(b.kinetic_start), std::abs(b.stored_end)});
+  for (const auto& [name, work] : b.by_account) turnover = std::max(turnover, std::abs(work));
+  const auto same = [&](const std::string& what, double x, double y) {
+    EXPECT_NEAR(x, y, 3 * allowed * turnover) << what;
+  };
+  for (const auto* lines : {&a.by_line, &a.by_account}) {
+    const auto& others = lines == &a.by_line ? b.by_line : b.by_account;
+    for (const auto& [name, work] : *lines)
+      if (!of_a_gear(name)) same("work " + name, work, others.count(name) ? others.at(name) : 0);
+  }
+  same("kinetic energy at the start", a.kinetic_start, b.kinetic_start);
+  same("kinetic energy at the end", a.kinetic_end, b.kinetic_end);
+  same("stored energy at the start", a.stored_start, b.stored_start);
+  same("stored energy at the end", a.stored_end, b.stored_end);
+}
+
+// All of the first run's channels, figures, works, events and notes stand in the second one, too. `allowed`: difference
+// over the largest value of a channel, over the value of a figure.
+inline void expect_same_run(const Result& first, const Result& second, const TwinMap& map, double allowed) {
+  ASSERT_TRUE(first.complete && second.complete) << first.diagnosis << "\n" << second.diagnosis;
+  expect_same_channels(first, second, map, allowed);
+  expect_same_figures(first.figures, second.figures, map, allowed);
+  expect_same_events(first, second, map, allowed);
+  expect_same_energy(first.energy, second.energy, allowed);
+  EXPECT_EQ(first.notes.size(), second.notes.size())
+      << fmt::format("{}\nand\n{}", fmt::join(first.notes, "\n"), fmt::join(second.notes, "\n"));
+  EXPECT_EQ(first.cycles.size(), second.cycles.size());
+  EXPECT_EQ(first.periods.steady, second.periods.steady);
+}
+
+}  // namespace kurbel::test
