@@ -94,7 +94,7 @@ void Constraints::list_shafts() {
     for (const ShaftGain& t : rows_[k].torque)
       if (at(t.shaft) < free_) torque_(ix(k), place_[at(t.shaft)]) -= t.gain;
     const auto free_part = motion_.row(ix(k)).head(ix(tied_.size()));
-    const double size = free_part.cwiseAbs().maxCoeff();
+    const double size = tied_.empty() ? 0 : free_part.cwiseAbs().maxCoeff();
     strength_[k] = rows_[k].capacity * size * size;
     if (size > 0) lossy_[k] = (torque_.row(ix(k)) - free_part).cwiseAbs().maxCoeff() / size;
   }

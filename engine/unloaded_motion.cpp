@@ -42,7 +42,7 @@ class Walk {
     if (!std::isfinite(usual_turn_)) usual_turn_ = 0;
     for (std::size_t j = 0; j < m_.elastic.size(); ++j)
       for (const int s : {m_.elastic[j].shaft_a, m_.elastic[j].shaft_b}) joints_at_[at(s)].push_back(j);
-    reach(known.shaft, known.angle, usual(known.shaft));
+    reach(known.shaft, usual(known.shaft) == 0 ? known.angle : usual(known.shaft) * usual_turn_, usual(known.shaft));
   }
 
   UnloadedMotion motion() {
