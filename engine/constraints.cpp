@@ -102,6 +102,8 @@ void Constraints::list_shafts() {
   inertia_.clear();
   for (auto* per_shaft : {&tied_torque_, &alpha_, &shift_, &right_, &rest_, &size_}) per_shaft->assign(tied_.size(), 0);
   lambda_.assign(rows_.size(), 0);
+  locked_ = false;
+  if (tied_.empty() && !rows_.empty()) choose_leaders();  // nothing to lead: the rows can only be checked
 }
 
 void Constraints::factorise(std::span<const double> inertia) {
