@@ -94,7 +94,7 @@ void Constraints::list_shafts() {
     for (const ShaftGain& t : rows_[k].torque)
       if (at(t.shaft) < free_) torque_(ix(k), place_[at(t.shaft)]) -= t.gain;
     const auto free_part = motion_.row(ix(k)).head(ix(tied_.size()));
-    const double size = free_part.cwiseAbs().maxCoeff();
+    const double size = tied_.empty() ? 0 : free_part.cwiseAbs().maxCoeff();
     strength_[k] = rows_[k].capacity * size * size;
     if (size > 0) lossy_[k] = (torque_.row(ix(k)) - free_part).cwiseAbs().maxCoeff() / size;
   }
@@ -102,6 +102,8 @@ void Constraints::list_shafts() {
   inertia_.clear();
   for (auto* per_shaft : {&tied_torque_, &alpha_, &shift_, &right_, &rest_, &size_}) per_shaft->assign(tied_.size(), 0);
   lambda_.assign(rows_.size(), 0);
+  locked_ = false;
+  if (tied_.empty() && !rows_.empty()) choose_leaders();  // nothing to lead: the rows can only be checked
 }
 
 void Constraints::factorise(std::span<const double> inertia) {

@@ -187,9 +187,6 @@ class Equations final : public OdeSystem {
   double sequence_guard(std::span<const double> y) const;
   void tell_switched(double t, std::span<double> y, const std::vector<char>& before);
 
-  std::vector<double> start_angles(const StartSettings& start, std::vector<double>& twists);
-  void rest_twists(const StartSettings& start, std::vector<double>& twists, std::vector<double>& angles) const;
-  std::vector<double> unloaded_speeds(const std::vector<double>& angles) const;
   void settle_modes(double t, std::span<double> y, bool equilibrium);
   void balance_twists(std::span<double> y, double t);
   std::vector<double> balanced_joints(std::vector<double> need) const;

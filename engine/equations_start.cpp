@@ -7,12 +7,33 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/unloaded_motion.h"
+
 namespace kurbel {
 namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double at_rest = 1e-14;  // of the speed scale
+
+// What a scene's start says of angles and twists; given angles of components stand beside the others' usual ones.
+KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
+  KnownMotion known{.shaft = m.shaft_of_node[at(on)], .angle = start.angle / m.gain_of_node[at(on)]};
+  known.twists.resize(m.elastic.size());
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const auto c = start.components.find(m.network.joints[at(m.elastic[i].joint)].component);
+    if (c != start.components.end()) known.twists[i] = c->second.twist;
+  }
+  const double reduction_angle = start.angle / m.node_ratio[at(on)];
+  for (const auto& [component, c] : start.components) {
+    if (!c.angle) continue;
+    if (known.angles.empty())
+      for (const Shaft& shaft : m.shafts) known.angles.push_back(m.node_ratio[at(shaft.reference)] * reduction_angle);
+    const int node = m.network.ports.at(component).in;
+    known.angles[at(m.shaft_of_node[at(node)])] = *c.angle / m.gain_of_node[at(node)];
+  }
+  return known;
+}
 
 }  // namespace
 
@@ -28,82 +49,18 @@ void Equations::set_shaft_angles(const double* twists, std::vector<double>& angl
   }
 }
 
-std::vector<double> Equations::start_angles(const StartSettings& start, std::vector<double>& twists) {
-  const Model& m = *model_;
-  const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
-  const double reduction_angle = start.angle / m.node_ratio[at(on)];
-  std::vector<double> angles(m.shafts.size());
-  for (std::size_t s = 0; s < m.shafts.size(); ++s)
-    angles[s] = m.node_ratio[at(m.shafts[s].reference)] * reduction_angle;
-  bool given = false;
-  for (const auto& [component, c] : start.components) {
-    if (!c.angle) continue;
-    const int node = m.network.ports.at(component).in;
-    angles[at(m.shaft_of_node[at(node)])] = *c.angle / m.gain_of_node[at(node)];
-    given = true;
-  }
-  if (given)
-    for (std::size_t i = 0; i < twists.size(); ++i) {
-      const ElasticJoint& e = m.elastic[i];
-      twists[i] = e.gain_a * angles[at(e.shaft_a)] - e.gain_b * angles[at(e.shaft_b)];
-    }
-  for (std::size_t i = 0; i < twists.size(); ++i) {
-    const auto c = start.components.find(m.network.joints[at(m.elastic[i].joint)].component);
-    if (c != start.components.end() && c->second.twist) twists[i] = *c->second.twist;
-  }
-  set_shaft_angles(twists.data(), angles);
-  if (!given) rest_twists(start, twists, angles);
-  return angles;
-}
-
-// Connections whose unloaded twist hangs on the angle of a, from the reduction link outwards; from b to a by iteration.
-void Equations::rest_twists(const StartSettings& start, std::vector<double>& twists,
-                            std::vector<double>& angles) const {
-  const Model& m = *model_;
-  for (const ElasticStep& step : elastic_steps_) {
-    const ElasticJoint& e = m.elastic[at(step.elastic)];
-    const Network::Joint& joint = m.network.joints[at(e.joint)];
-    const auto own = start.components.find(joint.component);
-    if (!joint.element->uses_angle() || (own != start.components.end() && own->second.twist)) continue;
-    for (int pass = 0; pass < 100; ++pass) {
-      const double twist = joint.element->rest_twist(e.gain_a * angles[at(e.shaft_a)]);
-      if (twist == twists[at(step.elastic)]) break;
-      twists[at(step.elastic)] = twist;
-      set_shaft_angles(twists.data(), angles);
-    }
-  }
-}
-
-// Speeds of the shafts over that of the reduction link, before any load acts.
-std::vector<double> Equations::unloaded_speeds(const std::vector<double>& angles) const {
-  const Model& m = *model_;
-  std::vector<double> speed(m.shafts.size());
-  for (std::size_t s = 0; s < speed.size(); ++s) speed[s] = m.node_ratio[at(m.shafts[s].reference)];
-  for (const ElasticStep& step : elastic_steps_) {
-    const ElasticJoint& e = m.elastic[at(step.elastic)];
-    const Network::Joint& joint = m.network.joints[at(e.joint)];
-    const double turning = joint.element->rest_ratio(e.gain_a * angles[at(e.shaft_a)]);
-    const int known = step.forward ? e.shaft_a : e.shaft_b, next = step.forward ? e.shaft_b : e.shaft_a;
-    const double usual = m.node_ratio[at(m.shafts[at(known)].reference)];
-    const double factor = usual == 0 ? 1 : speed[at(known)] / usual;
-    if (turning != 1 || factor != 1) speed[at(next)] *= factor * (step.forward ? turning : 1 / turning);
-  }
-  return speed;
-}
-
 std::vector<double> Equations::start(double t, const StartSettings& settings) {
   const Model& m = *model_;
   std::vector<double> y(size(), 0.0);
-  std::vector<double> twists(m.elastic.size(), 0.0);
-  const std::vector<double> angles = start_angles(settings, twists);
-  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[at(m.angles[i].shaft)];
-  for (std::size_t i = 0; i < twists.size(); ++i) y[twists_begin() + i] = twists[i];
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
-  const std::vector<double> unloaded = unloaded_speeds(angles);
-  const std::size_t shaft_on = at(m.shaft_of_node[at(on)]);
-  const double speed_on = m.node_ratio[at(on)] * (unloaded[shaft_on] / m.node_ratio[at(m.shafts[shaft_on].reference)]);
+  const KnownMotion known = known_at_start(m, settings, on);
+  UnloadedMotion unloaded = unloaded_motion(m, known);
+  if (!known.angles.empty()) set_shaft_angles(unloaded.twist.data(), unloaded.angle);  // twists may be given, too
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * unloaded.angle[at(m.angles[i].shaft)];
+  for (std::size_t i = 0; i < unloaded.twist.size(); ++i) y[twists_begin() + i] = unloaded.twist[i];
+  const double speed_on = m.node_ratio[at(on)];
   for (std::size_t s = 0; s < m.free_shafts; ++s)
-    y[speed_index(static_cast<int>(s))] = settings.speed * unloaded[s] / speed_on;
+    y[speed_index(static_cast<int>(s))] = settings.speed * unloaded.speed[s] / speed_on;
   std::vector<char> given(m.shafts.size(), 0);
   for (const auto& [component, c] : settings.components) {
     if (!c.speed) continue;

@@ -298,6 +298,15 @@ TEST(Ties, OfPrescribedShaftsSayWhenTheyAreNotKept) {
       EXPECT_NEAR(lambda[0] + lambda[1], 3 - 0.5 * 4, 1e-14);
     }
   }
+  // Nothing is free at all.
+  Constraints none(0);
+  none.set({{{{0, 1}, {1, -2}}, {{0, -1}, {1, 2}}, 1}});
+  for (const double second : {2.0, 2.1}) {
+    std::vector<double> alpha = {4, second}, lambda(1, 7.0);
+    none.solve(std::vector{0.0, 0.0}, std::vector{0.0, 0.0}, alpha, lambda);
+    EXPECT_EQ(none.trouble().has_value(), second == 2.1);
+    EXPECT_EQ(lambda[0], 0);
+  }
 }
 
 }  // namespace
