@@ -55,7 +55,7 @@ std::string of_last_cycle(const Result& r) {
 std::string footing(const Result& r) {
   std::string text;
   const EnergyBalance& e = r.energy;
-  if (e.checks > 0) {
+  if (has_works(r)) {
     text += "  work:";
     for (const auto& [line, work] : e.by_line) text += fmt::format(" {} {},", line, with_unit(work, "J", 5));
     text.back() = '\n';

@@ -222,7 +222,7 @@ Table statistics_table(const Results& results) {
     return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
   });
   row("energy balance closes to", [](const Result& r) {
-    return r.energy.checks == 0            ? std::string("—")
+    return !has_works(r)                   ? std::string("—")
            : nothing_turned_over(r.energy) ? std::string("no energy turned over")
                                            : fmt::format("{:.1e}", r.energy.relative);
   });
@@ -364,9 +364,9 @@ std::string conclusion_of(const Result& r) {
   if (text.size() == begin)
     if (const Figure* speed = first_with(r, "final_speed."))
       text += fmt::format("{} ends at {}", speed->name.substr(12), sure(*speed));
-  if (r.energy.checks > 0 && nothing_turned_over(r.energy))
+  if (has_works(r) && nothing_turned_over(r.energy))
     text += fmt::format("{}o work is done and no energy changes its form", text.size() == begin ? "N" : "; n");
-  else if (r.energy.checks > 0)
+  else if (has_works(r))
     text += fmt::format("{}he energy balance closes to {:.1e}", text.size() == begin ? "T" : "; t", r.energy.relative);
   return text + ".";
 }
@@ -377,6 +377,8 @@ bool nothing_turned_over(const EnergyBalance& e) {
   return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&
          std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
 }
+
+bool has_works(const Result& r) { return r.energy.checks > 0 && (r.complete || !nothing_turned_over(r.energy)); }
 
 std::vector<Plot> motion_plots(const Results& results) {
   std::vector<Plot> plots;

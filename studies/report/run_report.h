@@ -11,6 +11,8 @@ Report report_of(const Comparison& comparison);
 
 // No account has done work, and what is stored is what it was: a balance of energy proves nothing.
 bool nothing_turned_over(const EnergyBalance& energy);
+// A run that broke off before its works were drawn up has none to show.
+bool has_works(const Result& result);
 
 // Cards that other studies may want too.
 MachineView machine_view(const std::vector<const Result*>& results);  // the last in front

@@ -39,6 +39,9 @@ TEST(Messages, SeriesMotorThatRunsAwayFromAFanIsNotSaidToBeWithoutALoad) {
   ASSERT_FALSE(r.complete);
   EXPECT_EQ(r.diagnosis.find("ithout a load"), std::string::npos) << r.diagnosis;
   EXPECT_NE(r.diagnosis.find("max_speed = 1193.66 rpm (by default 5 rated_speed)"), std::string::npos) << r.diagnosis;
+  // Nor is what was not drawn up told as nothing.
+  EXPECT_EQ(output_of(r).table.find("nothing moves"), std::string::npos) << output_of(r).table;
+  EXPECT_EQ(output_of(r).table.find("closed to 0"), std::string::npos);
 }
 
 TEST(Messages, RunThatDoesNothingProvesNoBalanceOfEnergy) {

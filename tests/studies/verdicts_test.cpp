@@ -158,7 +158,7 @@ TEST(Efficiency, LiesBetweenNothingAndOneForAnyLoadSpeedAndFriction) {
 }
 
 const char* const pump_with_edges =
-    "load = { kind = \"press\", nominal_force = \"4 kN\", nominal_travel = \"60 mm\", working_end = \"folded\" }";
+    "load = { kind = \"press\", nominal_force = \"400 N\", nominal_travel = \"60 mm\", working_end = \"folded\" }";
 
 // The same peak for any number of rows, as an independent scan finds it; and the same in table, text, JSON and picture.
 TEST(ForcePeaks, AreOfTheContinuousMotionWhateverRowsAreAskedFor) {
