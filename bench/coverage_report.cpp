@@ -89,11 +89,30 @@ std::vector<Group> families(const Variants& all) {
   std::set<std::string> names;
   for (const MeasuredVariant& v : all)
     for (const JudgedFigure& f : v.figures)
-      if (!f.counts) names.insert(f.family());
+      if (coverage::every_figure(f)) names.insert(f.family());
   std::vector<Group> groups;
   for (const std::string& name : names)
-    groups.push_back({name, coverage::every_run, [name](const JudgedFigure& f) { return f.family() == name; }});
+    groups.push_back({name, coverage::every_run,
+                      [name](const JudgedFigure& f) { return coverage::every_figure(f) && f.family() == name; }});
   return groups;
+}
+
+// Times of located figures, by family, and those of events.
+Table times(const Variants& all) {
+  std::set<std::string> names;
+  const auto what = [](const JudgedFigure& f) {
+    const std::size_t family = f.name.find('.') + 1;
+    return f.name.starts_with("event.") ? std::string("events")
+                                        : f.name.substr(family, f.name.find('.', family) - family);
+  };
+  for (const MeasuredVariant& v : all)
+    for (const JudgedFigure& f : v.figures)
+      if (coverage::every_time(f)) names.insert(what(f));
+  std::vector<Group> groups = {{"all", coverage::every_run, coverage::every_time}};
+  for (const std::string& name : names)
+    groups.push_back({name, coverage::every_run,
+                      [name, what](const JudgedFigure& f) { return coverage::every_time(f) && what(f) == name; }});
+  return shares("Times that are told with their errors", "time of", all, groups, true);
 }
 
 std::vector<Group> scenes(const Variants& all) {
@@ -183,7 +202,7 @@ Table disputed_truths(const Variants& all) {
     Dispute most{0, &v, nullptr};
     for (const JudgedFigure& f : v.figures)
       if (const double relative = f.uncertainty / f.scale;
-          !f.counts && f.scale > 0 && f.verdict == Verdict::uncertain && relative > most.relative)
+          coverage::every_figure(f) && f.scale > 0 && f.verdict == Verdict::uncertain && relative > most.relative)
         most = {relative, &v, &f};
     if (most.figure) worst.push_back(most);
   }
@@ -257,7 +276,7 @@ Table reasons(const std::string& title, const std::map<std::string, long>& count
 
 // What was measured, and what was set apart.
 struct Counts {
-  long whole = 0, unconfirmed = 0;
+  long whole = 0, finished = 0, unconfirmed = 0;
   std::map<Verdict, long> figures;
   long impacts = 0, impacts_right = 0, uncertain_runs = 0;
   std::map<std::string, long> ended, refused;
@@ -272,15 +291,21 @@ Counts count(const Variants& all) {
   Counts c;
   for (const MeasuredVariant& v : all) {
     for (const auto& [reason, times] : v.refused) c.refused[reason] += times;
+    // A run that came to its end without a second opinion was not confirmed, either; one whose budget here was spent
+    // says nothing.
+    const bool without_errors =
+        v.words.starts_with(coverage::no_errors) && v.words.find("processor time is spent") == std::string::npos;
+    c.finished += v.whole || without_errors;
+    c.unconfirmed += (v.whole && !v.confirmed) || without_errors;
     if (!v.whole) {
       ++c.ended[without_numbers(v.words)];
       continue;
     }
     ++c.whole;
-    c.unconfirmed += !v.confirmed;
     bool uncertain = false;
     for (const JudgedFigure& f : v.figures) {
-      if (f.counts) {
+      if (f.kind == JudgedFigure::Kind::time) continue;
+      if (f.kind == JudgedFigure::Kind::count) {
         ++c.impacts;
         c.impacts_right += f.value == f.truth || f.verdict == Verdict::covered;
         continue;
@@ -325,7 +350,7 @@ void add_targets(BenchBook& book, const Variants& all, const Share& overall, con
   const auto method = least_share(all, groups_of(coverage::methods(), of_method));
   const auto accuracy = least_share(all, groups_of(coverage::accuracies(), of_accuracy));
   const double median = coverage::quantile(ratios, 0.5), q90 = coverage::quantile(ratios, 0.9);
-  const double unconfirmed = c.whole ? static_cast<double>(c.unconfirmed) / static_cast<double>(c.whole) : 0;
+  const double unconfirmed = c.finished ? static_cast<double>(c.unconfirmed) / static_cast<double>(c.finished) : 0;
   const Cost cost = cost_of(all, coverage::every_run);
   book.target("coverage: figures whose stated error covers, lower 95 % bound", "≥ 99.5 %",
               fmt::format("{} ({} of them)", percent(overall.lower), percent(overall.share())),
@@ -381,6 +406,7 @@ void report_coverage(BenchBook& book, const Variants& all) {
   section.cards.emplace_back(shares("By method", "method", all, groups_of(coverage::methods(), of_method)));
   section.cards.emplace_back(shares("By accuracy", "accuracy", all, groups_of(coverage::accuracies(), of_accuracy)));
   section.cards.emplace_back(shares("By family of figures", "figure", all, families(all), true));
+  section.cards.emplace_back(times(all));
   section.cards.emplace_back(shares("By scene", "scene", all, scenes(all), true));
   section.cards.emplace_back(costs(all));
   section.cards.emplace_back(counts_table(all, c));

@@ -79,33 +79,40 @@ Result measured(const std::shared_ptr<const Model>& model, double budget) {
   return simulate(model, "measured", options);
 }
 
+// Stated error against the truth, if it is known.
+JudgedFigure judged(JudgedFigure figure, const std::optional<double>& stated, const Reference& truth) {
+  figure.stated = stated.value_or(-1);
+  const auto known = truth.figures.find(figure.name);
+  if (known == truth.figures.end()) return figure;
+  figure.truth = known->second.value;
+  figure.uncertainty = known->second.uncertainty;
+  figure.verdict = stated ? verdict_of(figure.name, figure.value, *stated, known->second) : Verdict::unstated;
+  return figure;
+}
+
 void judge(const Result& result, const LadderOfTwo& two, const Reference& truth, MeasuredVariant& out) {
+  using Kind = JudgedFigure::Kind;
   out.figures.clear();
   for (const Figure& f : result.figures) {
-    JudgedFigure figure{.name = f.name, .unit = f.unit, .value = f.value, .scale = f.scale};
-    figure.stated = f.error.value_or(-1);
-    figure.counts = f.name.starts_with("impacts.");
-    figure.verdict = Verdict::unstated;
-    const auto known = truth.figures.find(f.name);
-    if (known == truth.figures.end()) {
-      figure.verdict = Verdict::unknown;
-    } else {
-      figure.truth = known->second.value;
-      figure.uncertainty = known->second.uncertainty;
-      if (f.error) figure.verdict = verdict_of(f.name, f.value, *f.error, known->second);
-      if (const Figure* old = two.fine() ? two.fine()->find(f.name) : nullptr) {
-        figure.stated_by_two = two.stated(*old);
-        if (figure.stated_by_two >= 0)
-          figure.by_two = verdict_of(f.name, old->value, figure.stated_by_two, known->second);
-      }
+    JudgedFigure figure = judged({.name = f.name, .unit = f.unit, .value = f.value, .scale = f.scale}, f.error, truth);
+    if (f.name.starts_with("impacts.")) figure.kind = Kind::count;
+    const Figure* old = two.fine() ? two.fine()->find(f.name) : nullptr;
+    if (old && figure.verdict != Verdict::unknown) {
+      figure.stated_by_two = two.stated(*old);
+      if (figure.stated_by_two >= 0)
+        figure.by_two = verdict_of(f.name, old->value, figure.stated_by_two, {figure.truth, figure.uncertainty});
     }
     out.figures.push_back(std::move(figure));
   }
+  for (const ToldTime& t : times_of(result))
+    out.figures.push_back(judged(
+        {.name = t.name, .unit = "s", .value = t.value, .scale = result.until, .kind = Kind::time}, t.error, truth));
 }
 
-bool any_uncertain(const MeasuredVariant& v) {
-  return std::any_of(v.figures.begin(), v.figures.end(),
-                     [](const JudgedFigure& f) { return f.verdict == Verdict::uncertain; });
+long uncertain_values(const MeasuredVariant& v) {
+  return std::count_if(v.figures.begin(), v.figures.end(), [](const JudgedFigure& f) {
+    return f.kind == JudgedFigure::Kind::value && f.verdict == Verdict::uncertain;
+  });
 }
 
 }  // namespace
@@ -132,6 +139,21 @@ double difference(const std::string& figure, double a, double b) {
   return figure.starts_with("peak_") ? std::abs(std::abs(a) - std::abs(b)) : std::abs(a - b);
 }
 
+std::vector<ToldTime> times_of(const Result& result) {
+  std::vector<ToldTime> times;
+  constexpr double at_the_end = 1 - 1e-12;  // of the run: nothing was located there
+  for (const Figure& f : result.figures)
+    if (f.at && *f.at<at_the_end * result.until&& * f.at> 0) times.push_back({"at." + f.name, *f.at, f.at_error});
+  std::map<std::string, int> seen;
+  for (std::size_t i = 0; i < result.events.size(); ++i) {
+    const Event& e = result.events[i];
+    const std::string like = "event." + e.component + "." + e.what;
+    times.push_back({like + "#" + std::to_string(seen[like]++), e.t,
+                     i < result.event_errors.size() ? result.event_errors[i] : std::nullopt});
+  }
+  return times;
+}
+
 MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings) {
   MeasuredVariant out{.scene = variant.scene,
                       .method = variant.method,
@@ -148,7 +170,7 @@ MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings)
   out.cpu_seconds = result.cpu_total;
   out.confirmed = result.accuracy_confirmed;
   if (!result.complete || !result.errors_measured) {
-    out.words = result.complete ? "no errors were measured" : result.diagnosis;
+    out.words = result.complete ? no_errors : result.diagnosis;
     for (const std::string& note : result.notes) out.words += "; " + note;
     return out;
   }
@@ -163,13 +185,9 @@ MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings)
     if (!truth) break;
     MeasuredVariant judged = out;
     judge(result, two, *truth, judged);
-    const auto doubts = [](const MeasuredVariant& v) {
-      return std::count_if(v.figures.begin(), v.figures.end(),
-                           [](const JudgedFigure& f) { return f.verdict == Verdict::uncertain; });
-    };
-    if (!out.whole || doubts(judged) < doubts(out)) out = std::move(judged);
+    if (!out.whole || uncertain_values(judged) < uncertain_values(out)) out = std::move(judged);
     out.whole = true;
-    if (!any_uncertain(out) || tolerance <= 1e-14) break;
+    if (uncertain_values(out) == 0 || tolerance <= 1e-14) break;
   }
   if (!out.whole) out.words = "no two references ended within their budget";
   return out;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/result.h"
 #include "tests/coverage/variant.h"
 
 namespace kurbel::coverage {
@@ -26,11 +27,16 @@ struct JudgedFigure {
   // What the difference of two runs at tolerances 30 apart would have stated, and whether it would have covered.
   double stated_by_two = 0;
   Verdict by_two = Verdict::unknown;
-  bool counts = false;  // a number of blows: whole, and judged apart
+  // Numbers of blows are whole, and times have no scale of their own: judged apart.
+  enum class Kind { value, time, count };
+  Kind kind = Kind::value;
 
   double error() const;
   std::string family() const { return name.substr(0, name.find('.')); }
 };
+
+// How the words of a variant begin that came to its end without errors.
+inline constexpr const char* no_errors = "no errors were measured";
 
 struct MeasuredVariant {
   std::string scene, method;
@@ -54,6 +60,15 @@ struct MeasureSettings {
 };
 
 MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings);
+
+// Times that a result tells: of figures that are located within the run ("at.peak_torque.shaft"), and of its events
+// ("event.clutch.locks#0", the first of its like), with their errors where they were measured.
+struct ToldTime {
+  std::string name;
+  double value = 0;
+  std::optional<double> error;
+};
+std::vector<ToldTime> times_of(const Result& result);
 
 // Figures of like meaning differ by so much: peaks by their magnitude, of two equal ones either may be the larger.
 double difference(const std::string& figure, double a, double b);

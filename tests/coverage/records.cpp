@@ -74,6 +74,11 @@ MeasuredVariant run_of(const std::vector<std::string>& c) {
           .refused = refusals_of(c[13])};
 }
 
+JudgedFigure::Kind kind_of(const std::string& name) {
+  if (name.starts_with("impacts.")) return JudgedFigure::Kind::count;
+  return name.starts_with("at.") || name.starts_with("event.") ? JudgedFigure::Kind::time : JudgedFigure::Kind::value;
+}
+
 JudgedFigure figure_of(const std::vector<std::string>& c) {
   return {.name = c[5],
           .unit = c[6],
@@ -85,7 +90,7 @@ JudgedFigure figure_of(const std::vector<std::string>& c) {
           .verdict = verdict_named(c[12]),
           .stated_by_two = number(c[13]),
           .by_two = verdict_named(c[14]),
-          .counts = c[5].starts_with("impacts.")};
+          .kind = kind_of(c[5])};
 }
 
 }  // namespace
@@ -104,8 +109,8 @@ std::string lines_of(const MeasuredVariant& v) {
       fmt::format("run,{},{:d},{:d},{},{:.3e},{},{},{:.4g},{},{}\n", which, v.whole, v.confirmed, v.runs, v.tolerance,
                   v.flow_calls, v.flow_calls_of_two, v.cpu_seconds, plain(v.words), refusals(v.refused));
   for (const JudgedFigure& f : v.figures)
-    text += fmt::format("figure,{},{},{},{:.17g},{:.6g},{:.4g},{:.17g},{:.4g},{},{:.4g},{}\n", which, f.name, f.unit,
-                        f.value, f.scale, f.stated, f.truth, f.uncertainty, name_of(f.verdict), f.stated_by_two,
+    text += fmt::format("figure,{},{},{},{:.17g},{:.6g},{:.4g},{:.17g},{:.4g},{},{:.4g},{}\n", which, plain(f.name),
+                        f.unit, f.value, f.scale, f.stated, f.truth, f.uncertainty, name_of(f.verdict), f.stated_by_two,
                         name_of(f.by_two));
   return text;
 }

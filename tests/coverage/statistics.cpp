@@ -43,7 +43,7 @@ Share share_of(const std::vector<MeasuredVariant>& variants, const OfRun& run, c
     if (!v.whole || !run(v)) continue;
     Tally tally;
     for (const JudgedFigure& f : v.figures) {
-      if (f.counts || !figure(f)) continue;
+      if (!figure(f)) continue;
       tally.covered += verdict(f) == Verdict::covered;
       tally.judged += verdict(f) == Verdict::covered || verdict(f) == Verdict::missed;
     }
@@ -61,7 +61,7 @@ std::vector<double> ratios_of(const std::vector<MeasuredVariant>& variants) {
   std::vector<double> ratios;
   for (const MeasuredVariant& v : variants)
     for (const JudgedFigure& f : v.figures) {
-      if (f.counts || (f.verdict != Verdict::covered && f.verdict != Verdict::missed)) continue;
+      if (!every_figure(f) || (f.verdict != Verdict::covered && f.verdict != Verdict::missed)) continue;
       const double least = std::max(f.error(), f.uncertainty);
       if (least > 0) ratios.push_back(f.stated / least);
     }
@@ -81,7 +81,7 @@ std::vector<Miss> misses_of(const std::vector<MeasuredVariant>& variants) {
   std::vector<Miss> misses;
   for (const MeasuredVariant& v : variants)
     for (const JudgedFigure& f : v.figures)
-      if (!f.counts && f.verdict == Verdict::missed) misses.push_back({&v, &f});
+      if (every_figure(f) && f.verdict == Verdict::missed) misses.push_back({&v, &f});
   std::stable_sort(misses.begin(), misses.end(), [](const Miss& a, const Miss& b) { return a.factor() > b.factor(); });
   return misses;
 }

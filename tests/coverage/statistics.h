@@ -21,10 +21,11 @@ using OfFigure = std::function<bool(const JudgedFigure&)>;
 using VerdictOf = std::function<Verdict(const JudgedFigure&)>;
 
 inline bool every_run(const MeasuredVariant&) { return true; }
-inline bool every_figure(const JudgedFigure&) { return true; }
+inline bool every_figure(const JudgedFigure& f) { return f.kind == JudgedFigure::Kind::value; }
+inline bool every_time(const JudgedFigure& f) { return f.kind == JudgedFigure::Kind::time; }
 inline Verdict stated_verdict(const JudgedFigure& f) { return f.verdict; }
 
-// Of the figures that were judged: covered or missed. Numbers of impacts are no figures of measure and stay apart.
+// Of the figures that were judged: covered or missed. Times and numbers of impacts are asked for by themselves.
 Share share_of(const std::vector<MeasuredVariant>& variants, const OfRun& run = every_run,
                const OfFigure& figure = every_figure, const VerdictOf& verdict = stated_verdict);
 
