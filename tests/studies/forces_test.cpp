@@ -255,7 +255,7 @@ TEST(ForcesStudy, FourStrokeEngineHasACycleOfTwoTurns) {
   options.simulate = false;
   const Forces f = find_forces(test::scene_file("scenes/single_cylinder_engine.toml"), options);
   EXPECT_NEAR(f.prescribed->cycle, 4 * pi, 1e-12);
-  EXPECT_EQ((f.prescribed->positions.size() - 1) / static_cast<std::size_t>(f.prescribed->stride), 24u);
+  EXPECT_EQ(f.prescribed->rows.size() - 1, 24u);
   EXPECT_EQ(work_of(*f.prescribed, "engine.load").kind, "driving");
   EXPECT_EQ(work_of(*f.prescribed, "balancing torque").kind, "useful");
   // Gas force on the piston and the weights aside, the frame's loads are the shaking force.

@@ -115,15 +115,18 @@ TEST(Efficiency, IsNotMadeOfRounding) {
         EXPECT_FALSE(c->efficiency) << c->label << " " << speed << ": " << c->efficiency.value_or(0);
         EXPECT_FALSE(c->no_efficiency.empty());
         EXPECT_EQ(c->useful, 0);
-        if (*friction) EXPECT_GT(c->harmful, 0);
+        if (*friction) {
+          EXPECT_GT(c->harmful, 0);
+        }
       }
       const StudyOutput output = output_of(f);
       const auto json = nlohmann::json::parse(output.json);
       EXPECT_TRUE(json["prescribed"]["efficiency"].is_null());
       EXPECT_NE(json["prescribed"]["no_efficiency"].get<std::string>().find("no "), std::string::npos);
-      if (*friction)
+      if (*friction) {
         EXPECT_NE(output.conclusion.find("no efficiency of the cycle: no useful work"), std::string::npos)
             << output.conclusion;
+      }
     }
   }
 }
@@ -152,7 +155,9 @@ TEST(Efficiency, LiesBetweenNothingAndOneForAnyLoadSpeedAndFriction) {
       EXPECT_NEAR(*c->efficiency, c->useful / (c->useful + c->harmful), 2e-3) << c->label << " " << load << friction;
     }
     for (const CyclePosition& p : f.prescribed->positions)
-      if (p.power.efficiency()) EXPECT_LE(*p.power.efficiency(), 1);
+      if (p.power.efficiency()) {
+        EXPECT_LE(*p.power.efficiency(), 1);
+      }
   }
   EXPECT_GT(made, 8);
 }
