@@ -377,6 +377,7 @@ class Simulation {
     result_.model = model_;
     fill_energy(*run.energy);
     if (!run.outcome.state.empty()) fill_final(run.outcome);
+    for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
     for (const std::string& what : run.outcome.regularised)
       result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");
