@@ -51,8 +51,9 @@ std::string blocked_press(double force, const std::string& motor, const std::str
   text = with(text, "until    = \"10 s\"", fmt::format("until = \"{:.17g} s\"", until));
   text = with(text, "accuracy = 1e-6", "accuracy = 1e-5");
   if (motor.starts_with("kind")) {
-    const std::size_t from = text.find("[motor]\n") + 8;
-    return text.replace(from, text.find("[motor_coupling]") - from, motor + "\ninertia = \"0.092 kg*m2\"\n\n");
+    const std::size_t from = text.find("[motor] ");
+    return text.replace(from, text.find("[motor_coupling]") - from,
+                        "[motor]\n" + motor + "\ninertia = \"0.092 kg*m2\"\n\n");
   }
   return with(text, "breakdown_ratio   = 3.0", "breakdown_ratio   = 3.0\n" + motor + "\n#");
 }

@@ -1,4 +1,4 @@
-// jam_cases.cpp — machines that cannot go on: they end at rest and held, are thrown back and held, or jam in motion.
+// jam_cases.cpp — machines that cannot go on: they end at rest and held, or are thrown back and held.
 #include "tests/hard/families.h"
 #include "tests/hard/machines.h"
 
@@ -112,27 +112,6 @@ HardCase stalls(const Motor& motor, bool elastic, bool friction) {
           .heavy = elastic || friction};
 }
 
-// A gear that locks itself, turning backwards with its load under a torque τ that ends. With |η₂| I₂′ > I₁ neither
-// flank then has a motion: it stops at once.
-//     (I₁ + I₂′/η₁) α = τ − M′/η₁ while τ acts;  φ = ½ α t₁², then rest
-HardCase jams_in_motion(double torque) {
-  const double in = 0.01, out = 0.9, ratio = 5, load = 12, driving = 0.4, back = -0.6, ends = 0.2;
-  const double reduced = out / (ratio * ratio), alpha = (torque - load / ratio / driving) / (in + reduced / driving);
-  return {.family = family,
-          .name = fmt::format("ASelfLockingGearThatIsDrivenBackwardsBy{:.0f}NmJamsWhenTheDriveEnds", -torque),
-          .parameter = fmt::format("|η₂| I₂′/I₁ = {:.3g}", -back * reduced / in),
-          .scene = fmt::format(
-              "line = [\"source\", \"input\", \"gear\", \"output\"]\nsource = {{ kind = \"torque source\", torque = "
-              "{}, stop = {} }}\ninput = {{ kind = \"flywheel\", inertia = {} }}\ngear = {{ kind = \"gearbox\", stages "
-              "= [{{ teeth = [20, 100] }}], efficiency_forwards = {}, efficiency_backwards = {} }}\noutput = {{ kind = "
-              "\"load\", "
-              "torque = {}, acts = \"always\", inertia = {} }}\nrun = {{ until = \"1 s\" }}\n",
-              quantity(torque, "N*m"), quantity(ends, "s"), quantity(in, "kg*m2"), driving, back, quantity(load, "N*m"),
-              quantity(out, "kg*m2")),
-          .truths = {closed_form("φ = ½ α t₁², then rest at once",
-                                 {{"final_angle.input", 0.5 * alpha * ends * ends}, {"final_speed.input", 0}})}};
-}
-
 }  // namespace
 
 std::vector<HardCase> jam_cases() {
@@ -142,7 +121,6 @@ std::vector<HardCase> jam_cases() {
   for (const Motor& motor : motors())
     for (const bool elastic : {false, true})
       for (const bool friction : {false, true}) cases.push_back(stalls(motor, elastic, friction));
-  for (const double torque : {-40.0, -90.0}) cases.push_back(jams_in_motion(torque));
   return cases;
 }
 
