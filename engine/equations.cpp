@@ -221,7 +221,14 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   add_known_contact_torques();
   std::copy(torque_.begin(), torque_.end(), free_torque_.begin());
   find_accelerations(t, free_torque_, inertia_, alpha);
-  if (!reacting_.empty()) settle_reactions(t, alpha, work_rate);
+  if (!reacting_.empty()) {
+    try {
+      settle_reactions(t, alpha, work_rate);
+    } catch (const Jam& jam) {
+      jam_ = jam;
+      throw;
+    }
+  }
   publish_contacts(work_rate);
   if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
 }
@@ -265,9 +272,17 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
       change = std::max(
           change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
     }
-    if (!(change > 1e-14) || (change < 1e-12 && change >= 0.5 * last_change)) break;  // the second: round-off
+    const bool round_off = change < 1e-12 && change >= 0.5 * last_change;
     last_change = change;
+    if (!(change > 1e-14) || round_off) break;
   }
+  constexpr double settled = 1e-8;  // Newton's method that goes to and fro over a kink has found nothing
+  if (!(last_change < settled))
+    throw Jam("no acceleration satisfies the friction in the joints", [&] {
+      for (std::size_t s = 0; s < m.shafts.size(); ++s)
+        if (reaction_slope_[s] != 0) return static_cast<int>(s);
+      return -1;
+    }());
   react(work_rate);
   for (std::size_t s = 0; s < m.shafts.size(); ++s) torque_[s] += reaction_torque_[s];
   for (std::size_t e = 0; e < element_torque_.size(); ++e) element_torque_[e] += reaction_element_[e];
@@ -279,7 +294,14 @@ void Equations::flow(double t, std::span<const double> y, std::span<double> ydot
   const Model& m = *model_;
   double* const alpha = ydot.data() + speed_index(0);
   double* const work_rate = audit() ? ydot.data() + states_ : nullptr;
-  evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + own_begin());
+  const auto lose = [&] { std::fill(ydot.begin(), ydot.end(), std::numeric_limits<double>::quiet_NaN()); };
+  // After a stage that jammed.
+  if (!reacting_.empty() && !std::all_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); })) return lose();
+  try {
+    evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + own_begin());
+  } catch (const Jam&) {  // a step too long: it is tried again, shorter
+    return lose();
+  }
   refuse_broken_ties(t);
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
@@ -406,10 +428,15 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
   [[maybe_unused]] const FpTraps traps(y);
   const Model& m = *model_;
   const JacobianLayout& layout = m.jacobian;
-  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
-  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
   slot_.assign(layout.slot_position.size(), 0.0);
-  for (const auto& pool : m.pools) pool->add_jacobian(snapshot_.now, alpha_.data(), slot_.data());
+  try {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
+    for (const auto& pool : m.pools) pool->add_jacobian(snapshot_.now, alpha_.data(), slot_.data());
+  } catch (const Jam& jam) {
+    jam_ = jam;  // of the derivatives, too
+    return std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
+  }
   std::fill(values.begin(), values.end(), 0.0);
   const std::size_t stored = layout.pattern.row.size();
   for (std::size_t k = 0; k < slot_.size(); ++k)

@@ -8,11 +8,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/constraints.h"
+#include "engine/jam.h"
 #include "engine/model.h"
 #include "engine/stepper.h"
 
@@ -84,6 +86,16 @@ class Equations final : public OdeSystem {
   // Gives whatever owns these guards a law without events, for good. What changed, in words; empty: nothing can.
   std::string regularise(const std::vector<std::size_t>& guards);
   std::string guard_owner(std::size_t guard) const;
+  // Where flow() met states at which no acceleration satisfies the friction, its rates are no numbers, and this is the
+  // last of them.
+  const std::optional<Jam>& jam() const { return jam_; }
+  void forget_jam() { jam_.reset(); }
+  // The motion cannot go on: what slips at these guards, or jammed last, comes to rest at once by an impact that takes
+  // the least kinetic energy; what springs tie to it keeps its speed, the energy lost is work of the friction
+  // concerned. False: nothing there moves.
+  bool stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, std::vector<Event>& log);
+  // Each contact that holds: by whom, what acts, what is held, and what is missing to move either way.
+  std::vector<std::string> held(double t, std::span<const double> y);
 
   // --- angles ---
   // Angles are kept from 4π · first on (usually 0): a run that confirms another one looks up every law elsewhere.
@@ -171,7 +183,12 @@ class Equations final : public OdeSystem {
                       double* total = nullptr);
   void settle_contacts(double t, std::span<double> y, const std::vector<std::size_t>& stopped,
                        const std::vector<std::pair<std::size_t, int>>& forced, std::vector<Event>* log);
-  bool try_all_modes(double t, std::span<const double> y, const std::vector<std::size_t>& among);
+  bool try_all_modes(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                     const std::vector<std::size_t>& fixed);
+  bool release_otherwise(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                         const std::vector<std::pair<std::size_t, int>>& forced);
+  int account_of_friction(const Contact& contact) const;
+  std::string holders(const Contact& contact) const;
   void tie_speeds(double t, std::span<double> y);
   std::string sharing(const Contact& contact);
   void log_contacts(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
@@ -244,6 +261,7 @@ class Equations final : public OdeSystem {
   std::vector<const ElementPool*> following_;
   std::vector<double> followed_alpha_;
   Snapshot snapshot_{};
+  std::optional<Jam> jam_;
 
   // Jacobian: the model's layout with the quadratures' empty diagonal appended
   SparsityPattern pattern_;

@@ -365,9 +365,31 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
   snapshot_.now = instant(t, y);
   find_holds();
   tie_stuck_contacts();
-  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  try {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  } catch (const Jam& jam) {  // what stands does not jam; what moves as these modes say does
+    for (const std::size_t c : among)
+      if (contacts_[c].kind == Contact::Kind::frame && contacts_[c].index == jam.shaft && sense(c) != 0) {
+        jam_.reset();
+        if (total) *total = HUGE_VAL;
+        return {HUGE_VAL, c, 0};
+      }
+    throw;
+  }
   find_holds();
   for (std::size_t s = model_->free_shafts; s < model_->shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
+  constexpr double round_off = 1e-9;
+  // Does a torque that pushes on speed up what slips that way? Where a gear that locks itself turns back with its load,
+  // the more it is pushed the more it holds: what lets go at its limit does not go that way.
+  const auto gives_way = [&](std::size_t c, int way) {
+    const std::vector<double> contact_torque = contact_torque_, relation_torque = relation_torque_;
+    std::vector<double> torque = free_torque_, pushed = alpha_;
+    add_over(contacts_[c].motion, way * contacts_[c].torque_scale, torque);
+    find_accelerations(t, torque, inertia_, pushed.data());
+    contact_torque_ = contact_torque;
+    relation_torque_ = relation_torque;
+    return way * (sum_over(contacts_[c].motion, pushed.data()) - sum_over(contacts_[c].motion, alpha_.data())) > 0;
+  };
   Misfit worst;
   const auto consider = [&](double size, std::size_t which, int better) {
     if (total && size > 0) *total += size;
@@ -386,7 +408,8 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
     } else {
       // A push within round-off decides nothing.
       const double push = sum_over(contact.motion, alpha_.data()) * effective_inertia(contact) / contact.torque_scale;
-      consider(-push * now - 1e-9, c, 0);
+      consider(-push * now - round_off, c, 0);
+      if (!lossy_.empty() && std::abs(push) <= round_off && !gives_way(c, now)) consider(1, c, 0);
     }
   }
   for (const int r : lossy_) {
@@ -455,7 +478,8 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
     else
       loss_sign_[misfit.contact - contacts_.size()] = misfit.better;
   }
-  if (!fits) fits = try_all_modes(t, y, among);
+  if (!fits) fits = try_all_modes(t, y, among, {});
+  if (fits) release_otherwise(t, y, among, forced);
   if (!log) return;
   log_contacts(t, among, before, always, *log);
   if (always.size() < 2) return;
@@ -465,14 +489,19 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
                               changes == 1 ? "" : "s")});
 }
 
-// Every set for few contacts: the one that fits, else the nearest. Many are left as they are.
-bool Equations::try_all_modes(double t, std::span<const double> y, const std::vector<std::size_t>& among) {
-  if (among.size() > few_contacts || lossy_.size() > few_contacts) return false;
+// Every set for few contacts: the one that fits, else the nearest. Many are left as they are; the fixed ones keep their
+// sense.
+bool Equations::try_all_modes(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                              const std::vector<std::size_t>& fixed) {
+  std::vector<std::size_t> open;
+  for (const std::size_t c : among)
+    if (!std::count(fixed.begin(), fixed.end(), c)) open.push_back(c);
+  if (open.size() > few_contacts || lossy_.size() > few_contacts) return false;
   int sets = 1;
-  for (std::size_t k = 0; k < among.size(); ++k) sets *= 3;
+  for (std::size_t k = 0; k < open.size(); ++k) sets *= 3;
   for (std::size_t k = 0; k < lossy_.size(); ++k) sets *= 2;
   const auto choose = [&](int set) {
-    for (const std::size_t c : among) {
+    for (const std::size_t c : open) {
       const int which = set % 3;
       sense(c) = which == 0 ? 0 : which == 1 ? 1 : -1;
       set /= 3;
@@ -493,6 +522,25 @@ bool Equations::try_all_modes(double t, std::span<const double> y, const std::ve
   choose(best);
   worst_misfit(t, y, among);
   return least <= 0;
+}
+
+// At a breakaway the hold is exceeded by round-off only, so that sticking on seems to fit: it does not, where some set
+// lets go (of a gear that locks itself: on its other flank). True: such a set was found and taken.
+bool Equations::release_otherwise(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                                  const std::vector<std::pair<std::size_t, int>>& forced) {
+  std::vector<std::size_t> fixed;
+  for (const auto& [c, direction] : forced)
+    if (sense(c) == 0) fixed.push_back(c);
+  if (fixed.empty()) return false;
+  std::vector<int> senses;
+  for (const std::size_t c : among) senses.push_back(sense(c));
+  const std::vector<int> signs = loss_sign_;
+  for (const auto& [c, direction] : forced) sense(c) = direction;
+  if (try_all_modes(t, y, among, fixed)) return true;
+  for (std::size_t k = 0; k < among.size(); ++k) sense(among[k]) = senses[k];
+  loss_sign_ = signs;
+  worst_misfit(t, y, among);
+  return false;
 }
 
 // "brake 62 %, bearing 38 %" where several elements hold one shaft.
@@ -540,6 +588,102 @@ void Equations::log_contacts(double t, const std::vector<std::size_t>& among, co
     if (const std::string shares = sharing(contact); !shares.empty())
       log.push_back({t, contact.name, "is held in proportion to capacity: " + shares});
   }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Jams
+
+// Of what is lost where this contact rubs; −1: nobody's.
+int Equations::account_of_friction(const Contact& contact) const {
+  const Model& m = *model_;
+  if (contact.kind == Contact::Kind::connection) return m.elastic[at(contact.index)].loss_account;
+  if (contact.kind == Contact::Kind::loss) return m.relations[at(contact.index)].loss_account;
+  int account = -1;
+  for (const Network::ShaftElement& e : m.network.elements) {
+    if (m.shaft_of_node[at(e.node)] != contact.index || !e.element->directional()) continue;
+    for (std::size_t k = 0; k < m.accounts.size(); ++k)
+      if (m.accounts[k].name == e.component + ".joints") return static_cast<int>(k);
+    if (account < 0) account = e.account;
+  }
+  return account;
+}
+
+bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards,
+                         std::vector<Event>& log) {
+  const Model& m = *model_;
+  std::vector<std::size_t> stopped;
+  const auto stop = [&](std::size_t c) {
+    if (sense(c) != 0 && !contacts_[c].regularised && !is_prescribed(contacts_[c])) stopped.push_back(c);
+  };
+  for (const std::size_t guard : guards) {
+    if (guard < contact_guards_begin()) continue;
+    const std::size_t local = guard - contact_guards_begin();
+    if (local < 2 * contacts_.size())
+      stop(local / 2);
+    else if (local - 2 * contacts_.size() < lossy_.size())
+      stop(contact_of_loss_[at(lossy_[local - 2 * contacts_.size()])]);
+  }
+  if (guards.empty() && jam_)
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      if (contacts_[c].kind == Contact::Kind::frame && contacts_[c].index == jam_->shaft) stop(c);
+  if (stopped.empty()) return false;
+  std::vector<double> speed(m.free_shafts);
+  for (std::size_t s = 0; s < m.free_shafts; ++s) speed[s] = y[speed_index(static_cast<int>(s))];
+  for (const std::size_t c : stopped) sense(c) = 0;
+  tie_speeds(t, y);
+  double lost = 0;
+  for (std::size_t s = 0; s < m.free_shafts; ++s)
+    lost += 0.5 * inertia_[s] * (speed[s] * speed[s] - std::pow(y[speed_index(static_cast<int>(s))], 2));
+  const int account = account_of_friction(contacts_[stopped.front()]);
+  if (audit() && account >= 0) y[work_index(at(account))] -= lost;
+  for (const std::size_t c : stopped)
+    log.push_back({t, contacts_[c].name, "jams: no acceleration satisfies its friction; it stops at once"});
+  settle_contacts(t, y, stopped, {}, &log);
+  for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), mode_.data());
+  return true;
+}
+
+// "press.load, bearing": what can hold there.
+std::string Equations::holders(const Contact& contact) const {
+  if (contact.kind != Contact::Kind::frame) return contact.name;
+  const Model& m = *model_;
+  std::set<std::string> names;
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+    if (m.shaft_of_node[at(m.network.elements[e].node)] == contact.index &&
+        element_hold_[e].high - element_hold_[e].low > 0)
+      names.insert(m.network.elements[e].component);
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? contact.name : text;
+}
+
+std::vector<std::string> Equations::held(double t, std::span<const double> y) {
+  std::vector<std::string> list;
+  if (std::none_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+        return c.kind != Contact::Kind::connection && sense(static_cast<std::size_t>(&c - contacts_.data())) == 0;
+      }))
+    return list;
+  try {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  } catch (const Jam&) {  // at its very end: nothing can be said
+    return list;
+  }
+  find_holds();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Contact& contact = contacts_[c];
+    if (sense(c) != 0 || contact.regularised || is_prescribed(contact) || contact.kind == Contact::Kind::connection)
+      continue;
+    const Hold hold = limits(c);
+    const double acts = contact_torque_[c];
+    const auto side = [&](double limit, const char* way) {
+      return std::abs(limit) > most_capacity * contact.torque_scale
+                 ? fmt::format("{}: it locks itself", way)
+                 : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way, limit, std::abs(limit - acts));
+    };
+    list.push_back(fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name,
+                               holders(contact), acts, side(hold.high, "forwards"), side(hold.low, "backwards")));
+  }
+  return list;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -45,6 +45,10 @@ class FlushDenormals {
 // A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
 constexpr double fired_below = -1e-11, at_root = 1e-13;
 constexpr int most_events_at_once = 100;
+// So many at one instant, and no mode goes on from there: the motion jams. Far more than contacts that change together.
+constexpr int events_of_a_jam = 20;
+// An implicit method comes only near to a jam; so many explicit steps may go there.
+constexpr int steps_to_a_jam = 500;
 // So many events while the machine turns by no more than this find no rest of themselves: bouncing that dies away,
 // a contact that flickers. Their elements then follow laws without events.
 constexpr std::size_t restless_events = 60;
@@ -77,7 +81,7 @@ class Loop {
     choose_method();
     try {
       start();
-      while (!out_.stopped && stepper_->t() < options_.until && advance()) {
+      while (!out_.stopped && stepper_->t() < options_.until && advance_or_jam()) {
       }
       out_.complete = !broken_;
     } catch (const StepFailure& failure) {
@@ -189,6 +193,16 @@ class Loop {
     edge_ = equations_.next_edge(t);
   }
 
+  // A step may come to where joints jam and be whole itself; then what looks at it finds out.
+  bool advance_or_jam() {
+    try {
+      return advance();
+    } catch (const Jam&) {
+      if (!stop_by_jam()) throw;
+      return true;
+    }
+  }
+
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
     if (out_of_budget()) return false;
@@ -196,9 +210,11 @@ class Loop {
     try {
       stepper_->step(until);
     } catch (const StepFailure& failure) {
+      if (equations_.jam() && pass_jam()) return true;
       if (failure.not_finite || !leave_implicit(failure.what())) throw;
       return true;
     }
+    if (equations_.jam()) equations_.forget_jam();  // a trial step was too long, no more
     const StepLimit limited_by = stepper_->limited_by();
     last_step_ = stepper_->t() - stepper_->t_previous();
     find_guards(stepper_->t(), stepper_->y(), guard_);
@@ -233,6 +249,7 @@ class Loop {
     }
     std::swap(guard_, guard_before_);
     std::swap(guard_slope_, guard_slope_before_);
+    if (before_jam_ && ++steps_to_jam_ > steps_to_a_jam) return resume();
     watch_stiffness();
     return true;
   }
@@ -432,17 +449,27 @@ class Loop {
     std::vector<double> y(source.begin(), source.end());
     events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
     last_event_ = time;
+    ++out_.statistics.events;
+    if (events_here_ == events_of_a_jam && !options_.extension) {
+      const std::size_t known = out_.events.size();
+      if (equations_.stop_jam(time, y, fired, out_.events)) {
+        note_angle(known, y);
+        equations_.wrap(y);
+        restart(time, y);
+        return true;
+      }
+    }
     if (events_here_ > most_events_at_once) {
+      const std::string owner = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : "";
       broken_ = {
           .kind = Breakdown::Kind::restless,
           .t = time,
-          .why = fmt::format("more than {} events at one instant: the modes find no rest. Smooth the load's edge "
-                             "(rise) or its friction",
-                             most_events_at_once),
-          .element = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : ""};
+          .why = fmt::format("\"{}\" can neither stay as it is nor change: no set of pieces and senses of motion "
+                             "fits its laws here. Smooth the load's edge (rise) or its friction",
+                             owner),
+          .element = owner};
       return false;
     }
-    ++out_.statistics.events;
     if (options_.extension) options_.extension->before_event(time, y, fired);
     if (is_restless(time, fired)) calm(time, fired);
     const std::size_t known = out_.events.size();
@@ -451,6 +478,44 @@ class Loop {
     if (options_.extension) options_.extension->after_event(time, y);
     equations_.wrap(y);
     restart(time, y);
+    return true;
+  }
+
+  // Joints in whose friction law the motion finds no way on. The jam lies within round-off of an explicit step's begin;
+  // a library's method gives up earlier, and explicit steps go the rest of the way.
+  bool pass_jam() {
+    if (options_.extension) return false;
+    if (is_of_library(method_)) {
+      const double t = stepper_->t();
+      const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      before_jam_ = method_;
+      steps_to_jam_ = 0;
+      make(Method::dormand_prince_853, t, y);
+      return true;
+    }
+    return stop_by_jam();
+  }
+
+  bool stop_by_jam() {
+    const double t = stepper_->t();
+    std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    jams_here_ = t - last_jam_ <= 1e-13 * std::max(1.0, std::abs(t)) ? jams_here_ + 1 : 0;
+    last_jam_ = t;
+    const std::size_t known = out_.events.size();
+    if (options_.extension || jams_here_ > events_of_a_jam) return false;
+    if (!equations_.stop_jam(t, y, {}, out_.events)) return false;
+    equations_.forget_jam();
+    ++out_.statistics.events;
+    note_angle(known, y);
+    equations_.wrap(y);
+    restart(t, y);
+    return before_jam_ ? resume() : true;
+  }
+
+  // Back to the method that was asked for.
+  bool resume() {
+    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    make(*std::exchange(before_jam_, std::nullopt), stepper_->t(), y);
     return true;
   }
 
@@ -568,6 +633,7 @@ class Loop {
       out_.t = stepper_->t();
       out_.state.assign(stepper_->y().begin(), stepper_->y().end());
     }
+    if (out_.complete && !options_.extension) out_.held = equations_.held(out_.t, out_.state);
     out_.statistics.cpu_seconds = cpu_now() - begin_;
     if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
   }
@@ -594,6 +660,9 @@ class Loop {
     std::vector<std::size_t> fired;
   };
   std::deque<Recent> recent_;
+  std::optional<Method> before_jam_;  // explicit steps go to the jam; this method goes on
+  int steps_to_jam_ = 0, jams_here_ = 0;
+  double last_jam_ = -1;
   bool at_begin_ = false;
   std::int64_t checks_ = 0;
 };

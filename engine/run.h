@@ -101,6 +101,7 @@ struct RunOutcome {
   std::vector<double> state;
   std::vector<Event> events;
   std::vector<std::string> regularised;  // what lost its events because they found no rest
+  std::vector<std::string> held;         // what stands at the end: by whom, and what is missing to move on
   RunStatistics statistics;
   StepLimits limits;
 };

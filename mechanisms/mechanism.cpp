@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/jam.h"
 #include "engine/scene.h"
 #include "mechanisms/closed_forms.h"
 #include "mechanisms/deforming_mechanism.h"
@@ -292,11 +293,20 @@ CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const
           p.at.direction(now)};
 }
 
+SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state) {
+  try {
+    return p.mechanism.joints->friction_torque(state);
+  } catch (Jam& jam) {
+    jam.shaft = p.at.shaft;
+    throw;
+  }
+}
+
 void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums) const {
   for (const Placed& p : placed_) {
     if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
     const CrankState state = crank_state(p, now, alpha);
-    const auto [torque, slope] = p.mechanism.joints->friction_torque(state);
+    const auto [torque, slope] = friction_torque(p, state);
     sums.torque[p.at.shaft] -= p.at.gain * torque;
     sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
     sums.element_torque[p.at.id] -= torque;
@@ -313,7 +323,7 @@ void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, c
   const auto torque = [&](double phi, double omega) {
     CrankState s = here;
     s.phi = phi, s.omega = omega, s.slider_force = load_force(p, now, phi, omega);
-    return p.mechanism.joints->friction_torque(s).torque;
+    return friction_torque(p, s).torque;
   };
   constexpr double step = 1e-6;
   const double speed_step = step * std::max(1.0, std::abs(here.omega));

@@ -136,6 +136,7 @@ class MechanismPool final : public ElementPool {
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   double load_force(const Placed& p, const Instant& now) const;
   double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
+  static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state);
   CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
   void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
   Hold load_hold(const Placed& p, const Instant& now) const;

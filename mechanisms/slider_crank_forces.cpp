@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/jam.h"
+
 namespace kurbel {
 namespace {
 
@@ -391,7 +393,7 @@ SliderCrankStatics::Solution SliderCrankStatics::solve_friction(const Table& uni
     solution.iterations = trial.iterations;
     step /= 2;
     if (step < least_step)
-      throw std::runtime_error(
+      throw Jam(
           fmt::format("slider-crank: its joints jam at phi = {:.6g} deg: from {:.3g} % of the given friction on no "
                       "finite reactions satisfy the friction laws; lower the coefficients, lengthen the rod, or "
                       "lengthen the guide",

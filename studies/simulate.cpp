@@ -475,6 +475,7 @@ class Simulation {
     result_.model = model_;
     fill_energy(*run.energy);
     if (!run.last_state.empty()) fill_final(run);
+    for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
     for (const std::string& what : run.outcome.regularised)
       result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");

@@ -21,6 +21,7 @@ std::vector<HardCase> time_scale_cases();
 std::vector<HardCase> event_cases();
 std::vector<HardCase> extreme_cases();
 std::vector<HardCase> clearance_and_rod_cases();
+std::vector<HardCase> jam_cases();
 
 // Undamped machines of any length, for the growth of errors.
 HardCase free_crank_over(double turns);

@@ -1,0 +1,166 @@
+// jams_test.cpp — machines that cannot go on: held at rest, thrown back, rocking, or jammed in motion; each ends in
+// order, with its energy balanced and as many events as its swings make.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+std::string scene_text(const std::string& name) {
+  const std::ifstream file(test::source_path("scenes/" + name));
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+bool has_note(const Result& r, const std::string& words) {
+  return std::any_of(r.notes.begin(), r.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+// A press that cannot break its sheet is thrown back by its couplings, out of the working zone. Its main coupling
+// swings at 14 Hz, its gearbox at 65 Hz; a swing makes six events at most (rest, away, two edges there and back).
+constexpr double events_a_second = 6 * 70, events_at_all = 50;
+
+std::string orderly(const Result& r, double until) {
+  if (!r.complete) return r.diagnosis;
+  if (has_note(r, "found no rest")) return "a law without events";
+  if (!(r.energy.relative < 10 * r.accuracy)) return fmt::format("energy closes to {:.1e} only", r.energy.relative);
+  if (static_cast<double>(r.events.size()) > events_a_second * until + events_at_all)
+    return fmt::format("{} events", r.events.size());
+  return {};
+}
+
+std::string blocked_press(double force, const std::string& motor, const std::string& elasticity, bool friction,
+                          double angle, double until) {
+  std::string text = scene_text("crank_press.toml");
+  text = with(text, "nominal_force = \"630 kN\"", fmt::format("nominal_force = \"{:.17g} kN\"", force));
+  text = with(text, "elasticity = [\"motor_coupling\", \"main_coupling\"]",
+              fmt::format("elasticity = [{}]\njoint_friction = {}", elasticity, friction));
+  text = with(text, "angle = \"90 deg\"", fmt::format("angle = \"{:.17g} deg\"", angle));
+  text = with(text, "until    = \"10 s\"", fmt::format("until = \"{:.17g} s\"", until));
+  text = with(text, "accuracy = 1e-6", "accuracy = 1e-5");
+  if (motor.starts_with("kind")) {
+    const std::size_t from = text.find("[motor] ");
+    return text.replace(from, text.find("[motor_coupling]") - from,
+                        "[motor]\n" + motor + "\ninertia = \"0.092 kg*m2\"\n\n");
+  }
+  return with(text, "breakdown_ratio   = 3.0", "breakdown_ratio   = 3.0\n" + motor + "\n#");
+}
+
+const std::vector<std::string>& motors() {
+  static const std::vector<std::string> all = {
+      "",  // Kloss
+      "starting_ratio = 2.2\npull_up_ratio = 1.8\npull_up_speed = \"300 rpm\"",
+      "frequency = \"50 Hz\"\nresistance_ratio = 1",
+      "kind = \"dc shunt motor\"\nstall_torque = \"294 N*m\"\nno_load_speed = \"1500 rpm\"",
+      "kind = \"dc series motor\"\nvoltage = \"400 V\"\nresistance = \"1 Ohm\"\nconstant = \"0.002 "
+      "N*m/A2\"\nrated_speed "
+      "= \"1500 rpm\"",
+      "kind = \"pneumatic motor\"\nmax_power = \"15 kW\"\nfree_speed = \"1500 rpm\"",
+  };
+  return all;
+}
+
+TEST(Jams, APressThrownBackOutOfItsWorkingZoneRocksWithoutAStormOfEvents) {
+  for (const bool friction : {false, true}) {
+    const Result r =
+        test::run(blocked_press(4000, "", "\"motor_coupling\", \"main_coupling\"", friction, 90, 2.5), false);
+    EXPECT_EQ(orderly(r, 2.5), "") << friction;
+  }
+}
+
+TEST(Jams, RandomStallsEndInOrder) {
+  std::mt19937 random(20);
+  const auto part = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  const std::vector<std::string> elastic = {"", "\"main_coupling\"", "\"motor_coupling\", \"main_coupling\""};
+  for (std::size_t k = 0; k < 24; ++k) {
+    const double force = 2500 * std::pow(6300.0 / 2500, part()), angle = 360 * part(), until = 3;
+    const std::string& motor = motors()[k % motors().size()];
+    const std::string& joints = elastic[(k / motors().size()) % elastic.size()];
+    const bool friction = part() < 0.5;
+    const Result r = test::run(blocked_press(force, motor, joints, friction, angle, until), false);
+    EXPECT_EQ(orderly(r, until), "") << fmt::format("{:.17g} kN, {:.17g} deg, elastic [{}], friction {}\n{}", force,
+                                                    angle, joints, friction, motor);
+  }
+}
+
+// A trial step that goes far beyond the load's edge says nothing of the machine.
+TEST(Jams, JointsDoNotJamWhereATrialStepIsTooLong) {
+  const Result r = test::run(blocked_press(2500, motors()[1], "", true, 90, 3), false);
+  EXPECT_EQ(orderly(r, 3), "");
+}
+
+TEST(Jams, APumpStartedBackwardsTurnsRound) {
+  std::string text = scene_text("piston_pump.toml");
+  text = with(text, "speed = \"301 rpm\"", "speed = \"-301 rpm\"");
+  text = with(text, "equilibrium = true", "equilibrium = false");
+  text = with(text, "until    = \"4 s\"", "until = \"1.5 s\"");
+  const Result r = test::run(text, false);
+  EXPECT_EQ(orderly(r, 1.5), "");
+  EXPECT_GT(test::figure(r, "final_speed.crankshaft"), 30);
+}
+
+// From |η₂| I₂′ > I₁ on, a worm that turns back with its load has no motion on that flank: it lets go on the other, and
+// where that ends it jams.
+TEST(Jams, AWormWhoseMotorStopsComesToRestAndHoldsItsLoad) {
+  for (const double friction : {0.14, 0.15, 0.16, 0.18, 0.2}) {
+    std::string text = scene_text("worm_hoist.toml");
+    text = with(text, "friction_coefficient = 0.09", fmt::format("friction_coefficient = {}", friction));
+    const Result r = test::run(text, false);
+    EXPECT_EQ(orderly(r, 4), "") << friction;
+    EXPECT_EQ(test::figure(r, "final_speed.drum"), 0) << friction;
+  }
+}
+
+// What stands at the end says who holds it, what acts, and what is missing.
+TEST(Jams, ARestSaysWhatHoldsItAndWhatIsMissing) {
+  const Result r = test::run(
+      "line = [\"source\", \"wheel\"]\nsource = { kind = \"torque source\", torque = \"9 N*m\" }\nwheel = { kind = "
+      "\"flywheel\", inertia = \"2 kg*m2\" }\nbearing = { kind = \"bearing\", on = \"wheel\", torque = \"12 N*m\", "
+      "static_torque = \"15 N*m\" }\nrun = { until = \"1 s\" }\n",
+      false);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_TRUE(has_note(r,
+                       "held at the end by bearing: 9 N·m act; forwards: 15 N·m are held, 6 N·m are missing; "
+                       "backwards: -15 N·m are held, 24 N·m are missing"))
+      << (r.notes.empty() ? "no notes" : r.notes.front());
+}
+
+// A rough guide (f = 0.8) and a steep rod (l/r = 1.1): once f |tan β| passes 1 no reactions exist, from
+// |sin φ| r/l = sin atan(1/f) on, φ = 239.2° (inertia forces shift it by little). The crank stops there at once, its
+// energy lost in the joints; the load then pushes it back, the other way.
+TEST(Jams, JointsThatJamInMotionStopTheCrankAtOnce) {
+  for (const char* method : {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams"}) {
+    Scene scene = test::scene_from(R"(
+line = ["wheel", "crank"]
+wheel = { kind = "flywheel", inertia = "0.4 kg*m2" }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "110 mm", crank_inertia = "0.1 kg*m2", slider_mass = "1 kg", guide = { friction = 0.8 }, load = { kind = "constant", force = "-100 N" } }
+effects = { joint_friction = true }
+run = { start = { angle = "185 deg", speed = "20 rad/s" }, until = "0.3 s", accuracy = 1e-4 }
+)");
+    scene.run.method = method;
+    const Result r = test::run(scene, false);
+    EXPECT_EQ(orderly(r, 1), "") << method;
+    const double limit = M_PI + std::asin(std::sin(std::atan(1 / 0.8)) * 1.1);
+    const auto jam =
+        std::find_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.what.starts_with("jams: "); });
+    ASSERT_NE(jam, r.events.end()) << method;
+    EXPECT_NEAR(jam->angle, limit, 0.03) << method;
+    EXPECT_LE(test::figure(r, "final_angle.crank"), jam->angle) << method;
+    EXPECT_LT(r.energy.by_account.at("crank.joints"), -80) << method;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel
