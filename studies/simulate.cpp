@@ -397,7 +397,10 @@ class Simulation {
     run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
-    if (!run->outcome.state.empty()) Figures(model, equations, *run, tolerance).collect();
+    if (!run->outcome.state.empty()) {
+      Figures(model, equations, *run, tolerance).collect();
+      run->last_state = last_state(model, equations, run->outcome);
+    }
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,

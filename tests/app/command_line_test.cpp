@@ -208,7 +208,7 @@ TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
   };
   const auto before = results({});
   const Ended study = kurbel({"accuracy", path, "--methods", "dop853", "verner6", "--tolerances", "1e-5", "1e-9",
-                              "--no-multibody", "--time", "5"});
+                              "--no-multibody", "--time", "5 s"});
   ASSERT_EQ(study.code, 0) << study.err;
   const std::string file = "results/scene/accuracy/summary.json";
   EXPECT_NE(study.out.find("kurbel run scene.toml --setting " + file), std::string::npos) << study.out;

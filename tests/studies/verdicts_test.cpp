@@ -138,8 +138,8 @@ TEST(Efficiency, LiesBetweenNothingAndOneForAnyLoadSpeedAndFriction) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
   int made = 0;
-  for (int k = 0; k < 12; ++k) {
-    const double force = std::pow(10, between(-12, 2.5));
+  for (int k = 0; k < 18; ++k) {
+    const double force = std::pow(10, between(-9, 2.5));
     const std::string load = k % 3 == 2
                                  ? fmt::format("load = {{ kind = \"medium\", viscous = \"{} N*s/m\" }}", 0.1 * force)
                                  : fmt::format("load = {{ kind = \"opposing\", force = \"{} N\" }}", force);
