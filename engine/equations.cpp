@@ -272,8 +272,11 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
       change = std::max(
           change, std::abs(step) / (std::abs(reaction_alpha_[s]) + 1e-3 * m.shafts[s].torque_scale / inertia_[s]));
     }
+    const bool lost =
+        !std::all_of(reaction_next_.begin(), reaction_next_.end(), [](double a) { return std::isfinite(a); });
     const bool round_off = change < 1e-12 && change >= 0.5 * last_change;
-    last_change = change;
+    last_change = lost ? HUGE_VAL : change;
+    if (lost) break;
     if (!(change > 1e-14) || round_off) break;
   }
   constexpr double settled = 1e-8;  // Newton's method that goes to and fro over a kink has found nothing

@@ -380,7 +380,8 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
   for (std::size_t s = model_->free_shafts; s < model_->shafts.size(); ++s) alpha_[s] = prescribed_acceleration(s, t);
   constexpr double round_off = 1e-9;
   // Does a torque that pushes on speed up what slips that way? Where a gear that locks itself turns back with its load,
-  // the more it is pushed the more it holds: what lets go at its limit does not go that way.
+  // the more it is pushed the more it holds: what lets go at its limit does not go that way. What another contact holds
+  // answers no push at all, and lets go all the same.
   const auto gives_way = [&](std::size_t c, int way) {
     const std::vector<double> contact_torque = contact_torque_, relation_torque = relation_torque_;
     std::vector<double> torque = free_torque_, pushed = alpha_;
@@ -388,7 +389,12 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
     find_accelerations(t, torque, inertia_, pushed.data());
     contact_torque_ = contact_torque;
     relation_torque_ = relation_torque;
-    return way * (sum_over(contacts_[c].motion, pushed.data()) - sum_over(contacts_[c].motion, alpha_.data())) > 0;
+    double answer = 0, size = 0;
+    for (const ShaftGain& g : contacts_[c].motion) {
+      answer += way * g.gain * (pushed[at(g.shaft)] - alpha_[at(g.shaft)]);
+      size += std::abs(g.gain) * (std::abs(pushed[at(g.shaft)]) + std::abs(alpha_[at(g.shaft)]));
+    }
+    return answer >= -round_off * size;
   };
   Misfit worst;
   const auto consider = [&](double size, std::size_t which, int better) {

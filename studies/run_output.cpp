@@ -23,7 +23,7 @@ std::string value_cell(const std::optional<double>& value, const std::optional<d
   return value ? figure_text(*value, error).value : "—";
 }
 std::string error_cell(const std::optional<double>& value, const std::optional<double>& error) {
-  return value ? error_cell(*value, error) : "";
+  return value ? kurbel::error_cell(*value, error) : "";
 }
 // The time of a period's end from the figure that has it, if one has.
 std::string time_text(const Result& r, double t) {

@@ -47,7 +47,9 @@ void expect_same_bits(const Result& a, const Result& b) {
     const Figure* other = b.find(f.name);
     if (!other) continue;
     expect_same_bits(f.value, other->value, f.name);
-    if (f.error && other->error) expect_same_bits(*f.error, *other->error, "error of " + f.name);
+    // A part of what is typical of all figures belongs to each error: it is the same for the same list.
+    if (a.figures.size() == b.figures.size() && f.error && other->error)
+      expect_same_bits(*f.error, *other->error, "error of " + f.name);
   }
   std::size_t channels = 0;
   for (const Channel& channel : a.trajectory->channels()) {

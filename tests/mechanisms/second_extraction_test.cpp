@@ -197,7 +197,7 @@ TEST(SecondExtraction, MeanInertiaIsTheIntegralOfTheClosedForm) {
     const SliderCrankGeometry g(d);
     // Midpoints in u, φ = quarter + side · u⁵, which crowd at the quarter turns.
     long double sum = 0;
-    constexpr int n = 4000;
+    constexpr int n = 20000;
     for (int i = 0; i < n; ++i) {
       const long double u = (i + 0.5L) / n, width = std::numbers::pi_v<long double> / 4;
       for (int quarter = 0; quarter < 4; ++quarter)

