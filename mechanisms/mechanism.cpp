@@ -294,6 +294,9 @@ CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const
 }
 
 SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state) {
+  // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
+  if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.slider_force))
+    throw Jam("slider-crank: no finite motion to find its joints' friction by", p.at.shaft);
   try {
     return p.mechanism.joints->friction_torque(state);
   } catch (Jam& jam) {
