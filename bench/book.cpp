@@ -133,9 +133,11 @@ std::string BenchBook::json() const {
 
 Report BenchBook::report() const {
   const auto met = std::count_if(targets.begin(), targets.end(), [](const BenchTarget& t) { return t.met; });
-  Report report{.title = "kurbel_bench",
-                .subtitle = "What accuracy, effects and size cost, and whether the hard cases end right",
-                .conclusion = fmt::format("{}", fmt::join(conclusions, " "))};
+  Report report{
+      .title = "kurbel_bench",
+      .subtitle =
+          "What accuracy, effects and size cost, whether the hard cases end right and stated errors cover true ones",
+      .conclusion = fmt::format("{}", fmt::join(conclusions, " "))};
   if (!targets.empty())
     report.conclusion += fmt::format("{}{} of {} targets met.", conclusions.empty() ? "" : " ", met, targets.size());
   if (!targets.empty()) report.add("Targets").cards.push_back(target_table(*this));

@@ -251,8 +251,9 @@ Table costs(const Variants& all) {
     const Cost cost = cost_of(all, group.run);
     const auto unconfirmed = std::count_if(
         all.begin(), all.end(), [&](const MeasuredVariant& v) { return v.whole && !v.confirmed && group.run(v); });
-    table.rows.push_back({group.name, std::to_string(cost.runs), fmt::format("{:.2f}", cost.mean()),
-                          fmt::format("{:.2f}", cost.of_sums()), std::to_string(unconfirmed)});
+    const auto ratio = [&](double value) { return cost.runs > 0 ? fmt::format("{:.2f}", value) : std::string("–"); };
+    table.rows.push_back({group.name, std::to_string(cost.runs), ratio(cost.mean()), ratio(cost.of_sums()),
+                          std::to_string(unconfirmed)});
   }
   return table;
 }
@@ -401,15 +402,16 @@ void report_coverage(BenchBook& book, const Variants& all) {
       percent(two.share()), coverage::quantile(ratios, 0.5), percent(c.uncertain_share())));
   add_targets(book, all, overall, c, ratios);
   ReportSection section{.title = "Do stated errors cover the true ones?"};
-  section.cards.emplace_back(matrix(all));
   section.cards.emplace_back(histogram(ratios));
   section.cards.emplace_back(shares("By method", "method", all, groups_of(coverage::methods(), of_method)));
   section.cards.emplace_back(shares("By accuracy", "accuracy", all, groups_of(coverage::accuracies(), of_accuracy)));
+  section.cards.emplace_back(shares("By what the program says of its run", "run", all,
+                                    {{"confirmed", [](const MeasuredVariant& v) { return v.confirmed; }},
+                                     {"not confirmed", [](const MeasuredVariant& v) { return !v.confirmed; }}}));
   section.cards.emplace_back(shares("By family of figures", "figure", all, families(all), true));
   section.cards.emplace_back(times(all));
   section.cards.emplace_back(shares("By scene", "scene", all, scenes(all), true));
   section.cards.emplace_back(costs(all));
-  section.cards.emplace_back(counts_table(all, c));
   section.cards.emplace_back(reasons("How variants ended that were not judged", c.ended));
   section.cards.emplace_back(reasons("Why draws were refused", c.refused));
   book.tables.insert(book.tables.end(), {matrix(all), counts_table(all, c)});

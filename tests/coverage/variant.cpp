@@ -64,7 +64,7 @@ bool turns_a_mechanism(const Scene& scene) {
   });
 }
 
-std::string run_table(const Scene& scene, double accuracy, const std::string& method, Dice& dice) {
+std::string run_table(const Scene& scene, double accuracy, const std::string& method, double length, Dice& dice) {
   const StartSettings& start = scene.run.start;
   const double faster = dice.factor(0.7, 1.4);
   double angle = start.angle;
@@ -87,7 +87,7 @@ std::string run_table(const Scene& scene, double accuracy, const std::string& me
     text += " }";
   }
   text += " }\n";
-  const double until = scene.run.until * dice.between(0.15, 1);
+  const double until = length * scene.run.until * dice.between(0.15, 1);
   return fmt::format("\n[run]\n{}until    = \"{:.6g} s\"\naccuracy = {:.0e}\nmethod   = \"{}\"\n", text, until,
                      accuracy, method);
 }
@@ -149,7 +149,7 @@ const std::vector<double>& accuracies() {
   return all;
 }
 
-Variant make_variant(const std::string& scene, std::uint64_t seed) {
+Variant make_variant(const std::string& scene, std::uint64_t seed, double length) {
   const std::string path = path_of(scene), original = read_text_file(path, max_scene_bytes);
   const Scene plain = parse_scene(original, path, all_kinds());
   Variant variant{.scene = scene, .seed = seed, .text = {}, .method = {}, .refused = {}, .read = {}};
@@ -162,7 +162,7 @@ Variant make_variant(const std::string& scene, std::uint64_t seed) {
       // Effects of the scene as it was, switched where the machine as it is has parameters for them.
       const Scene machine = parse_scene(moved, path, all_kinds());
       variant.text = moved + effects_table(plain, machine, variant.method == "work", dice) +
-                     run_table(plain, variant.accuracy, variant.method, dice);
+                     run_table(plain, variant.accuracy, variant.method, length, dice);
       variant.read = parse_scene(variant.text, path, all_kinds());
       const std::string why = refusal_by_method(variant.read, variant.method);
       if (why.empty()) return variant;

@@ -31,7 +31,8 @@ const std::vector<double>& accuracies();
 
 // Physical parameters × 0.7 … 1.4, effects switched, start and end moved, a method and an accuracy drawn. What the
 // reader, the compiler or the method refuses is drawn again. Throws std::runtime_error if all draws are refused.
-Variant make_variant(const std::string& scene, std::uint64_t seed);
+// `length`: of the simulated time, over that of a campaign's variant, which otherwise is the same.
+Variant make_variant(const std::string& scene, std::uint64_t seed, double length = 1);
 
 // The same machine started one cycle of its reduction link on, where that changes nothing but its angles: it has a
 // cycle, whatever depends on an angle repeats itself after it, and its operating sequence waits for no angle.

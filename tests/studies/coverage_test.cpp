@@ -2,6 +2,7 @@
 // on.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <sstream>
 
 #include "tests/coverage/records.h"
@@ -58,6 +59,23 @@ TEST(Coverage, MeasuredVariantsReadBackAsWritten) {
   ASSERT_EQ(read[0].figures.size(), 2u);
   EXPECT_EQ(read[0].figures[0].value, v.figures[0].value);
   EXPECT_EQ(read[0].figures[1].verdict, Verdict::missed);
+}
+
+// A variant of every example scene, over a twelfth of a campaign's time. Of its 2640 variants the campaign finds more
+// than 99.5 % covered.
+TEST(Coverage, StatedErrorsCoverTrueOnesInVariantsOfAllScenes) {
+  std::vector<MeasuredVariant> measured;
+  for (const std::string& scene : scene_names())
+    measured.push_back(
+        measure(make_variant(scene, 1, 1.0 / 12), {.budget = 30, .reference_budget = 30, .by_two = false}));
+  for (const Miss& miss : misses_of(measured))
+    std::printf("%s, %s at %.0e: %s = %.9g, stated %.1e, true %.1e\n", miss.variant->scene.c_str(),
+                miss.variant->method.c_str(), miss.variant->accuracy, miss.figure->name.c_str(), miss.figure->value,
+                miss.figure->stated, miss.figure->error());
+  const Share share = share_of(measured);
+  EXPECT_GE(share.runs, 29);
+  EXPECT_GE(share.judged, 500);
+  EXPECT_GE(share.share(), 0.99);
 }
 
 }  // namespace
