@@ -29,7 +29,7 @@ std::string error_cell(const std::optional<double>& value, const std::optional<d
 std::string time_text(const Result& r, double t) {
   for (const Figure& f : r.figures)
     if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
-      return with_error(t, f.at_error ? f.at_error : f.error, "s");
+      return with_error(t, f.error, "s");
   return with_unit(t, "s", 6);
 }
 

@@ -32,8 +32,14 @@ bool cut_away(const GearWheel& w, double r, double angle) {
   return false;
 }
 
-// Radius at which the involute ends, from the rack alone: nothing of it is cut above.
+// Radius at which the involute ends, from the rack alone: of an undercut flank, nothing of it is cut above; else where
+// the end of the rack's straight flank made it, r² = r_b² + (r sin α − h/sin α)² with h its depth below the pitch line.
 double end_of_involute(const GearWheel& w) {
+  if (!w.undercut) {
+    const double cosine = w.base_diameter / w.reference_diameter, sine = std::sqrt(1 - cosine * cosine);
+    const double depth = (w.rack.straight_depth() - w.generating_shift) * w.module;
+    return std::hypot(0.5 * w.base_diameter, 0.5 * w.reference_diameter * sine - depth / sine);
+  }
   const double base = 0.5 * w.base_diameter, hair = 1e-5 * w.module;
   const auto lost = [&](double r) { return cut_away(w, r, 0.5 * w.thickness(2 * r) / r - hair / r); };
   double low = base * (1 + 1e-9), high = 0.5 * std::min(w.tip_diameter, w.pointed_diameter());
@@ -102,7 +108,9 @@ TEST(GearInterference, IsToldWhereTheTipLeavesTheInvoluteUndercutOrNot) {
     const bool expected = tip->past_foot > 0 || margin < 0;
     EXPECT_EQ(interference(p, 0).found(), expected)
         << "z = " << p.data.teeth[0] << ", " << p.data.teeth[1] << ", x = " << pinion.shift << ": tip at "
-        << tip->radius << ", involute from " << end << ", past the base circle " << tip->past_foot;
+        << tip->radius << ", involute from " << end << ", past the base circle " << tip->past_foot << "; reached "
+        << pinion.reached_diameter / 2 << ", form circle " << pinion.form_diameter / 2 << ", tips from " << p.tip_start
+        << " to " << p.tip_end << ", limits " << p.limit_start << ", " << p.limit_end;
     EXPECT_EQ(says(p, "Interference: the tip of wheel 2"), expected);
     EXPECT_EQ(says(p, "Wheel 1 (z = " + std::to_string(p.data.teeth[0]) + ") is undercut"), pinion.undercut);
     ++judged;
