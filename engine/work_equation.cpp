@@ -101,8 +101,10 @@ constexpr double closes_within = 1e-12;  // work per cycle over turnover
 constexpr double narrow = std::numbers::pi / 512;         // panel [rad]
 constexpr double tail_of_narrow = 1e-11;                  // of the largest value: within 10⁻¹⁴ of a turn's work
 constexpr double narrowest = std::numbers::pi * 0x1p-22;  // [rad]: a corner that is no edge of the machine
-constexpr double mildest = 4;  // T may vary by this factor: 16 nodes then give 1/√T to 5e-16
-constexpr int deepest = 60;    // bisections of a panel towards a place of rest
+constexpr std::size_t many_panels = 8192;  // beyond so many none is halved below `narrow`: what is left is rounding
+constexpr double rounding_torque = 1e-9;   // of the machine's scale: a machine without torques has nothing to resolve
+constexpr double mildest = 4;              // T may vary by this factor: 16 nodes then give 1/√T to 5e-16
+constexpr int deepest = 60;                // bisections of a panel towards a place of rest
 
 }  // namespace
 
@@ -116,7 +118,7 @@ WorkOverAngle::WorkOverAngle(RigidMachine& machine, const std::vector<double>& e
     if (direction_ < 0) e = e > 0 ? cycle_ - e : 0;
   std::sort(end.begin(), end.end());
   end.push_back(cycle_);
-  double largest_torque = 0;
+  double largest_torque = rounding_torque * machine.model().torque_scale;
   for (int i = 0; i < 360; ++i) {
     const double phi = direction_ * cycle_ * (i + 0.5) / 360;
     machine.set_modes(phi, direction_);
@@ -152,7 +154,7 @@ void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, 
   const double allowed = end - begin > narrow ? tail_allowed : tail_of_narrow;
   const bool resolved = tail(panel.inertia_term) <= allowed * largest(panel.inertia) &&
                         tail(panel.torque_term) <= allowed * std::max(largest_torque, largest(torque));
-  if (!resolved && end - begin > narrowest) {
+  if (!resolved && end - begin > (panel_.size() < many_panels ? narrowest : narrow)) {
     add_panels(machine, begin, begin + panel.half, largest_torque);
     add_panels(machine, begin + panel.half, end, largest_torque);
     return;

@@ -143,7 +143,11 @@ void expect_same(const Json& a, const Json& b, const std::string& where, double 
     for (const auto& [key, value] : a.items()) {
       if (is_noise(key) || (harmonic && key == "phase")) continue;
       if (key == "at" && value.is_number() && b.contains(key) && b[key].is_number()) {  // peaks are flat
-        EXPECT_NEAR(value.get<double>(), b[key].get<double>(), 1e-4) << where;
+        // The torque of a belt that slips stays at its largest value: rounding chooses the time.
+        const std::string name = a.value("name", "");
+        if (!name.starts_with("peak_") || name.find("torque.belt") == std::string::npos) {
+          EXPECT_NEAR(value.get<double>(), b[key].get<double>(), 1e-4) << where << ": " << name;
+        }
         continue;
       }
       if (!b.contains(key)) {
