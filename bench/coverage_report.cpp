@@ -280,7 +280,7 @@ struct Counts {
   long whole = 0, finished = 0, unconfirmed = 0;
   std::map<Verdict, long> figures;
   long impacts = 0, impacts_right = 0, uncertain_runs = 0;
-  std::map<std::string, long> ended, refused;
+  std::map<std::string, long> ended, doubted, refused;
   double uncertain_share() const {
     double all = 0;
     for (const auto& [verdict, n] : figures) all += static_cast<double>(n);
@@ -298,6 +298,7 @@ Counts count(const Variants& all) {
         v.words.starts_with(coverage::no_errors) && v.words.find("processor time is spent") == std::string::npos;
     c.finished += v.whole || without_errors;
     c.unconfirmed += (v.whole && !v.confirmed) || without_errors;
+    if (v.whole && !v.confirmed) ++c.doubted[without_numbers(v.words)];
     if (!v.whole) {
       ++c.ended[without_numbers(v.words)];
       continue;
@@ -413,6 +414,7 @@ void report_coverage(BenchBook& book, const Variants& all) {
   section.cards.emplace_back(shares("By scene", "scene", all, scenes(all), true));
   section.cards.emplace_back(costs(all));
   section.cards.emplace_back(reasons("How variants ended that were not judged", c.ended));
+  section.cards.emplace_back(reasons("Why runs were not confirmed", c.doubted));
   section.cards.emplace_back(reasons("Why draws were refused", c.refused));
   book.tables.insert(book.tables.end(), {matrix(all), counts_table(all, c)});
   ReportSection worst{.title = "Where they do not"};

@@ -174,6 +174,8 @@ MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings)
     for (const std::string& note : result.notes) out.words += "; " + note;
     return out;
   }
+  if (!out.confirmed)
+    for (const std::string& note : result.notes) out.words += (out.words.empty() ? "" : "; ") + note;
   LadderOfTwo two(model, variant, settings.budget);
   if (settings.by_two) two.climb();
   out.flow_calls_of_two = two.fine() ? two.flow_calls() : 0;

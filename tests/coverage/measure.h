@@ -43,7 +43,7 @@ struct MeasuredVariant {
   std::uint64_t seed = 0;
   double accuracy = 0;
   bool whole = false;      // measured and judged
-  std::string words;       // why not
+  std::string words;       // why not, or why it was not confirmed
   bool confirmed = false;  // the program says that the accuracy asked for was reached
   int runs = 0;
   double tolerance = 0;                                // of the run that the figures are from
