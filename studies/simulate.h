@@ -1,4 +1,5 @@
-// simulate.h — one scene, one set of effects: run until a tighter run and one from elsewhere confirm the accuracy asked for.
+// simulate.h — one scene, one set of effects: run until a tighter run and one from elsewhere confirm the accuracy asked
+// for.
 #pragma once
 
 #include <atomic>
