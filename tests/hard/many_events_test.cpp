@@ -20,7 +20,8 @@ TEST(ManyEvents, ClutchesBrakesAndGapsRunWithoutChatter) {
   // more.
   EXPECT_LE(r.statistics.stepper.restarts, 2 * r.statistics.events);
   EXPECT_LT(r.energy.relative, 1e-7);
-  for (const std::string& note : r.notes) EXPECT_EQ(note.find("a law without events"), std::string::npos) << note;
+  // Nothing was regularised: all that is said is what holds still at the end.
+  for (const std::string& note : r.notes) EXPECT_NE(note.find("is held at the end by"), std::string::npos) << note;
   // No contact goes there and back at one instant.
   std::map<std::string, const Event*> last;
   for (const Event& e : r.events) {
