@@ -6,7 +6,9 @@
 //     at rest anything between both                       (law: Modelica.Mechanics.Rotational.Components.LossyGear)
 // The output receives i μ. The two lines of L meet where the flanks change: with b₁ = b₂ at λ = 0, otherwise where the
 // friction of the input's own bearings takes all. η₂ ≤ 0: the gear locks itself. At rest it then holds any torque on
-// the output; moving with the load it wants λ = |η₂| |μ| of help. Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
+// the output; moving with the load it wants λ = |η₂| |μ| of help. From |η₂| I₂ ≥ I₁ i² on (I₁ the inertia on its input,
+// I₂ on its output) no acceleration satisfies that while the load drives: it jams, and stops at once (engine/jam.h).
+// Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
 #pragma once
 
 #include <algorithm>

@@ -100,7 +100,6 @@ class Compiler {
     make_shafts();
     make_elastic_joints();
     model_.relations = relations_over_shafts(model_);
-    for (std::string& line : bound_self_locking(model_)) model_.merged.push_back(std::move(line));
     check_inertias();
     find_scales();
     find_cycle();

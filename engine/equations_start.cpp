@@ -100,6 +100,11 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   const Model& m = *model_;
   std::fill(turns_.begin(), turns_.end(), 0.0);
   std::fill(mode_.begin(), mode_.end(), 0);  // a law that lost its events in an earlier run has them again
+  // Where several sets of modes fit, the search for one must not begin at what an earlier run ended with.
+  std::fill(loss_sign_.begin(), loss_sign_.end(), 1);
+  std::fill(relation_torque_.begin(), relation_torque_.end(), 0);
+  std::fill(relation_loss_.begin(), relation_loss_.end(), 0);
+  std::fill(contact_torque_.begin(), contact_torque_.end(), 0);
   wrap(y);
   begin_sequence(t, y, nullptr);
   set_timed_modes(t);

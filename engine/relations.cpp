@@ -15,8 +15,6 @@ namespace {
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-constexpr double least_efficiency = 1e-6;  // magnitude of η₂ that is told from none
-
 std::string torque_name(const Network& network, const Network::Relation& relation, int k) {
   const Network::Node& node = network.nodes[at(relation.node[at(k)])];
   return relation.component + "." + node.label;
@@ -51,40 +49,6 @@ void list_torques(const Network& network, const Network::Relation& relation, int
     else if (k == 2)
       known->terms.push_back(term);  // the housing bears the reaction of every stage
   }
-}
-
-// What hangs on node `from` without the relation, as one inertia at that node in the usual motion.
-double inertia_behind(const Model& model, std::size_t skipped, int from) {
-  const Network& net = model.network;
-  std::set<int> seen = {from};
-  std::vector<int> queue = {from};
-  const auto visit = [&](int node) {
-    if (seen.insert(node).second) queue.push_back(node);
-  };
-  for (std::size_t next = 0; next < queue.size(); ++next) {
-    const int here = queue[next];
-    for (const Network::Joint& joint : net.joints)
-      if (joint.a == here || joint.b == here) visit(joint.a), visit(joint.b);
-    for (std::size_t r = 0; r < net.relations.size(); ++r) {
-      if (r == skipped) continue;
-      const auto& node = net.relations[r].node;
-      if (std::find(node.begin(), node.end(), here) == node.end()) continue;
-      for (int k = 0; k < net.relations[r].members(); ++k) visit(node[at(k)]);
-    }
-  }
-  double sum = 0;
-  const double own = model.scale_ratio[at(from)];
-  const auto add = [&](int node, double inertia) {
-    const double ratio = model.node_ratio[at(node)] / own;
-    sum += inertia * ratio * ratio;
-  };
-  for (const int n : seen) {
-    if (net.nodes[at(n)].prescribed >= 0 && model.node_ratio[at(n)] != 0) return HUGE_VAL;
-    add(n, net.nodes[at(n)].inertia);
-  }
-  for (const Network::ShaftElement& e : net.elements)
-    if (seen.count(e.node)) add(e.node, e.element->mean_inertia());
-  return sum;
 }
 
 }  // namespace
@@ -196,36 +160,6 @@ std::vector<int> shafts_without_motion(const Model& model) {
     if (moves || model.shafts[at(massless[k])].mean_inertia < 0) undefined.push_back(massless[k]);
   }
   return undefined;
-}
-
-std::vector<std::string> bound_self_locking(Model& model) {
-  std::vector<std::string> words;
-  for (std::size_t r = 0; r < model.network.relations.size(); ++r) {
-    const Network::Relation& relation = model.network.relations[r];
-    if (!relation.lossy) continue;
-    GearLoss& law = model.relations[r].in_motion;
-    double bound = 0;
-    for (GearLoss::Line* line : {&law.forwards_driven, &law.backwards_driven}) {
-      const double efficiency = 1 / (1 - line->slope);
-      if (efficiency > 0) continue;
-      if (bound == 0) {
-        const double near = inertia_behind(model, r, relation.node[0]),
-                     far = inertia_behind(model, r, relation.node[1]);
-        const double gain = relation.gain[1];
-        bound = std::isinf(near) ? HUGE_VAL : std::isinf(far) ? 0 : 0.5 * near * gain * gain / far;
-      }
-      if (-efficiency <= bound) continue;
-      // Too little to tell from none: then an overhauling load does nothing to the near side.
-      const double bounded = bound > least_efficiency ? -bound : least_efficiency;
-      line->slope = 1 - 1 / bounded;
-      if (line == &law.forwards_driven)
-        words.push_back(fmt::format(
-            "\"{}\" locks itself so strongly (efficiency {:.3g} backwards) that it would jam in motion with "
-            "these inertias; in motion it counts as {:.3g}",
-            relation.component, efficiency, bounded));
-    }
-  }
-  return words;
 }
 
 std::vector<int> loose_trees(const Model& model) {

@@ -23,10 +23,6 @@ std::vector<ShaftRelation> relations_over_shafts(const Model& model);
 // can do so for one of its members, where the others have theirs.
 std::vector<int> shafts_without_motion(const Model& model);
 
-// A gear that locks itself wants help to be driven from its far side, λ = η₂ μ with η₂ < 0. That has one solution only
-// while |η₂| I_far < I_near; beyond it would jam at once. Bounds |η₂| by half of that; what was bounded, in words.
-std::vector<std::string> bound_self_locking(Model& model);
-
 // A shaft of every tree of shafts whose angles no twist ties to the first tracked angle.
 std::vector<int> loose_trees(const Model& model);
 

@@ -12,10 +12,9 @@
 #include "mechanisms/deforming_mechanism.h"
 #include "mechanisms/mechanism.h"
 #include "studies/event_match.h"
+#include "studies/figures.h"
 #include "studies/measured_errors.h"
 #include "studies/multibody.h"
-#include "studies/periods.h"
-#include "studies/report/trace.h"
 
 namespace kurbel {
 namespace {
@@ -26,182 +25,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr int energy_checks = 60;
 // Below this a tolerance asks for more than double precision has.
 constexpr double least_tolerance = 2e-15;
-
-std::vector<std::string> components_with_impacts(const Model& model) {
-  constexpr std::string_view ending = ".contact";
-  std::vector<std::string> names;
-  for (const WorkAccount& account : model.accounts)
-    if (account.name.ends_with(ending)) names.push_back(account.name.substr(0, account.name.size() - ending.size()));
-  return names;
-}
-
-// One run at one tolerance with all that watches it.
-struct OneRun {
-  RunOutcome outcome;
-  std::shared_ptr<TrajectoryRecorder> trajectory;
-  std::unique_ptr<ExtremeRecorder> extremes;
-  CycleRecorder cycles;
-  std::unique_ptr<SpeedRecorder> speed;
-  std::unique_ptr<EnergyAudit> energy;
-  std::unique_ptr<TraceRecorder> traces;
-  std::vector<Figure> figures;
-  std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
-  Periods periods;
-};
-
-class Figures {
- public:
-  Figures(const Model& model, Equations& equations, OneRun& run, double tolerance)
-      : model_(model), equations_(equations), run_(run), tolerance_(tolerance) {}
-
-  void collect() {
-    collect_extremes();
-    collect_rms();
-    collect_final();
-    collect_cycles();
-    collect_periods();
-    collect_work();
-    collect_heat();
-    collect_stopping();
-    collect_impacts();
-  }
-
- private:
-  void add(const std::string& name, double value, const std::string& unit, double scale,
-           std::optional<double> time = {}) {
-    run_.figures.push_back({name, value, unit, {}, time, scale, 0});
-  }
-  // A duration up to a time; `resolution`: how sharply that time is located.
-  void add_located(const std::string& name, double begin, double end, double resolution) {
-    add(name, end - begin, "s", run_.outcome.t, end);
-    run_.figures.back().resolution = resolution;
-  }
-  std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
-
-  void collect_extremes() {
-    for (std::size_t i = 0; i < run_.extremes->wanted().size(); ++i) {
-      const ExtremeOf& wanted = run_.extremes->wanted()[i];
-      const ExtremeRecorder::Found& found = run_.extremes->found()[i];
-      if (found.any)
-        add(wanted.name, found.value, wanted.unit,
-            wanted.scale > 0 ? wanted.scale : std::max(std::abs(found.value), least_scale(wanted.unit)), found.time);
-    }
-  }
-  // What is this small is rounding, and is not judged by its own size: a slider that should stand still.
-  double least_scale(const std::string& unit) const {
-    constexpr double nothing = 1e-9;
-    if (unit == "N*m" || unit == "N") return nothing * model_.torque_scale;
-    const double speed = nothing * model_.speed_scale;
-    return unit == "m/s2" || unit == "rad/s2" ? speed * model_.speed_scale : speed;
-  }
-  void collect_rms() {
-    if (run_.outcome.t <= 0) return;
-    for (std::size_t i = 0; i < model_.torque_joints.size(); ++i)
-      for (const bool spring : {false, true}) {
-        const int elastic = model_.torque_joints[i].elastic;
-        if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
-        const double square = run_.outcome.state[equations_.square_index(i, spring)];
-        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component,
-            std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
-      }
-  }
-  void collect_final() {
-    const Snapshot& s = equations_.snapshot(run_.outcome.t, run_.outcome.state);
-    for (const std::string& component : model_.network.components) {
-      if (model_.network.components.size() > 60 && component != link()) continue;
-      const Network::Ports& ports = model_.network.ports.at(component);
-      const int node = ports.out;
-      const double ratio = model_.scale_ratio[at(node)];
-      add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
-      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
-          "rad/s", model_.speed_scale * ratio, run_.outcome.t);
-      const std::size_t shaft = at(model_.shaft_of_node[at(node)]);
-      run_.figures.back().exact = shaft >= model_.free_shafts || equations_.at_standstill(shaft);
-    }
-  }
-  // Heat of what slips.
-  void collect_heat() {
-    for (const ElasticJoint& e : model_.elastic)
-      if (e.slips)
-        add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
-            energy_scale(), run_.outcome.t);
-  }
-  // Joints with clearance: how often one is hit after flight.
-  void collect_impacts() {
-    for (const std::string& component : components_with_impacts(model_)) {
-      int count = 0;
-      for (const Event& e : run_.outcome.events)
-        count += e.component == component && e.what.ends_with(": touches") && e.from.ends_with(": in flight");
-      add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
-      run_.figures.back().exact = true;
-    }
-  }
-  // From the signal that makes the reduction link stop to its rest.
-  void collect_stopping() {
-    const std::vector<Event>& events = run_.outcome.events;
-    const auto is_command = [&](const Event& e) {
-      return std::any_of(model_.commands.begin(), model_.commands.end(), [&](const CommandTarget& target) {
-        return target.component == e.component && (e.what.starts_with("is set") || e.what.starts_with("goes to"));
-      });
-    };
-    const std::string name =
-        model_.node_label(model_.shafts[at(model_.shaft_of_node[at(model_.reduction_node)])].reference);
-    for (std::size_t k = 1; k < events.size(); ++k) {
-      if (events[k].component != name || events[k].what != "comes to rest and is held") continue;
-      // Back to the signal: the first command after the clutch last locked, or since the link moved.
-      std::size_t begin = k;
-      while (begin > 0 && events[begin - 1].what != "locks" &&
-             !(events[begin - 1].component == name && events[begin - 1].what.starts_with("moves")))
-        --begin;
-      const auto told =
-          static_cast<std::size_t>(std::find_if(events.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                events.begin() + static_cast<std::ptrdiff_t>(k), is_command) -
-                                   events.begin());
-      if (told == k) continue;
-      add("stopping_time." + link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
-      add("stopping_angle." + link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
-      return;
-    }
-  }
-  // Of the last complete cycle of steady motion, or the last one before run-down.
-  void collect_cycles() {
-    run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.speed, run_.outcome, tolerance_);
-    const CycleRecord* last = nullptr;
-    for (const CycleRecord& c : run_.cycles.cycles())
-      if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
-    if (!last) return;
-    add("delta." + link(), last->delta(), "", 1, last->end);
-    add("mean_speed." + link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
-    add("cycle_time." + link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
-    for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
-      double sum = 0;
-      for (std::size_t k = 0; k < last->work.size(); ++k)
-        if (model_.accounts[k].kind == kind) sum += last->work[k];
-      add(fmt::format("{}_work_per_cycle", name_of(kind)), sum, "J", energy_scale(), last->end);
-    }
-  }
-  void collect_periods() {
-    const Periods& p = run_.periods;
-    if (p.run_up_end) add_located("run_up_time", 0, *p.run_up_end, p.run_up_resolution);
-    if (p.steady) add("steady_speed." + link(), p.steady_speed, "rad/s", model_.speed_scale);
-    if (p.run_down_begin && p.standstill)
-      add_located("run_down_time", *p.run_down_begin, *p.standstill, p.standstill_resolution);
-  }
-  void collect_work() {
-    for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
-      double sum = 0;
-      for (std::size_t k = 0; k < run_.energy->work.size(); ++k)
-        if (model_.accounts[k].kind == kind) sum += run_.energy->work[k];
-      add(fmt::format("work.{}", name_of(kind)), sum, "J", energy_scale());
-    }
-  }
-  double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
-
-  const Model& model_;
-  Equations& equations_;
-  OneRun& run_;
-  double tolerance_;
-};
 
 class Simulation {
  public:
@@ -246,33 +69,34 @@ class Simulation {
     return work_tables_;
   }
 
-  // Two runs of the ladder and one from elsewhere; whichever is too coarse for the accuracy is repeated, tighter.
+  // Two runs of the ladder and one from elsewhere; whichever is too coarse for the accuracy is followed by a tighter
+  // one.
   void confirm() {
-    for (;;) {
-      const bool ladder_agrees = coarse_ && error_by(coarse_.get(), nullptr) <= settings_.accuracy &&
-                                 fine_->energy->relative() <= settings_.accuracy;
-      if (!ladder_agrees && can_be_tightened(tolerance_)) {
-        if (!tighten()) return;
-        elsewhere_.reset();
-      } else if (!elsewhere_) {
-        if (!run_elsewhere(tolerance_)) return;
-      } else {
-        if (!ladder_agrees || error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy) return;
-        const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
-        if (can_be_tightened(elsewhere_tolerance_) && (blame_elsewhere || !can_be_tightened(tolerance_))) {
-          if (!run_elsewhere(elsewhere_tolerance_ / tolerance_step)) return;
-        } else if (!can_be_tightened(tolerance_) || !tighten()) {
-          return;
-        }
-      }
+    while (!ladder_agrees() && tighten()) {
+    }
+    if (interrupted() || !run_elsewhere(tolerance_)) return;
+    while (!confirmed() && !interrupted()) {
+      const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
+      const bool went_on =
+          blame_elsewhere || ladder_ended_ ? tighten_elsewhere() || tighten() : tighten() || tighten_elsewhere();
+      if (!went_on) return;
     }
   }
+  bool ladder_agrees() const {
+    return coarse_ && error_by(coarse_.get(), nullptr) <= settings_.accuracy &&
+           fine_->energy->relative() <= settings_.accuracy;
+  }
+  bool confirmed() const {
+    return coarse_ && elsewhere_ && error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy &&
+           fine_->energy->relative() <= settings_.accuracy;
+  }
+  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
 
-  static constexpr double weight_of_coarse = 1, weight_of_elsewhere = 2;  // measured_errors.h says why
-  static std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
-                                        std::vector<Figure> OneRun::*what = &OneRun::figures) {
+  static constexpr double weight_of_elsewhere = 2;  // measured_errors.h says why
+  std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
+                                 std::vector<Figure> OneRun::*what = &OneRun::figures) const {
     std::vector<Witness> list;
-    if (coarse) list.push_back({&(coarse->*what), weight_of_coarse});
+    if (coarse) list.push_back({&(coarse->*what), weight_of_coarse_});
     if (elsewhere) list.push_back({&(elsewhere->*what), weight_of_elsewhere});
     return list;
   }
@@ -283,13 +107,13 @@ class Simulation {
   }
   static bool can_be_tightened(double tolerance) { return tolerance / tolerance_step >= least_tolerance; }
 
-  // The next run of the ladder. False where it failed: then the run before it stands.
+  // The next run of the ladder. False where it has come to its end: then the run before it stands.
   bool tighten() {
+    if (ladder_ended_ || !can_be_tightened(tolerance_)) return false;
     std::unique_ptr<OneRun> tighter = one_run(tolerance_ / tolerance_step);
     if (!tighter->outcome.complete) {
-      unconfirmed_ =
-          fmt::format("the confirming run failed ({}); figures are those of the looser run, {}",
-                      tighter->outcome.diagnosis, coarse_ ? "with errors by the run before it" : "without errors");
+      ladder_ended_ = true;
+      unconfirmed_ = fmt::format("the confirming run failed ({})", tighter->outcome.diagnosis);
       note_interrupt();
       return false;
     }
@@ -302,14 +126,22 @@ class Simulation {
     return true;
   }
 
-  // By another method, with steps that end elsewhere and angles that are looked up elsewhere. False where it failed.
+  // By another method, with steps that end elsewhere and angles that are looked up elsewhere. False where it failed:
+  // then the run before it stands.
   bool run_elsewhere(double tolerance) {
     std::unique_ptr<OneRun> other = one_run(tolerance, true);
     if (!other->outcome.complete) {
+      elsewhere_ended_ = true;
       unconfirmed_ = fmt::format("the run by another method that should confirm the figures failed ({})",
                                  other->outcome.diagnosis);
       note_interrupt();
       return false;
+    }
+    // Where the ladder has ended, its last run has no finer one that could tell how good it is, and the one before it
+    // says only how coarse that one was: two runs from elsewhere, one tighter than the other, say more.
+    if (elsewhere_ && (ladder_ended_ || !can_be_tightened(tolerance_))) {
+      coarse_ = std::move(elsewhere_);
+      weight_of_coarse_ = weight_of_elsewhere;
     }
     elsewhere_ = std::move(other);
     elsewhere_tolerance_ = tolerance;
@@ -317,9 +149,13 @@ class Simulation {
                     tolerance, error_by(nullptr, elsewhere_.get())));
     return true;
   }
+  bool tighten_elsewhere() {
+    return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) &&
+           run_elsewhere(elsewhere_tolerance_ / tolerance_step);
+  }
 
   void note_interrupt() {
-    if (!options_.interrupted || !options_.interrupted->load()) return;
+    if (!interrupted()) return;
     fine_->outcome.complete = false;
     fine_->outcome.diagnosis =
         "interrupted in a run that measures the errors; the figures are whole, but their errors are not";
@@ -327,24 +163,31 @@ class Simulation {
 
   // Errors of all figures by all runs that were made.
   void state_errors() {
-    if (!unconfirmed_.empty()) result_.notes.push_back(unconfirmed_);
-    if (!coarse_ && !elsewhere_) return;
+    if (!coarse_ && !elsewhere_) {
+      result_.notes.push_back(unconfirmed_ + "; figures are without errors");
+      return;
+    }
     const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
                  of_energy = fine_->energy->relative();
     measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
-    if (coarse_) add_event_errors(*coarse_, weight_of_coarse);
+    if (coarse_) add_event_errors(*coarse_, weight_of_coarse_);
     if (elsewhere_) add_event_errors(*elsewhere_, weight_of_elsewhere);
     result_.measured_accuracy = std::max(of_figures, of_energy);
     result_.errors_measured = true;
-    result_.accuracy_confirmed =
-        unconfirmed_.empty() && coarse_ && elsewhere_ && result_.measured_accuracy <= settings_.accuracy;
+    result_.accuracy_confirmed = confirmed();
     log(fmt::format("  errors of up to {:.1e}; {:.1e} asked for: {}", result_.measured_accuracy, settings_.accuracy,
                     result_.accuracy_confirmed ? "reached" : "not reached"));
-    if (!result_.accuracy_confirmed && unconfirmed_.empty())
-      result_.notes.push_back(
-          fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}: the tolerances cannot be tightened further",
-                      settings_.accuracy, result_.measured_accuracy,
-                      result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+    if (!result_.accuracy_confirmed) note_unconfirmed(of_energy);
+  }
+  void note_unconfirmed(double of_energy) {
+    if (coarse_ && elsewhere_)
+      result_.notes.push_back(fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}", settings_.accuracy,
+                                          result_.measured_accuracy,
+                                          result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+    result_.notes.push_back(unconfirmed_.empty() ? "the tolerances cannot be tightened further"
+                            : !elsewhere_        ? unconfirmed_ + "; errors are by the run before it"
+                            : !coarse_           ? unconfirmed_ + "; errors are by a run by another method"
+                                                 : unconfirmed_);
   }
 
   // Errors of the events' times; none where a run has no such event.
@@ -397,10 +240,7 @@ class Simulation {
     run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
-    if (!run->outcome.state.empty()) {
-      Figures(model, equations, *run, tolerance).collect();
-      run->last_state = last_state(model, equations, run->outcome);
-    }
+    if (!run->outcome.state.empty()) collect_figures(model, equations, tolerance, *run);
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
@@ -527,25 +367,6 @@ class Simulation {
     e.reduction_residual = audit.reduction_residual;
     e.checks = audit.checked;
   }
-  static std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOutcome& outcome) {
-    const Snapshot& s = equations.snapshot(outcome.t, outcome.state);
-    std::vector<Figure> list;
-    const auto add = [&](int node) {
-      const int shaft = m.shaft_of_node[at(node)];
-      Figure angle, speed;
-      angle.value = s.node_angle[node];
-      angle.scale = std::max(1.0, m.scale_ratio[at(node)]);
-      speed.value = m.gain_of_node[at(node)] * s.now.speed[shaft];
-      speed.scale = m.speed_scale * m.scale_ratio[at(node)];
-      speed.exact = at(shaft) >= m.free_shafts || equations.at_standstill(at(shaft));
-      list.insert(list.end(), {angle, speed});
-    };
-    for (const std::string& component : m.network.components) {
-      add(m.network.ports.at(component).in);
-      add(m.network.ports.at(component).out);
-    }
-    return list;
-  }
   void fill_final(const OneRun& run) {
     std::size_t k = 0;
     for (const std::string& component : model_->network.components) {
@@ -568,9 +389,11 @@ class Simulation {
   Equations equations_;
   std::optional<Equations> equations_elsewhere_;
   std::shared_ptr<WorkTables> work_tables_;
-  double tolerance_ = 0, elsewhere_tolerance_ = 0;     // of fine_ and elsewhere_
-  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;  // the run whose figures count, and its witnesses
-  std::string unconfirmed_;                            // why a witness is missing
+  double tolerance_ = 0, elsewhere_tolerance_ = 0;       // of fine_ and elsewhere_
+  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;    // the run whose figures count, and its witnesses
+  double weight_of_coarse_ = 1;                          // measured_errors.h says why
+  bool ladder_ended_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
+  std::string unconfirmed_;                              // why that was
   Result result_;
 };
 
@@ -594,36 +417,6 @@ Result simulate(std::shared_ptr<const Model> model, const std::string& label, co
 
 Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options) {
   return simulate(compile(scene, effects), label, options);
-}
-
-std::vector<Figure> figure_list(const Model& model) {
-  std::vector<Figure> list;
-  const auto add = [&](const std::string& name, const std::string& unit) {
-    list.push_back({name, 0, unit, {}, {}, 0, 0});
-  };
-  const std::string link = model.network.nodes[at(model.reduction_node)].component;
-  for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
-  for (const TorqueJoint& joint : model.torque_joints) {
-    add("rms_torque." + joint.component, "N*m");
-    add("rms_spring_torque." + joint.component, "N*m");
-  }
-  for (const std::string& component : model.network.components) {
-    if (model.network.components.size() > 60 && component != link) continue;
-    add("final_angle." + component, "rad");
-    add("final_speed." + component, "rad/s");
-  }
-  for (const std::string& component : components_with_impacts(model)) add("impacts." + component, "");
-  if (model.cycle > 0) {
-    add("delta." + link, "");
-    add("mean_speed." + link, "rad/s");
-    add("cycle_time." + link, "s");
-    for (const char* kind : {"driving", "useful", "harmful"}) add(std::string(kind) + "_work_per_cycle", "J");
-  }
-  add("run_up_time", "s");
-  add("steady_speed." + link, "rad/s");
-  add("run_down_time", "s");
-  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(std::string("work.") + kind, "J");
-  return list;
 }
 
 }  // namespace kurbel

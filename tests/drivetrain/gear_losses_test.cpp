@@ -185,6 +185,9 @@ TEST(GearLosses, SelfLockingGearHoldsAnyLoadAndWantsHelpToLowerIt) {
 }
 
 // A self-locking drive that is left alone under load stops and stays, however heavy what it drives.
+// While the load drives forwards, λ = 0.2 |μ| is what the gear wants of its input:
+//     I₁ i ε = −0.5 − λ,  I₂ ε = 40 − i |μ|,  |μ| = 5 λ:   (I₂ − 25 I₁ i) ε = 40 + 25 · 0.5.
+// A light load comes to rest so; from |η₂| I₂ > I₁ i² on, none of its accelerations will do: it jams and stops at once.
 TEST(GearLosses, SelfLockingGearStopsAnOverhaulingLoad) {
   for (const double inertia : {0.3, 300.0}) {
     const Result r = run(fmt::format(R"(
@@ -197,8 +200,16 @@ run = {{ start = {{ speed = "100 rad/s" }}, until = "10 s", accuracy = 1e-8 }}
                                      inertia));
     ASSERT_TRUE(r.complete) << r.diagnosis;
     EXPECT_EQ(figure(r, "final_speed.second"), 0.0);
-    EXPECT_GT(time_of(r, "gear", "is held by its losses") + time_of(r, "first", "comes to rest and is held"), 0.0);
     EXPECT_LT(r.energy.relative, 1e-8);
+    const double acceleration = (40 + 25 * 0.5) / (inertia - 25 * 0.1);  // of the second shaft; < 0 for the light one
+    if (acceleration < 0) {
+      EXPECT_GT(time_of(r, "gear", "is held by its losses") + time_of(r, "first", "comes to rest and is held"), 0.0);
+      EXPECT_NEAR(figure(r, "final_angle.second"), 20.0 * 20 / 2 / -acceleration, 1e-7);
+    } else {
+      EXPECT_EQ(time_of(r, "gear", "jams: no acceleration satisfies its friction; it stops at once", -1), 0.0);
+      EXPECT_EQ(figure(r, "final_angle.second"), 0.0);
+      EXPECT_NEAR(test::figure(r, "work.harmful"), -0.5 * (0.02 * 100 * 100 + inertia * 20 * 20), 1e-6);
+    }
   }
 }
 

@@ -7,6 +7,9 @@
 #include <random>
 #include <sstream>
 
+#include "engine/equations.h"
+#include "engine/model.h"
+#include "engine/run.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -109,6 +112,62 @@ TEST(Jams, APumpStartedBackwardsTurnsRound) {
   const Result r = test::run(text, false);
   EXPECT_EQ(orderly(r, 1.5), "");
   EXPECT_GT(test::figure(r, "final_speed.crankshaft"), 30);
+}
+
+// Backwards until 0.2 s: 40 − λ = 0.01 ε, 0.4 λ + 2.4 = 0.036 ε (on the input), λ = 35.4 N·m, ε = 460 rad/s². Then the
+// load drives, and wants λ = 0.6 μ of help, which slows the input down faster than it slows the load: a jam.
+TEST(Jams, AGearThatLocksItselfStopsAtOnceWhenItsMotorIsSwitchedOff) {
+  const Result r = test::run(R"(
+line = ["motor", "gear", "drum"]
+motor = { kind = "torque source", torque = "-40 N*m", stop = "0.2 s", inertia = "0.01 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 100] }], efficiency_forwards = 0.4, efficiency_backwards = -0.6 }
+drum = { kind = "load", torque = "12 N*m", acts = "always", inertia = "0.9 kg*m2" }
+run = { start = "rest", until = "1 s", accuracy = 1e-6 }
+)",
+                             true);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_TRUE(r.accuracy_confirmed);
+  EXPECT_NEAR(test::figure(r, "peak_torque.gear.in"), -35.4, 1e-9);
+  EXPECT_NEAR(test::figure(r, "final_angle.motor"), -460 * 0.2 * 0.2 / 2, 1e-9);
+  EXPECT_EQ(test::figure(r, "final_speed.drum"), 0.0);
+  EXPECT_TRUE(has_note(r, "is held at the end by gear"));
+  EXPECT_LT(r.energy.relative, 1e-12);
+}
+
+// Whichever side drives, however strongly the gear locks itself, whatever is heavy: it ends in order, and again the
+// same.
+TEST(Jams, RandomSelfLockingGearsEndInOrder) {
+  std::mt19937 random(7);
+  const auto within = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  int jams = 0;
+  for (int k = 0; k < 60; ++k) {
+    const bool always = within(0, 1) < 0.5;
+    const double load = always ? within(-40, 40) : within(1, 40);
+    const double speeds[] = {0, 10, -10, 100}, teeth[] = {7, 20, 40, 100};
+    const std::string text = fmt::format(
+        R"(
+line = ["first", "gear", "second"]
+first = {{ kind = "torque source", torque = "{:.6g} N*m", stop = "{:.6g} s", inertia = "{:.6g} kg*m2" }}
+gear = {{ kind = "gearbox", stages = [{{ teeth = [20, {}], inertia = ["0.001 kg*m2", "0.002 kg*m2"] }}], efficiency_forwards = {:.6g}, efficiency_backwards = {:.6g}, bearing_torque = "{} N*m" }}
+second = {{ kind = "load", torque = "{:.6g} N*m", acts = "{}", inertia = "{:.6g} kg*m2" }}
+run = {{ start = {{ speed = "{} rad/s" }}, until = "1 s", accuracy = 1e-6 }}
+)",
+        within(-40, 40), within(0.05, 0.5), std::pow(10, within(-3, 0)), teeth[k % 4], within(0.2, 0.9),
+        -std::pow(10, within(-2, 0.3)), k % 3 == 0 ? 0.2 : 0, load, always ? "always" : "against motion",
+        std::pow(10, within(-3, 1)), speeds[(k / 4) % 4]);
+    const Scene scene = test::scene_from(text);
+    Equations equations(compile(scene, scene.effects), true);
+    RunOptions options;
+    options.tolerance = 1e-8;
+    options.until = scene.run.until;
+    const auto end = [&] { return integrate(equations, options, {}); };
+    const RunOutcome first = end(), again = end();
+    EXPECT_TRUE(first.complete) << first.diagnosis << text;
+    EXPECT_LT(first.events.size(), 40u) << text;
+    EXPECT_EQ(first.state, again.state) << text;
+    for (const Event& e : first.events) jams += e.what.starts_with("jams");
+  }
+  EXPECT_GT(jams, 5);
 }
 
 // From |η₂| I₂′ > I₁ on, a worm that turns back with its load has no motion on that flank: it lets go on the other, and
