@@ -21,6 +21,12 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1
 
 Eigen::Index ix(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+// A slider that finds no rest under loads that turn with its travel creeps: they go over from one sense to the other
+// within ± some `creep` · r, and take up their branches again beyond `creep_ends`.
+constexpr int creeps = 2;         // in place of ±1 as the sense of travel
+constexpr double creep = 1e-2;    // of the output's scale [rad/s]
+constexpr double creep_ends = 5;  // in units of creep
+
 template <class L>
 constexpr bool has_pieces = requires(const L& l, SliderState<double> s) {
   l.first_mode(s);
@@ -208,6 +214,8 @@ DeformingMechanismPool::Motion DeformingMechanismPool::motion(const Placed& p, c
   return p.dynamics->motion<double>(coordinates(p, now), rates(p, now));
 }
 
+double DeformingMechanismPool::creep_speed(const Placed& p) { return creep * p.mechanism.output_scale(); }
+
 template <class T>
 SliderState<T> DeformingMechanismPool::slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                               std::size_t load) const {
@@ -216,12 +224,31 @@ SliderState<T> DeformingMechanismPool::slider(const Placed& p, const Instant& no
 }
 
 template <class T>
+T DeformingMechanismPool::force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
+                                   std::size_t load) const {
+  SliderState<T> s = slider(p, now, m, load);
+  return std::visit(
+      [&](const auto& law) {
+        if (s.travel != creeps) return T(law.value(s));
+        const auto towards = [&](int travel) {
+          s.travel = travel;
+          if constexpr (has_pieces<std::decay_t<decltype(law)>>) {
+            const SliderState<double> here{value_of(s.phi), value_of(s.x), value_of(s.v), travel, s.mode};
+            s.mode = law.first_mode(here);
+          }
+          return T(law.value(s));
+        };
+        using std::tanh;
+        const T part = tanh(m.x_rate * (1 / creep_speed(p)));
+        return T(0.5 * (T(1.0) + part) * towards(1) + 0.5 * (T(1.0) - part) * towards(-1));
+      },
+      p.mechanism.loads[load].law);
+}
+
+template <class T>
 T DeformingMechanismPool::load_force(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m) const {
   T sum(0.0);
-  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
-    const SliderState<T> s = slider(p, now, m, k);
-    sum = sum + std::visit([&](const auto& law) { return T(law.value(s)); }, p.mechanism.loads[k].law);
-  }
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) sum = sum + force_of(p, now, m, k);
   return sum;
 }
 
@@ -249,11 +276,8 @@ DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, co
 
 void DeformingMechanismPool::add_work(const Placed& p, const Instant& now, const Motion& m, double* work_rate) const {
   work_rate[p.at.account] += p.dynamics->weight_power(m);
-  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
-    const SliderState<double> s = slider(p, now, m, k);
-    work_rate[p.at.account + 1 + static_cast<int>(k)] +=
-        m.x_rate * std::visit([&](const auto& law) { return law.value(s); }, p.mechanism.loads[k].law);
-  }
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
+    work_rate[p.at.account + 1 + static_cast<int>(k)] += m.x_rate * force_of(p, now, m, k);
   if (!p.mechanism.clearances.empty())
     work_rate[p.contact_account()] -= p.dynamics->contact_loss_power(m, now.mode + p.contact_mode());
   if (p.dynamics->rod().count() > 0) work_rate[p.rod_account()] -= p.dynamics->damping_power(m);
@@ -427,17 +451,24 @@ void DeformingMechanismPool::guards(const Instant& now, double* g) const {
     const GuardOwner& owner = owners_[i];
     const Placed& p = placed_[owner.placed];
     if (known != &p) m = motion(p, now), known = &p;
+    if (owner.kind == Kind::travel && now.mode[p.at.mode] == creeps) {
+      g[i] = creep_ends - std::abs(m.x_rate) / creep_speed(p);
+      continue;
+    }
     if (owner.kind == Kind::travel) {
       g[i] = now.mode[p.at.mode] * m.x_rate / (p.mechanism.output_scale() * std::max(1.0, std::abs(m.w[0])));
       continue;
     }
     if (owner.kind == Kind::load) {
       const SliderState<double> s = slider(p, now, m, owner.index);
-      std::visit(
-          [&](const auto& law) {
-            if constexpr (has_pieces<std::decay_t<decltype(law)>>) law.guard(s, g + i);
-          },
-          p.mechanism.loads[owner.index].law);
+      if (s.travel == creeps)
+        g[i] = g[i + 1] = 1;
+      else
+        std::visit(
+            [&](const auto& law) {
+              if constexpr (has_pieces<std::decay_t<decltype(law)>>) law.guard(s, g + i);
+            },
+            p.mechanism.loads[owner.index].law);
     } else {
       const auto [depth, rate] = p.dynamics->approach(owner.index, m);
       const auto& joint = p.dynamics->clearances()[p.dynamics->contacts()[owner.index].clearance];
@@ -469,7 +500,7 @@ void DeformingMechanismPool::fire(const Instant& now, int guard, int* mode) cons
     return;
   }
   // The slider turns round, and each load takes up the branch of the other stroke.
-  mode[p.at.mode] = -mode[p.at.mode];
+  mode[p.at.mode] = mode[p.at.mode] == creeps ? (m.x_rate >= 0 ? 1 : -1) : -mode[p.at.mode];
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     if (!p.mechanism.loads[k].depends_on_travel()) continue;
     SliderState<double> s = slider(p, now, m, k);
@@ -524,9 +555,10 @@ void DeformingMechanismPool::first_modes(const Instant& now, int* mode) const {
     // At rest the crank's direction tells; on a dead centre the motion to come.
     if (std::abs(rate) < 1e-12 * p.mechanism.output_scale() * std::max(1.0, std::abs(m.w[0])))
       rate = m.w[0] != 0 ? m.x_bias : m.of_x[0];
-    mode[p.at.mode] = rate >= 0 ? 1 : -1;
+    if (mode[p.at.mode] != creeps) mode[p.at.mode] = rate >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       SliderState<double> s = slider(p, now, m, k);
+      if (p.watches_travel && mode[p.at.mode] == creeps) continue;
       if (p.watches_travel) s.travel = mode[p.at.mode];
       std::visit(
           [&](const auto& law) {
@@ -546,9 +578,12 @@ void DeformingMechanismPool::first_modes(const Instant& now, int* mode) const {
 
 bool DeformingMechanismPool::regularise(int guard, int* mode) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
-  if (owner.kind != GuardOwner::Kind::contact) return false;
-  mode[placed_[owner.placed].contact_mode() + static_cast<int>(owner.index)] = JointContact::without_events;
-  return true;
+  const Placed& p = placed_[owner.placed];
+  if (owner.kind == GuardOwner::Kind::contact)
+    mode[p.contact_mode() + static_cast<int>(owner.index)] = JointContact::without_events;
+  else if (owner.kind == GuardOwner::Kind::travel)
+    mode[p.at.mode] = creeps;
+  return owner.kind != GuardOwner::Kind::load;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

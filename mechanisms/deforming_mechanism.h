@@ -39,7 +39,7 @@ class DeformingMechanismMaker final : public MechanismMaker {
 // Degrees of freedom of a model that mechanisms have besides their cranks.
 std::size_t further_coordinates(const Model& model);
 
-// Modes of a placed one: sign of the slider's speed, the piece of each load, each contact.
+// Modes of a placed one: sign of the slider's speed (or that it creeps), the piece of each load, each contact.
 class DeformingMechanismPool final : public ElementPool {
  public:
   void place(Mechanism mechanism, std::shared_ptr<const SliderCrankDynamics> dynamics, const ShaftPorts& at);
@@ -100,6 +100,9 @@ class DeformingMechanismPool final : public ElementPool {
   Vector reactions(const Placed& p, const Snapshot& s) const;
   template <class T>
   SliderState<T> slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
+  static double creep_speed(const Placed& p);  // [m/s]
+  template <class T>
+  T force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
   template <class T>
   T load_force(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m) const;
   Solved solve(const Placed& p, const Instant& now, const Motion& m) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
@@ -320,8 +321,16 @@ class Simulation {
     if (!run.last_state.empty()) fill_final(run);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
-    for (const std::string& what : run.outcome.regularised)
-      result_.notes.push_back(what + ": its events found no rest, so it follows a law without events; see the events");
+    note_regularised(run.outcome.regularised);
+  }
+  void note_regularised(const std::vector<std::string>& list) {
+    for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
+      const auto times = std::count(list.begin(), list.end(), what);
+      result_.notes.push_back(
+          fmt::format("{}: its events found no rest{}, so it follows a law without events; see the "
+                      "events",
+                      what, times > 1 ? fmt::format(" {} times", times) : ""));
+    }
   }
   // What kept the steps short; nothing where the equations cannot be evaluated at the end.
   std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {

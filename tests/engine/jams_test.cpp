@@ -114,6 +114,28 @@ TEST(Jams, APumpStartedBackwardsTurnsRound) {
   EXPECT_GT(test::figure(r, "final_speed.crankshaft"), 30);
 }
 
+// With clearance the blow stops the slider within the gap, until the crank has come after it. The sheet takes
+// F (2.5 + 0.25 + 0.1) mm a blow. What cannot break it is thrown back.
+TEST(Jams, ASliderWithClearanceRestsOnTheSheetUntilTheCrankComesAfterIt) {
+  for (const double force : {200.0, 4000.0}) {
+    std::string text =
+        with(blocked_press(force, "", "\"main_coupling\"", false, 90, 2.5), "accuracy = 1e-5", "accuracy = 1e-4");
+    text = with(text, "load = { kind = \"press\"",
+                "clearance = { kind = \"crank pin\", gap = \"0.2 mm\", stiffness = \"500 kN/mm\", exponent = 1.5, "
+                "restitution = 0.5, restitution_speed = \"0.2 m/s\", friction = 0.05, radius = \"140 mm\" }\n"
+                "load = { kind = \"press\"");
+    const Result r = test::run(text, false);
+    EXPECT_TRUE(r.complete) << r.diagnosis;
+    EXPECT_LT(r.energy.relative, 1e-5);
+    EXPECT_TRUE(has_note(r, "press: its events found no rest")) << force;
+    if (force < 1000) {
+      EXPECT_NEAR(test::figure(r, "work.useful"), -2 * 200e3 * 2.85e-3, 0.5);
+    } else {
+      EXPECT_LT(test::figure(r, "min_speed.press"), -0.1);
+    }
+  }
+}
+
 // Backwards until 0.2 s: 40 − λ = 0.01 ε, 0.4 λ + 2.4 = 0.036 ε (on the input), λ = 35.4 N·m, ε = 460 rad/s². Then the
 // load drives, and wants λ = 0.6 μ of help, which slows the input down faster than it slows the load: a jam.
 TEST(Jams, AGearThatLocksItselfStopsAtOnceWhenItsMotorIsSwitchedOff) {
