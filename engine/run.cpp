@@ -206,7 +206,7 @@ class Loop {
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
     if (out_of_budget()) return false;
-    const double until = limit();
+    const double until = shortened_ > 0 ? std::min(limit(), stepper_->t() + shortened_) : limit();
     try {
       stepper_->step(until);
     } catch (const StepFailure& failure) {
@@ -221,6 +221,7 @@ class Loop {
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
     if (fired.empty()) {
+      shortened_ = 0;
       out_.limits.count(limited_by, stepper_->at_edge() ? StepLimits::Bound::edge : bound_);
     } else {
       out_.limits.count_event(fired.front());
@@ -390,7 +391,7 @@ class Loop {
       }
       for (std::size_t k = 0; k < below.size(); ++k)
         if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k].guard);
-      land_on(first, fired.front());
+      if (!try_to_land_on(first, fired.front())) return {};
       find_guards(stepper_->t(), stepper_->y(), guard_);
       // What is at its root now counts as fired; another guard may have fired before it.
       for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
@@ -412,6 +413,29 @@ class Loop {
     for (std::size_t i = 0; i < guard_.size(); ++i)
       if (guard_[i] < here && probe_[i] < fired_below) fired.push_back(i);
     return fired;
+  }
+
+  // False: a library's method finds no step that ends on the event, where the laws have a kink; then the step is cut to
+  // a part before it, and what follows looks for the event anew.
+  bool try_to_land_on(double t, std::size_t guard) {
+    const double t0 = stepper_->t_previous();
+    std::exception_ptr failure;
+    try {
+      land_on(t, guard);
+      return true;
+    } catch (const StepFailure&) {
+      if (!is_of_library(method_)) throw;
+      failure = std::current_exception();
+    }
+    for (double part = 0.7; part > 1e-3; part *= 0.5) {
+      try {
+        stepper_->retake(t0 + part * (t - t0));
+        find_guards(stepper_->t(), stepper_->y(), guard_);
+        return false;
+      } catch (const StepFailure&) {  // shorter, then
+      }
+    }
+    std::rethrow_exception(failure);
   }
 
   // A true step onto the event, corrected by the secant until the guard is zero to round-off.
@@ -450,6 +474,8 @@ class Loop {
     events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
     last_event_ = time;
     ++out_.statistics.events;
+    // A motion that ends as soon as it began may be one that a coarse step goes over: it is tried again, shorter.
+    if (at_begin && events_here_ >= 2) shortened_ = std::max(0.1 * last_step_, 1e-12 * std::max(1.0, std::abs(time)));
     if (events_here_ == events_of_a_jam && !options_.extension) {
       const std::size_t known = out_.events.size();
       if (equations_.stop_jam(time, y, fired, out_.events)) {
@@ -664,6 +690,7 @@ class Loop {
   int steps_to_jam_ = 0, jams_here_ = 0;
   double last_jam_ = -1;
   bool at_begin_ = false;
+  double shortened_ = 0;  // at most this step next; 0: any
   std::int64_t checks_ = 0;
 };
 
