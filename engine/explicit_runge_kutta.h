@@ -16,7 +16,7 @@ class ExplicitRungeKutta final : public Stepper {
   void step(double t_limit) override;
   void retake(double t) override;
   void interpolate(double t, std::span<double> y) override;
-  double interpolate(double t, std::size_t state);  // one state alone
+  double interpolate(double t, std::size_t state) override;
 
   double t() const override { return t_; }
   double t_previous() const override { return t_previous_; }

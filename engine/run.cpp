@@ -704,6 +704,12 @@ std::span<const double> StepView::at(double time) {
   return scratch_;
 }
 
+double StepView::at(double time, std::size_t state) {
+  if (time >= stepper_->t()) return stepper_->y()[state];
+  if (time <= stepper_->t_previous()) return stepper_->y_previous()[state];
+  return stepper_->interpolate(time, state);
+}
+
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough) {
   for (int i = 0; i < 100; ++i) {
     if (fb == 0 || std::abs(fb) <= enough) return b;

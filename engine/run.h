@@ -72,6 +72,7 @@ class StepView {
   std::span<const double> y_previous() const { return stepper_->y_previous(); }
   // The state at a time within the step; valid until the next call.
   std::span<const double> at(double time);
+  double at(double time, std::size_t state);
   const Snapshot& snapshot(double time) { return equations_.snapshot(time, at(time)); }
   Equations& equations() { return equations_; }
   // The step is the first one after the start, an event or an edge: what was seen at its begin before may have jumped.

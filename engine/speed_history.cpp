@@ -164,7 +164,7 @@ bool SpeedRecorder::is_driven(StepView& view) const {
 
 double SpeedRecorder::speed_at(StepView& view, double t) const {
   if (!free_) return gain_ * view.snapshot(t).now.speed[shaft_];
-  return gain_ * view.at(t)[view.equations().speed_index(static_cast<int>(shaft_))];
+  return gain_ * view.at(t, view.equations().speed_index(static_cast<int>(shaft_)));
 }
 
 BandHistory::Stretch SpeedRecorder::stretch_of(StepView& view) const {
