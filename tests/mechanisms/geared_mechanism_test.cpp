@@ -92,6 +92,18 @@ TEST(GearedMechanism, JointFrictionActsThroughTheGear) {
   }
 }
 
+// Here the friction's own slope by ε joins the inertia; it is found by differences.
+TEST(GearedMechanism, JacobianIsExactWithJointFriction) {
+  for (const Gear& gear : {slower, reversing})
+    for (const double angle : {0.3, 2.0, 5.1}) {
+      SCOPED_TRACE(fmt::format("i = {}, {} rad", gear.ratio, angle));
+      const Scene scene =
+          test::scene_from(geared_crank(gear, rough, "[effects]\njoint_friction = true\n[run]\nuntil = \"1 s\""));
+      Equations equations(compile(scene, scene.effects), false);
+      test::expect_exact_jacobian(equations, equations.modes_from_scratch(0, angle, -31), 1e-5);
+    }
+}
+
 TEST(GearedMechanism, LossInItsJointsIsTheEnergyThatIsMissing) {
   for (const Gear& gear : {slower, reversing}) {
     const Result r = test::run(geared_crank(gear, rough,
