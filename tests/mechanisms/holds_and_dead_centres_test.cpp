@@ -105,6 +105,11 @@ TEST(JointFrictionAtRest, BearingHoldsByItsStaticCoefficient) {
   }
 }
 
+const std::string bending =
+    "rod_mass = \"0.5 kg\"\nrod_inertia = \"0.0017 kg*m2\"\nrod_flexibility = { modulus = \"200 GPa\", height = \"20 "
+    "mm\", "
+    "width = \"20 mm\", modes = 1, stretching = false, damping_ratio = 0.5 }\n";
+
 // From a dead centre the loads act by the stroke that begins there, whichever way it turns.
 TEST(DeadCentreStart, LoadsActByTheStrokeThatBegins) {
   for (const bool flexible : {false, true})
@@ -114,11 +119,7 @@ TEST(DeadCentreStart, LoadsActByTheStrokeThatBegins) {
         const std::string more = fmt::format(
             "load = {{ kind = \"press\", nominal_force = \"50 N\", nominal_travel = \"30 mm\", working_end = \"{}\" "
             "}}\n{}",
-            begin == 0 ? "folded" : "extended",
-            flexible ? "rod_mass = \"0.5 kg\"\nrod_inertia = \"0.0017 kg*m2\"\nrod_flexibility = { modulus = \"200 "
-                       "GPa\", height = \"20 mm\", width = \"20 mm\", modes = 1, stretching = false, damping_ratio = "
-                       "0.5 }"
-                     : "");
+            begin == 0 ? "folded" : "extended", flexible ? bending : "");
         const Result r =
             run(fmt::format("line = [\"drive\", \"crank\"]\ndrive = {{ kind = \"prescribed speed\", speed = \"{} "
                             "rad/s\" }}\n",
@@ -149,6 +150,32 @@ TEST(DeadCentreStart, OpposingForceTakesTheWayThatIsGone) {
       EXPECT_NEAR(figure(r, "work.useful"), -50 * std::abs(position(begin + 0.2 * omega) - position(begin)), 1e-7)
           << begin << ", " << omega;
     }
+}
+
+// The branch is that of the stroke to come from the first moment on.
+TEST(DeadCentreStart, TableHasTheBranchOfTheStrokeThatBegins) {
+  const std::string table =
+      "load = { kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"N\"], points = [[0, 900], [40, 500], "
+      "[100, 400]], return_points = [[0, 300], [100, 100]] } }\n";
+  for (const bool flexible : {false, true})
+    for (const double begin : {0.0, pi})
+      for (const double omega : {10.0, -10.0}) {
+        const Result r =
+            run(fmt::format(
+                    "line = [\"drive\", \"crank\"]\ndrive = {{ kind = \"prescribed speed\", speed = \"{} rad/s\" }}\n",
+                    omega) +
+                    crank(table + (flexible ? bending : ""),
+                          fmt::format("[run]\nuntil = \"1 ms\"\nstart = {{ angle = \"{:.17g} rad\" }}", begin)),
+                false);
+        ASSERT_TRUE(r.complete) << r.diagnosis;
+        const auto& channels = r.trajectory->channels();
+        const auto force =
+            std::find_if(channels.begin(), channels.end(), [](const Channel& c) { return c.name == "force.crank"; });
+        ASSERT_NE(force, channels.end());
+        EXPECT_NEAR(r.trajectory->value(0, static_cast<std::size_t>(force - channels.begin())),
+                    begin == 0 ? -300 : -400, 1e-6)
+            << begin << ", " << omega << (flexible ? ", flexible" : "");
+      }
 }
 
 // F = −(c v + q v |v|), both ways.
