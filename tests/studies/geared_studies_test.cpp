@@ -168,6 +168,24 @@ pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia
   }
 }
 
+// v = ½ D ω_max of the flywheel's own shaft, which turns 2.5 times as fast as the crank: ω_max = i ω_m (1 + ½ δ).
+TEST(Size, RimSpeedIsThatOfTheFlywheelsShaft) {
+  SizeOptions options;
+  options.delta = 0.1, options.mean_speed = 8, options.simulate = false, options.diameter = 0.9;
+  const Sizing s = size_flywheel(test::scene_from(R"(
+line = ["drive", "wheel", "gear", "press"]
+drive = { kind = "torque source", torque = "500 N*m" }
+wheel = { kind = "flywheel", inertia = "2 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 50] }] }
+press = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass = "5 kg", load = { kind = "press", nominal_force = "30 kN", nominal_travel = "30 mm" } }
+)"),
+                                 options);
+  ASSERT_TRUE(s.dimensions) << s.dimensions_why;
+  const double fastest = 2.5 * 8 * 1.05;
+  EXPECT_NEAR(s.dimensions->rim_speed, 0.45 * fastest, 1e-9);
+  EXPECT_NEAR(s.dimensions->energy, 0.5 * s.methods[0].flywheel * fastest * fastest, 1e-6 * s.dimensions->energy);
+}
+
 // A round of the steady cycle takes ∮dφ/ω.
 TEST(SteadyRigidCycle, TakesTheTimeOfItsSpeed) {
   RigidMachine machine(test::scene_from(R"(
@@ -186,6 +204,63 @@ pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass =
 }
 
 // --- screens ---
+
+const Screen* screen_of(const std::vector<Screen>& screens, const std::string& name) {
+  for (const Screen& s : screens)
+    if (s.name == name) return &s;
+  return nullptr;
+}
+Result run_with_elasticity(const Scene& scene) {
+  return simulate(
+      scene, scene.effects, "full",
+      {.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}});
+}
+
+// A free swing of ±θ̂: ∫|τ dθ| is ½ k θ̂² in each quarter of a period. Nothing drives: it counts over the energy of the
+// motion, which is that of the turning again after a whole period.
+TEST(Screens, ActivityIsTheEnergyThatGoesThroughTheCoupling) {
+  const double j1 = 0.3, j2 = 0.9, k = 2500, twist = 0.02, omega = std::sqrt(k * (1 / j1 + 1 / j2));
+  const Scene scene = test::scene_from(fmt::format(R"(
+line = ["a", "c", "b"]
+a = {{ kind = "inertia", inertia = "0.3 kg*m2" }}
+c = {{ kind = "coupling", stiffness = "2500 N*m/rad" }}
+b = {{ kind = "inertia", inertia = "0.9 kg*m2" }}
+effects = {{ elasticity = true }}
+run = {{ start = {{ speed = "5 rad/s", c = {{ twist = "0.02 rad" }} }}, until = "{:.17g} s", samples = 401, accuracy = 1e-9 }}
+)",
+                                                   2 * pi / omega));
+  const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c"}}, run_with_elasticity(scene), 0.05);
+  const Screen* activity = screen_of(screens.at(0), "activity");
+  ASSERT_TRUE(activity);
+  EXPECT_NEAR(activity->number, 4 * 0.5 * k * twist * twist / (0.5 * (j1 + j2) * 25), 1e-5);
+}
+
+// What elasticity adds to the greatest torque, mean included: |T̂ − T̂_stiff|/(T̄ + T̂_stiff).
+TEST(Screens, AmplificationCountsOverTheWholeTorque) {
+  const double j1 = 0.3, j2 = 0.9, k = 2500, c = 4, amplitude = 10, omega = 2 * pi * 6;
+  const Scene scene = test::scene_from(R"(
+line = ["a", "c", "b"]
+a = { kind = "inertia", inertia = "0.3 kg*m2" }
+c = { kind = "coupling", stiffness = "2500 N*m/rad", damping = "4 N*m*s/rad" }
+b = { kind = "inertia", inertia = "0.9 kg*m2" }
+shake = { kind = "torque source", on = "a", torque = "40 N*m", amplitude = "10 N*m", frequency = "6 Hz" }
+pull = { kind = "load", on = "b", torque = "40 N*m", acts = "always" }
+effects = { elasticity = true }
+run = { start = { speed = "30 rad/s" }, until = "10 ms" }
+)");
+  const double reduced = j1 * j2 / (j1 + j2);
+  const Complex spring(k, omega * c);
+  const double swing = std::abs(spring * (amplitude / j1) / (spring / reduced - omega * omega)),
+               still = amplitude * j2 / (j1 + j2), share = (swing - still) / (40 + still);
+  const Result full = run_with_elasticity(scene);
+  for (const double factor : {0.99, 1.01}) {
+    const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c"}}, full, factor * share);
+    const Screen* found = screen_of(screens.at(0), "quasi-static amplification");
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->number, swing / still, 1e-3);
+    EXPECT_EQ(found->needed, factor < 1) << share << found->verdict;
+  }
+}
 
 // Twice a turn a rod that bends at ω_n swings by 1/(1 − (2ω/ω_n)²) as much as it sags.
 TEST(Screens, RodIsAmplifiedAsByItsSecondOrder) {

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "studies/accuracy.h"
+#include "studies/forced_response.h"
+#include "studies/reduce.h"
 #include "studies/steady.h"
 #include "studies/steady_simulation.h"
 #include "tests/support/scenes.h"
@@ -96,6 +98,138 @@ pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass =
   EXPECT_NEAR(s.motor_delta, s.link_delta, 1e-12);
   const auto [least, most] = std::minmax_element(s.link.begin(), s.link.end());
   EXPECT_NEAR(s.link_delta, (*most - *least) / (0.5 * (*most + *least)), 1e-6);
+}
+
+// ½ I ω² gains M · 2π a turn for ever: the speed changes by π M/T₀ of itself, and tends nowhere.
+TEST(SteadySimulation, RunawayIsNotSettledHoweverStillItsFluctuation) {
+  const Scene scene = test::scene_from(R"(
+line = ["drive", "crank"]
+drive = { kind = "torque source", torque = "2e-3 N*m" }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.3 kg*m2", slider_mass = "30 kg" }
+)");
+  const auto model = compile(scene, Effects{});
+  const SteadySimulation s = simulate_steady(scene, Effects{}, 10, 2 * pi, model->reduction_node, {}, 10);
+  ASSERT_TRUE(s.complete) << s.diagnosis;
+  EXPECT_FALSE(s.settled);
+  EXPECT_TRUE(std::isinf(s.speed_to_come));
+  EXPECT_NEAR(s.speed_change, pi * 2e-3 / (0.5 * 0.3 * 100), 0.01 * s.speed_change);
+}
+
+// --- forced response ---
+
+// Two orders and a fixed frequency on two inertias: τ = s f/J₁/(s/J − ω²), s = k + iωc, each by itself.
+TEST(ForcedResponse, PeaksLieOnTheSideOfTheDeeperSwing) {
+  const Scene scene = test::scene_from(R"(
+line = ["a", "c", "b"]
+a = { kind = "inertia", inertia = "0.3 kg*m2" }
+c = { kind = "coupling", stiffness = "2500 N*m/rad", damping = "4 N*m*s/rad" }
+b = { kind = "inertia", inertia = "0.9 kg*m2" }
+push = { kind = "torque source", on = "a", torque = "7 N*m" }
+pull = { kind = "load", on = "b", torque = "7 N*m", acts = "always" }
+effects = { elasticity = true }
+run = { start = { speed = "30 rad/s" }, until = "1 s" }
+)");
+  const LinearDrive drive = linearise(compile(scene, scene.effects), {.speed = 30});
+  const auto a = static_cast<std::size_t>(drive.model->network.ports.at("a").in);
+  const int on_a = drive.coordinate[static_cast<std::size_t>(drive.model->shaft_of_node[a])];
+  const auto torque = [](double omega, Complex force) {
+    const Complex spring(2500, omega * 4);
+    return spring * force / 0.3 / (spring / 0.225 - omega * omega);
+  };
+  for (const double side : {1.0, -1.0}) {
+    Excitations x;
+    x.harmonics = 2;
+    x.by_order.push_back({"push", on_a, {0, 20 * side, 11 * side}, {0, 0, 0}, {0, 0, 0}});
+    x.by_frequency.push_back({"hum", on_a, 51, Complex(3, -4)});
+    const Complex first = torque(30, 20 * side), second = torque(60, 11 * side);
+    const double beside = std::abs(torque(51, Complex(3, -4)));
+    double greatest = -HUGE_VAL, least = HUGE_VAL;
+    for (int k = 0; k < 200000; ++k) {
+      const double s = 2 * pi * k / 200000,
+                   here = (first * std::polar(1.0, s) + second * std::polar(1.0, 2 * s)).real();
+      greatest = std::max(greatest, here), least = std::min(least, here);
+    }
+    EXPECT_GT(side * (greatest + least), 5);
+    const JointResponse joint = respond(drive, x).joints.at(0);
+    EXPECT_NEAR(joint.mean, 7, 1e-9);
+    EXPECT_NEAR(joint.upper, 7 + greatest + beside, 1e-7);
+    EXPECT_NEAR(joint.lower, 7 + least - beside, 1e-7);
+    EXPECT_NEAR(joint.peak, std::max(greatest, -least) + beside, 1e-7);
+    EXPECT_NEAR(joint.amplitude_sum, std::abs(first) + std::abs(second) + beside, 1e-9);
+    EXPECT_NEAR(joint.rms, std::sqrt(0.5 * (std::norm(first) + std::norm(second) + beside * beside)), 1e-9);
+    double power = 0;
+    for (const auto& [omega, tau] : {std::pair(30.0, std::abs(first)), {60.0, std::abs(second)}, {51.0, beside}})
+      power += 0.5 * 4 * std::pow(omega * tau / std::hypot(2500, omega * 4), 2);
+    EXPECT_NEAR(joint.power, power, 1e-9);
+  }
+}
+
+// --- reduction, starts, runs ---
+
+// Each inertia of the chain on its own shaft and on the link's: J/i².
+TEST(Chain, InertiasKeepTheirOwnShafts) {
+  const MachineReduction r = reduce(test::scene_from(R"(
+line = ["a", "c", "gear", "b"]
+a = { kind = "inertia", inertia = "0.2 kg*m2" }
+c = { kind = "coupling", stiffness = "900 N*m/rad", damping = "3 N*m*s/rad", inertia_out = "0.07 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 50] }] }
+shaft = { kind = "shaft", stiffness = "700 N*m/rad" }
+b = { kind = "inertia", inertia = "3 kg*m2" }
+[[branch]]
+from = "b"
+line = ["shaft", "fan"]
+[fan]
+kind = "inertia"
+inertia = "1.1 kg*m2"
+[run]
+start = { speed = "20 rad/s" }
+)"),
+                                    {.positions = 4, .to = "a", .speed = 20.0, .orders = 1});
+  double sum = 0;
+  bool fan = false;
+  for (const ChainInertia& i : r.chain.inertias) {
+    EXPECT_NEAR(i.reduced, i.own * i.ratio * i.ratio, 1e-12) << i.name;
+    sum += i.reduced;
+    if (i.name.find("fan") == std::string::npos) continue;
+    fan = true;
+    EXPECT_NEAR(i.own, 1.1, 1e-12);
+    EXPECT_NEAR(i.reduced, 1.1 / 6.25, 1e-12);
+  }
+  EXPECT_TRUE(fan);
+  EXPECT_NEAR(sum, 0.27 + 4.1 / 6.25, 1e-12);
+}
+
+// t = ω i (J_m + J/i²)/M to a speed ω of the driven shaft: least at i = √(J/J_m).
+TEST(FastestRatios, DrivenShaftReachesTheSpeedThatItHasNow) {
+  const auto found = fastest_ratios(test::scene_from(R"(
+line = ["motor", "gear", "fan"]
+motor = { kind = "torque source", torque = "40 N*m", inertia = "0.2 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 30] }, { teeth = [25, 50] }] }
+fan = { kind = "inertia", inertia = "5 kg*m2" }
+)"),
+                                    60, 100);
+  ASSERT_EQ(found.size(), 1u);
+  const auto time = [](double i) { return 60 / 3.0 * i * (0.2 + 5 / (i * i)) / 40; };  // the fan turns at 60/3 now
+  EXPECT_NEAR(found[0].present, 3, 1e-12);
+  EXPECT_NEAR(found[0].present_time, time(3), 1e-6);
+  EXPECT_NEAR(found[0].best, 5, 1e-2);
+  EXPECT_NEAR(found[0].best_time, time(5), 1e-6);
+}
+
+// √(∫τ² dt/t) over the time that it ran, when told to run shorter than its scene: J₂/(J₁ + J₂) M, constant.
+TEST(Figures, RootMeanSquareIsOverTheTimeThatWasRun) {
+  const Scene scene = test::scene_from(R"(
+line = ["a", "c", "b"]
+a = { kind = "inertia", inertia = "0.3 kg*m2" }
+c = { kind = "coupling", stiffness = "2500 N*m/rad" }
+b = { kind = "inertia", inertia = "0.9 kg*m2" }
+push = { kind = "torque source", on = "a", torque = "8 N*m" }
+run = { until = "2 s" }
+)");
+  const Result r = simulate(
+      scene, scene.effects, "short",
+      {.measure_error = false, .method = {}, .accuracy = {}, .until = 0.3, .interrupted = nullptr, .progress = {}});
+  EXPECT_NEAR(test::figure(r, "rms_torque.c"), 6, 1e-8);
 }
 
 }  // namespace
