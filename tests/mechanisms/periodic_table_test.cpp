@@ -77,6 +77,23 @@ TEST(PeriodicTable, SaysWhenItRanOutOfPieces) {
   EXPECT_LT(table.report().channels[0].error, 1e-2);
 }
 
+// A channel in another unit is the same channel: errors count by its largest value.
+TEST(PeriodicTable, ErrorsDoNotDependOnTheUnit) {
+  const auto wave = [](double factor) {
+    return [factor](double phi, std::span<double> values) { values[0] = factor * std::cos(9 * phi); };
+  };
+  const auto report = [&](double factor) {
+    return PeriodicTable::build(wave(factor), {{"wave", ErrorScale::own_maximum, 0}}, 1e-10, 1000).report();
+  };
+  const TableReport one = report(1);
+  for (const double factor : {1e-4, 7e5}) {
+    const TableReport other = report(factor);
+    EXPECT_TRUE(other.converged);
+    EXPECT_EQ(other.pieces, one.pieces) << factor;
+    EXPECT_NEAR(other.channels[0].error, one.channels[0].error, 1e-14) << factor;
+  }
+}
+
 TEST(PeriodicTable, RefusesSenselessRequests) {
   const auto broken = [](double, std::span<double> values) { values[0] = NAN; };
   EXPECT_THROW(PeriodicTable::build(broken, {{"broken", {}, 0}}, 1e-9, 100), std::runtime_error);

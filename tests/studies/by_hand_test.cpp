@@ -16,6 +16,28 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// ASTM E1049-85, figure 6, step by step: ranges, means and counts.
+TEST(Rainflow, CyclesOfTheStandardsExampleHaveTheirMeans) {
+  const double expected[][3] = {{3, -0.5, 0.5}, {4, -1, 0.5}, {4, 1, 1},  {8, 1, 0.5},
+                                {9, 0.5, 0.5},  {8, 0, 0.5},  {6, 1, 0.5}};
+  const std::vector<LoadCycle> cycles = rainflow({-2, 1, -3, 5, -1, 3, -4, 4, -2});
+  ASSERT_EQ(cycles.size(), std::size(expected));
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    EXPECT_EQ(cycles[k].range, expected[k][0]) << k;
+    EXPECT_EQ(cycles[k].mean, expected[k][1]) << k;
+    EXPECT_EQ(cycles[k].count, expected[k][2]) << k;
+  }
+}
+
+// Its rule 4: a range X closes the one before, Y, where X ≥ Y, equal ones included.
+TEST(Rainflow, RangeThatEqualsTheOneBeforeClosesIt) {
+  const std::vector<LoadCycle> cycles = rainflow({-3, 6, 1, 4, 1});
+  ASSERT_EQ(cycles.size(), 3u);
+  EXPECT_EQ(cycles[0].range, 3);
+  EXPECT_EQ(cycles[0].mean, 2.5);
+  EXPECT_EQ(cycles[0].count, 1);
+}
+
 // ½ (Σ n R^m/Σ n)^(1/m): of one cycle of range 10 and two of range 4.
 TEST(Rainflow, EquivalentAmplitudeIsThePowerMeanOverTheCycles) {
   const std::vector<LoadCycle> cycles = {{10, 1, 1}, {4, -2, 1.5}, {4, 0, 0.5}};
@@ -66,6 +88,13 @@ TEST(Counterweights, ShakeAndLoadTheBearingLikeACrankThatHasThem) {
     EXPECT_NEAR(c.peak_force, with.prescribed->shaking_force.value, 1e-7 * c.peak_force) << c.name;
     EXPECT_NEAR(c.peak_bearing, with.prescribed->reaction[0].value, 1e-7 * c.peak_bearing) << c.name;
   }
+}
+
+// The rod's mass at its two pins by the lever: ¾ on the crank, ¼ on the slider.
+TEST(Forces, RodIsSharedBetweenItsPins) {
+  const Forces f = crank_forces(0.03);
+  EXPECT_NEAR(f.rotating_moment, 4 * 0.03 + 2 * 0.75 * 0.1, 1e-15);
+  EXPECT_NEAR(f.reciprocating_mass, 3 + 2 * 0.25, 1e-15);
 }
 
 TEST(Counterweights, BalanceTheRotatingMassesAndTheirShareOfTheReciprocatingOnes) {
