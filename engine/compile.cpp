@@ -106,7 +106,6 @@ class Compiler {
     track_angles();
     place_elements();
     list_torque_joints();
-    estimate_fastest_rate();
     messages_.throw_if_any();
     model_.jacobian = lay_out_jacobian(model_);
     return std::make_shared<const Model>(std::move(model_));
@@ -555,26 +554,6 @@ class Compiler {
       model_.torque_joints.push_back(
           {name, static_cast<int>(j), index, model_.torque_scale / model_.scale_ratio[at(joint.a)]});
     }
-  }
-
-  // ω² ≤ max over elastic joints of the stiffness sums at their two shafts; likewise the damping rates.
-  void estimate_fastest_rate() {
-    std::vector<double> stiffness(model_.shafts.size(), 0.0), damping(model_.shafts.size(), 0.0);
-    const auto over = [&](int shaft, double x) {
-      const Shaft& s = model_.shafts[at(shaft)];
-      return s.prescribed >= 0 || s.mean_inertia == 0 ? 0 : x / s.mean_inertia;  // without inertia it follows others
-    };
-    for (const ElasticJoint& e : model_.elastic) {
-      const ConnectionMaker& element = *net().joints[at(e.joint)].element;
-      stiffness[at(e.shaft_a)] += over(e.shaft_a, element.stiffness() * e.gain_a * e.gain_a);
-      stiffness[at(e.shaft_b)] += over(e.shaft_b, element.stiffness() * e.gain_b * e.gain_b);
-      damping[at(e.shaft_a)] += over(e.shaft_a, element.damping() * e.gain_a * e.gain_a);
-      damping[at(e.shaft_b)] += over(e.shaft_b, element.damping() * e.gain_b * e.gain_b);
-    }
-    for (const ElasticJoint& e : model_.elastic)
-      model_.fastest_rate =
-          std::max({model_.fastest_rate, std::sqrt(stiffness[at(e.shaft_a)] + stiffness[at(e.shaft_b)]),
-                    damping[at(e.shaft_a)] + damping[at(e.shaft_b)]});
   }
 
   Model model_;

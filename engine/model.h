@@ -146,7 +146,6 @@ struct Model {
   int reduction_element = -1;                // first mechanism among the elements
   double speed_scale = 1, torque_scale = 1;  // of the reduction link
   JacobianLayout jacobian;
-  double fastest_rate = 0;  // upper bound of the linearised drive's eigenvalues [1/s]
 
   std::size_t angle_count() const { return angles.size(); }
   std::size_t twist_count() const { return elastic.size(); }

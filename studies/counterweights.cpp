@@ -13,11 +13,10 @@ constexpr double turn = 2 * std::numbers::pi;
 
 Force2 direction_of(double phi) { return {std::cos(phi), std::sin(phi)}; }
 
-// What a counterweight opposite to the pin adds to the shaking force: −U (ω² r̂ − ε t̂).
+// What a counterweight opposite to the pin adds to the shaking force at constant speed: −U ω² r̂.
 Force2 added(double moment, const CyclePosition& p) {
   const double w = p.state.omega;
-  return moment *
-         (-w * w * direction_of(p.state.phi) + p.state.alpha * direction_of(p.state.phi + std::numbers::pi / 2));
+  return -moment * w * w * direction_of(p.state.phi);
 }
 
 }  // namespace

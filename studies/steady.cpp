@@ -227,7 +227,6 @@ class RoundFigures {
     for (std::size_t i = 0; i < shafts.size(); ++i) {
       ShaftFluctuation f{shafts[i].name, m_.node_ratio[at_index(shafts[i].node)], extremes_.found()[2 * i].value,
                          extremes_.found()[2 * i + 1].value};
-      if (f.ratio < 0) std::swap(f.max, f.min);
       if (shafts[i].node == m_.reduction_node) {
         add("mean_speed." + f.shaft, f.mean(), "rad/s", m_.speed_scale);
         add("max_speed." + f.shaft, f.max, "rad/s", m_.speed_scale);

@@ -17,7 +17,7 @@ class CycleSpeeds final : public Observer {
     double most[2] = {-HUGE_VAL, -HUGE_VAL}, least[2] = {HUGE_VAL, HUGE_VAL};
     std::vector<double> phi, speed[2];
     double mid(int which) const { return 0.5 * (most[which] + least[which]); }
-    double delta(int which) const { return (most[which] - least[which]) / mid(which); }
+    double delta(int which) const { return (most[which] - least[which]) / std::abs(mid(which)); }
   };
 
   CycleSpeeds(const Model& model, double cycle, int link, int motor)
