@@ -1,0 +1,164 @@
+// laws_by_data_test.cpp — what scenes' data become: friction faces, limiters, gear trains of several stages, motors at
+// a part of their voltage, joints with a phase, wheels thinned for backlash; each against its closed form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "drivetrain/dc_circuits.h"
+#include "drivetrain/gear_pair.h"
+#include "drivetrain/governor.h"
+#include "drivetrain/motors.h"
+#include "drivetrain/universal_joint.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+using test::figure;
+using test::run;
+constexpr double degree = std::numbers::pi / 180;
+
+// Uniform pressure p = F/(π (r_o² − r_i²)): M = n μ ∫ p r 2π r dr.
+TEST(FrictionClutch, TorqueIsThatOfUniformPressureOnItsFaces) {
+  const double outer = 0.12, inner = 0.05, force = 3000, mu = 0.28, plates = 4;
+  double moment = 0;
+  constexpr int rings = 20000;
+  for (int i = 0; i < rings; ++i) {
+    const double dr = (outer - inner) / rings, r = inner + (i + 0.5) * dr;
+    moment +=
+        plates * mu * force / (std::numbers::pi * (outer * outer - inner * inner)) * r * 2 * std::numbers::pi * r * dr;
+  }
+  const Result r = run(R"(
+line = ["a", "clutch", "b"]
+a = { kind = "inertia", inertia = "2 kg*m2" }
+b = { kind = "inertia", inertia = "3 kg*m2" }
+clutch = { kind = "clutch", force = "3 kN", plates = 4, friction_coefficient = 0.28, outer_radius = "120 mm", inner_radius = "50 mm" }
+run = { until = "0.1 s", accuracy = 1e-9, start = { speed = "0 rad/s", a = { speed = "100 rad/s" } } }
+)",
+                       false);
+  EXPECT_NEAR(figure(r, "final_speed.b"), moment * 0.1 / 3, 1e-7);
+}
+
+// Over its limit it slips with a part of it.
+TEST(TorqueLimiter, SlipsWithItsPart) {
+  for (const double push : {70.0, -70.0}) {
+    const Result r = run(fmt::format(R"(
+line = ["a", "limiter", "b"]
+a = {{ kind = "torque source", torque = "{} N*m", inertia = "0.2 kg*m2" }}
+b = {{ kind = "inertia", inertia = "0.6 kg*m2" }}
+limiter = {{ kind = "torque limiter", torque = "50 N*m", slipping_part = 0.6 }}
+run = {{ until = "0.1 s", accuracy = 1e-9 }}
+)",
+                                     push),
+                         false);
+    EXPECT_NEAR(figure(r, "final_speed.b"), std::copysign(30, push) * 0.1 / 0.6, 1e-8);
+    EXPECT_NEAR(figure(r, "final_speed.a"), std::copysign(40, push) * 0.1 / 0.2, 1e-8);
+  }
+}
+
+// One efficiency of two stages: i = i₁ i₂, M_out = i η M_in.
+TEST(Gearbox, OfTwoStagesWithOneEfficiencyHasTheProductOfTheirRatios) {
+  const Result r = run(R"(
+line = ["drive", "gear", "fan"]
+drive = { kind = "torque source", torque = "8 N*m", inertia = "0.05 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 50] }, { teeth = [30, 45] }], efficiency = 0.9 }
+fan = { kind = "load", damping = "3 N*m*s/rad", inertia = "0.2 kg*m2" }
+effects = { gear_losses = true }
+run = { until = "10 s", accuracy = 1e-9 }
+)",
+                       false);
+  EXPECT_NEAR(figure(r, "final_speed.fan"), 8 * 3.75 * 0.9 / 3, 1e-7);
+  EXPECT_NEAR(figure(r, "final_speed.drive"), 3.75 * 8 * 3.75 * 0.9 / 3, 1e-6);
+}
+
+// Kloss with a, at a part of the voltage its square; reversed its mirror image.
+TEST(InductionMotor, AtAPartOfTheVoltageAndReversed) {
+  const InductionMotor motor{120, 157, 0.18, 0.7, 50};
+  for (const double omega : {-40.0, 20.0, 140.0, 170.0}) {
+    const double s = (157 - omega) / 157;
+    const double kloss = 2 * 120 * (1 + 0.7 * 0.18) / (s / 0.18 + 0.18 / s + 2 * 0.7 * 0.18);
+    EXPECT_NEAR(motor.torque(ShaftState<double>{.rate = omega, .command = 0.6}), 0.36 * kloss, 1e-10);
+    EXPECT_NEAR(motor.torque(ShaftState<double>{.rate = -omega, .command = -0.6}), -0.36 * kloss, 1e-10);
+  }
+}
+
+// A turning series motor begins with (R + s κ ω) i = |c| U.
+TEST(DcSeriesCircuit, BeginsWithTheCurrentOfItsPartOfTheVoltage) {
+  const DcSeriesCircuit motor{.line = {.voltage = 200, .resistance = 0.8, .constant = 0.05, .max_speed = 500},
+                              .inductance = 0.02};
+  for (const double command : {0.6, -0.6}) {
+    double current = 0;
+    ShaftState<double> x{.rate = std::copysign(30, command), .command = command, .own = &current};
+    x.mode = motor.first_mode(x);
+    motor.first_states(x, &current);
+    EXPECT_NEAR(current, 0.6 * 200 / (0.8 + 0.05 * 30), 1e-12);
+  }
+}
+
+TEST(SpeedGovernor, IsRatedByItsLargerLimit) {
+  EXPECT_DOUBLE_EQ((SpeedGovernor{.most = 40, .least = -90}.rated().torque), 90);
+  EXPECT_DOUBLE_EQ((SpeedGovernor{.most = 40, .least = -10}.rated().torque), 40);
+}
+
+// tan φ₂ = tan φ₁/cos β with φ₁ = φ_a + phase, and φ_b = 0 at φ_a = 0: so it rests, without energy.
+TEST(UniversalJoint, RestsWhereItsKinematicsSayWhateverItsPhase) {
+  const double beta = 35 * degree, phase = 0.4;
+  const UniversalJoint joint{.stiffness = 900, .joint = {beta}, .phase = phase};
+  for (double turn = -1.1; turn < 1.1; turn += 0.2) {
+    const double driven =
+        std::atan(std::tan(turn + phase) / std::cos(beta)) - std::atan(std::tan(phase) / std::cos(beta));
+    EXPECT_NEAR(turn - joint.rest_twist(turn), driven, 1e-12) << turn;
+    EXPECT_NEAR(joint.energy(Twist<double>{.angle = joint.rest_twist(turn), .turn = turn}), 0, 1e-20);
+    const double slope = std::cos(beta) / (1 - std::pow(std::sin(beta) * std::cos(turn + phase), 2));
+    EXPECT_NEAR(joint.rest_ratio(turn), slope, 1e-12);
+  }
+}
+
+// The rack stands deeper by j_bn/(4 m sin α_n) than the nominal shift says: that decides on undercut.
+TEST(GearWheel, ThinnedForBacklashIsUndercutEarlier) {
+  GearPairData d;
+  d.module = 3e-3;
+  d.teeth = {12, 40};
+  const double least = solve_gear_pair(d).wheel[0].least_shift_generated();
+  for (const double backlash : {0.0, 0.1}) {
+    d.backlash = backlash * d.module;
+    d.shift[0] = least + 0.05;
+    EXPECT_EQ(solve_gear_pair(d).wheel[0].undercut, backlash / (4 * std::sin(20 * degree)) > 0.05);
+  }
+}
+
+// ISO 21771: x_min = h_a* − z sin² α_t/(2 cos β), tan α_t = tan α_n/cos β; least_teeth is its inverse.
+TEST(GearWheel, LeastShiftOfHelicalTeeth) {
+  const BasicRack rack{.pressure_angle = 22 * degree, .addendum = 0.9};
+  for (const double helix : {0.0, 18 * degree, -33 * degree}) {
+    const double transverse = std::atan(std::tan(22 * degree) / std::cos(helix));
+    const double least = 0.9 - 11 * std::pow(std::sin(transverse), 2) / (2 * std::cos(helix));
+    EXPECT_NEAR(least_shift(rack, 11, helix), least, 1e-12);
+    EXPECT_NEAR(least_teeth(rack, helix, least), 11, 1e-9);
+  }
+}
+
+TEST(GearVerdicts, SayWhichTipsAreTooThinForHardenedTeeth) {
+  int thin = 0, thick = 0;
+  for (double shift = 0; shift < 0.75; shift += 0.05) {
+    GearPairData d;
+    d.module = 3e-3;
+    d.teeth = {16, 41};
+    d.shift = {shift, 0};
+    const GearPair p = solve_gear_pair(d);
+    const double tip = p.wheel[0].tip_thickness() / d.module;
+    int notes = 0;
+    for (const GearVerdict& v : verdicts(p))
+      notes +=
+          v.finding == Finding::note && v.text.find("Tips of wheel 1") == 0 && v.text.find("hardened") != v.text.npos;
+    EXPECT_EQ(notes, tip < 0.4 && tip >= 0.2) << tip;
+    (tip < 0.4 ? thin : thick) += 1;
+  }
+  EXPECT_GT(thin, 0);
+  EXPECT_GT(thick, 0);
+}
+
+}  // namespace
+}  // namespace kurbel
