@@ -10,6 +10,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/report/run_report.h"
 #include "studies/text_table.h"
 
@@ -275,8 +276,8 @@ std::string table_of(const Comparison& c) {
   return text;
 }
 
-std::string json_of(const Result& r) { return result_json(r).dump(2); }
-std::string json_of(const Comparison& c) { return comparison_json(c).dump(2); }
+std::string json_of(const Result& r) { return json_text(result_json(r)); }
+std::string json_of(const Comparison& c) { return json_text(comparison_json(c)); }
 
 StudyOutput output_of(const Result& r) {
   StudyOutput output{one_line(r), table_of(r), json_of(r), [&r] { return report_of(r); }, {}, r.complete, r.diagnosis};
