@@ -37,7 +37,7 @@ std::string folder_name_of(const std::string& scene_file) {
 // A browser, where the desktop has one.
 void open_in_browser(const std::filesystem::path& path) {
   const bool desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-  if (!desktop || spawn({"xdg-open", std::filesystem::absolute(path).string()}) < 0)
+  if (!desktop || !is_installed("xdg-open") || spawn({"xdg-open", std::filesystem::absolute(path).string()}) < 0)
     complain(fmt::format("kurbel: no browser to open here; the report is {}\n", path.string()));
 }
 

@@ -133,6 +133,7 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
 }
 
 bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  if (file.native().find('\0') != std::string::npos) return true;  // names no file
   std::error_code error;
   const auto own = std::filesystem::canonical(folder.empty() ? "." : folder, error);
   if (error) return true;

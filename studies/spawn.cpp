@@ -1,46 +1,58 @@
-// spawn.cpp — by posix_spawn.
+// spawn.cpp — between fork and exec nothing but calls of the system.
 #include "studies/spawn.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <sstream>
 
 namespace kurbel {
+namespace {
 
-pid_t spawn(const std::vector<std::string>& words, int folder, int kept) {
+constexpr int no_such_program = 127;
+
+pid_t start(const std::vector<std::string>& words, int folder, int kept, bool dies_with_parent) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  if (folder >= 0) posix_spawn_file_actions_addfchdir_np(&actions, folder);
-  if (kept >= 0) posix_spawn_file_actions_adddup2(&actions, kept, kept);  // no longer closed on exec
-  // Signals that this program ignores are not to be ignored by others.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t as_usual;
-  sigemptyset(&as_usual);
-  sigaddset(&as_usual, SIGPIPE);
-  sigaddset(&as_usual, SIGXFSZ);
-  posix_spawnattr_setsigdefault(&attributes, &as_usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t process = -1;
-  if (posix_spawnp(&process, arguments[0], &actions, &attributes, arguments.data(), environ) != 0) process = -1;
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return process;
+  const pid_t parent = getpid(), child = fork();
+  if (child != 0) return child;
+  if (dies_with_parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(no_such_program);  // it was too late
+  }
+  const int nothing = open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
+  if (kept >= 0) fcntl(kept, F_SETFD, 0);
+  // What this program ignores, others need not.
+  std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_DFL);
+  if (folder < 0 || fchdir(folder) == 0) execvp(arguments[0], arguments.data());
+  _exit(no_such_program);
 }
 
-bool ended_well(pid_t process) {
+}  // namespace
+
+bool is_installed(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::stringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+pid_t spawn(const std::vector<std::string>& words) { return start(words, -1, -1, false); }
+
+bool run_and_wait(const std::vector<std::string>& words, int folder, int kept) {
+  const pid_t child = start(words, folder, kept, true);
+  if (child < 0) return false;
   int status = 0;
-  while (waitpid(process, &status, 0) < 0)
+  while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return false;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

@@ -8,10 +8,14 @@
 
 namespace kurbel {
 
-// Starts a program found by PATH, silent, in a folder (−1: here) with `kept` left open for it (−1: nothing). Returns
-// its process, or −1 where there is no such program.
-pid_t spawn(const std::vector<std::string>& words, int folder = -1, int kept = -1);
-// True: it ended with 0.
-bool ended_well(pid_t process);
+// Whether PATH leads to a program.
+bool is_installed(const std::string& program);
+
+// Starts a program found by PATH, silent, to go on by itself. −1: it could not be started.
+pid_t spawn(const std::vector<std::string>& words);
+
+// The same for work of this program: in a folder, with `kept` left open for it (−1: nothing), and killed with this
+// program. True: there is such a program, and it ended with 0.
+bool run_and_wait(const std::vector<std::string>& words, int folder, int kept = -1);
 
 }  // namespace kurbel

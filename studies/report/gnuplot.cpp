@@ -133,12 +133,11 @@ std::vector<TextFile> gnuplot_files(const Report& report) {
 
 std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int folder, int kept) {
   std::vector<std::string> drawn;
+  if (!is_installed("gnuplot")) return drawn;
   for (const TextFile& file : files) {
     if (!file.name.ends_with(".gp")) continue;
-    const pid_t gnuplot = spawn({"gnuplot", file.name}, folder, kept);
-    if (gnuplot < 0) break;
     const std::string name = file.name.substr(0, file.name.size() - 3);
-    const bool well = ended_well(gnuplot);
+    const bool well = run_and_wait({"gnuplot", file.name}, folder, kept);
     for (const char* extension : {".svg", ".png"})
       if (const std::string picture = name + extension; faccessat(folder, picture.c_str(), F_OK, 0) == 0) {
         if (well)

@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -87,7 +88,7 @@ class Security : public testing::Test {
   }
   void scene(const std::string& name, const std::string& title, const std::string& run = "until = \"0.2 s\"") {
     write_text(folder_ / "scene" / name,
-               "title = " + nlohmann::json(title).dump() +
+               "title = " + std::regex_replace(nlohmann::json(title).dump(), std::regex("\x7F"), "\\u007F") +
                    "\nline = [\"motor\", \"coupling\", \"fan\"]\n"
                    "motor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", "
                    "inertia = \"1 kg*m2\" }\n"

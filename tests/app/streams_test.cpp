@@ -37,9 +37,11 @@ class Streams : public testing::Test {
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
     folder_ = fs::temp_directory_path() / ("kurbel_streams_" + name + "_" + std::to_string(getpid()));
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "wheel.toml") << "line = [\"wheel\"]\nwheel = { kind = \"flywheel\", inertia = \"1 kg*m2\" "
-                                             "}\nrun = { until = \"1 s\", start = "
-                                             "{ speed = \"1 rad/s\" } }\n";
+    // A pulsation: without one the steps would grow without limit.
+    std::ofstream(folder_ / "wheel.toml")
+        << "line = [\"wheel\"]\nwheel = { kind = \"flywheel\", inertia = \"1 kg*m2\" }\n"
+           "pulse = { kind = \"torque source\", amplitude = \"5 N*m\", frequency = \"5 Hz\", on = \"wheel\" }\n"
+           "run = { until = \"1 s\", start = { speed = \"1 rad/s\" } }\n";
   }
   ~Streams() override { fs::remove_all(folder_); }
 

@@ -192,6 +192,8 @@ TEST_P(ResultSetOnce, LinkToAFolderIsFollowed) {
 
 TEST_P(ResultSetOnce, NextRunClearsAwayWhatTheDeadLeftAndNothingOfTheLiving) {
   put("first");
+  ResultSet living(folder_ / "other");
+  living.add("a.txt", "1");
   const pid_t killed = fork();
   if (killed == 0) {
     ResultSet set(folder_ / "out");
@@ -199,8 +201,6 @@ TEST_P(ResultSetOnce, NextRunClearsAwayWhatTheDeadLeftAndNothingOfTheLiving) {
     raise(SIGKILL);
   }
   waitpid(killed, nullptr, 0);
-  ResultSet living(folder_ / "other");
-  living.add("a.txt", "1");
   EXPECT_EQ(names_in(folder_).size(), 3u);
   put("second");
   expect_run("second");
