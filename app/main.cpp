@@ -101,16 +101,16 @@ int run_and_tell(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const kurbel::SceneError& error) {
-    kurbel::app::complain(fmt::format("{}\n", error.what()));
+    complain(fmt::format("{}\n", error.what()));
     return exit_user_error;
   } catch (const std::invalid_argument& error) {
-    kurbel::app::complain(fmt::format("kurbel: {}\n", error.what()));
+    complain(fmt::format("kurbel: {}\n", error.what()));
     return exit_user_error;
   } catch (const std::bad_alloc&) {
     complain("kurbel: the memory that is allowed does not suffice; raise the limit, or take a smaller scene\n");
     return exit_run_failed;
   } catch (const std::exception& error) {
-    kurbel::app::complain(fmt::format("kurbel: {}\n", interrupted() ? "interrupted" : error.what()));
+    complain(fmt::format("kurbel: {}{}\n", interrupted() ? "interrupted; " : "", error.what()));
     return interrupted() ? exit_interrupted : exit_run_failed;
   }
 }

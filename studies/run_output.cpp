@@ -127,7 +127,8 @@ Json result_json(const Result& r) {
                 {"states", r.states},
                 {"explanation", r.explanation}};
   j["figures"] = Json::array();
-  for (const Figure& f : r.figures) j["figures"].push_back(figure_json(f));
+  for (const Figure& f : r.figures)
+    if (is_told(f, r)) j["figures"].push_back(figure_json(f));
   j["final"] = Json::object();
   for (const auto& [name, state] : r.final_state) j["final"][name] = state_json(state);
   j["events"] = Json::array();
@@ -255,8 +256,9 @@ std::string table_of(const Result& r) {
   std::string text = r.title + "\n" + heading(r);
   std::vector<std::vector<std::string>> rows = {{"figure", "value", "error", "unit", "at"}};
   for (const Figure& f : r.figures)
-    rows.push_back({f.name, value_cell(f.value, f.error), error_cell(f.value, f.error), pretty_unit(f.unit),
-                    f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""});
+    if (is_told(f, r))
+      rows.push_back({f.name, value_cell(f.value, f.error), error_cell(f.value, f.error), pretty_unit(f.unit),
+                      f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""});
   return text + aligned(rows, 1) + footing(r);
 }
 

@@ -297,6 +297,37 @@ TEST_F(CommandLine, RunawayEndsWithThreeAnEventAndADiagnosis) {
   EXPECT_EQ(summary["events"][0]["what"], "ran away: passed its max_speed");
 }
 
+// A clearance that no pin has: the motion loses its values at the first contact. Nothing of that is told as a figure.
+TEST_F(CommandLine, FiguresWithoutAValueAreLeftOutOfAnIncompleteRun) {
+  std::string text = text_of(std::string(KURBEL_SOURCE_DIR) + "/scenes/worn_crank_pin.toml");
+  const auto put = [&](const std::string& old, const std::string& value) {
+    const std::size_t at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    text.replace(at, old.size(), value);
+  };
+  put("gap = \"0.1 mm\"", "gap = \"1e300 mm\"");
+  put("friction = 0.05, radius = \"10 mm\"", "friction = 0.05, radius = \"1e150 mm\"");
+  std::ofstream(folder_ / "lost.toml") << text;
+  for (const char* verb : {"run", "compare"}) {
+    const Ended r = kurbel({verb, "lost.toml", "--out", verb});
+    if (r.code == 2) {  // refused before it runs
+      EXPECT_EQ(r.err.rfind("lost.toml:", 0), 0u) << r.err;
+      continue;
+    }
+    EXPECT_EQ(r.code, 3);
+    std::istringstream lines(r.out);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find("stopped at") == std::string::npos) {
+        EXPECT_EQ(line.find(" nan"), std::string::npos) << line;
+      }
+    const auto summary = nlohmann::json::parse(text_of(folder_ / (std::string(verb) + ".incomplete/summary.json")));
+    const auto run = std::string(verb) == "run" ? summary : summary["models"]["elastic"];
+    EXPECT_FALSE(run["complete"]);
+    EXPECT_FALSE(run["figures"].empty());
+    for (const auto& figure : run["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
+  }
+}
+
 TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
   const std::vector<std::string> spent = {"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"};
   EXPECT_NE(on_terminal(spent).find("\033[31mINCOMPLETE\033[0m"), std::string::npos);
