@@ -115,16 +115,12 @@ int run_and_tell(int argc, char** argv) {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__
-// Before the constructors of the libraries, which take ten milliseconds: Ctrl-C may come at any time.
-void prepare(int, char**, char**) { kurbel::app::catch_signals(); }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const first)(int, char**, char**) = prepare;
-#endif
-
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace kurbel::app;
+  // First of all: Ctrl-C may come at any time. Before this, while the system loads the program, it ends it as any
+  // other.
   catch_signals();
   open_standard_streams();
   const int code = run_and_tell(argc, argv);

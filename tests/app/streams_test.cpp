@@ -125,7 +125,7 @@ TEST_F(Streams, FullStderrChangesNoExitCode) {
             3);
 }
 
-// As soon as the program holds the signal, long before the libraries are set up, it ends as documented.
+// From when the program has been loaded (ten milliseconds, in which the system answers signals), it ends as documented.
 TEST_F(Streams, SignalInTheFirstMillisecondsEndsWith130) {
   int held = 0;
   for (int n = 0; n < 20; ++n) {

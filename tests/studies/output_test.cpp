@@ -107,7 +107,8 @@ TEST(Output, WhatHasNoValueInARunThatBrokeOffIsLeftOut) {
     const StudyOutput output = output_of(r);
     const auto json = nlohmann::json::parse(output.json);
     for (const auto& figure : json["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
-    for (const std::string& text : {output.table, output.conclusion, html_of(output.report()).substr(1'200'000)}) {
+    const std::string page = html_of(output.report());
+    for (const std::string& text : {output.table, output.conclusion, page.substr(page.find("id=\"data\""))}) {
       EXPECT_EQ(text.find("nan"), std::string::npos)
           << text.substr(std::max<std::size_t>(text.find("nan"), 60) - 60, 99);
       EXPECT_EQ(text.find("inf "), std::string::npos);
