@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/terminal.h"
 #include "studies/accuracy_output.h"
 
 namespace kurbel::app {
@@ -55,13 +56,10 @@ int accuracy(const AccuracyArguments& arguments) {
   const AccuracyStudy study = measure_accuracy(scene, options_of(arguments, progress));
   const StudyOutput output = output_of(study);
   const int code = present(output, arguments.study);
-  const std::filesystem::path folder = arguments.study.out.empty()
-                                           ? results_of(arguments.study.scene, arguments.study.study)
-                                           : std::filesystem::path(arguments.study.out);
-  const bool written = !arguments.study.no_files && study.complete && !study.settings.empty();
+  const bool written = code == exit_done && !arguments.study.no_files && !study.settings.empty();
   if (written && !arguments.study.json && !arguments.study.quiet)
-    fmt::print("run with the cheapest setting that is exact enough: kurbel run {} --setting {}\n",
-               arguments.study.scene, (folder / "summary.json").string());
+    say(fmt::format("run with the cheapest setting that is exact enough: kurbel run {} --setting {}\n",
+                    arguments.study.scene, (results_of(arguments.study) / "summary.json").string()));
   return code;
 }
 

@@ -1,14 +1,13 @@
 // advise_command.cpp — the cheapest set of effects that stays within a tolerance.
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 
 #include "app/command_line.h"
 #include "studies/advise_output.h"
+#include "studies/whole_file.h"
 
 namespace kurbel::app {
 namespace {
@@ -27,22 +26,12 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-// Under a temporary name first, so that nothing half-written stays.
-void write_scene(const std::string& path, const std::string& text) {
-  const std::string temporary = path + ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    if (!file.flush()) throw std::invalid_argument(fmt::format("--write {}: cannot be written", path));
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) throw std::invalid_argument(fmt::format("--write {}: {}", path, error.message()));
-}
-
 int run_advise(const AdviseArguments& arguments) {
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
+  if (!arguments.write.empty())
+    if (const std::string why = why_no_file_at(arguments.write); !why.empty())
+      throw std::invalid_argument(fmt::format("--write {}: {}", arguments.write, why));
   Progress progress(arguments.study.quiet);
   AdviseOptions options;
   options.simulate = simulate_options(arguments.study, progress);
@@ -50,7 +39,7 @@ int run_advise(const AdviseArguments& arguments) {
   options.figures = names_in(arguments.figures);
   options.held_out = !arguments.no_held_out;
   const Advice advice = advise(scene, options);
-  if (!arguments.write.empty() && advice.complete) write_scene(arguments.write, advice.lean_scene);
+  if (!arguments.write.empty() && advice.complete && !interrupted()) write_whole(arguments.write, advice.lean_scene);
   return present(output_of(advice), arguments.study);
 }
 

@@ -4,15 +4,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "app/terminal.h"
+#include "engine/data_files.h"
+#include "engine/printable.h"
 #include "engine/units.h"
 #include "studies/kinds.h"
+#include "studies/result_set.h"
+#include "studies/spawn.h"
 
 namespace kurbel::app {
 namespace {
@@ -23,42 +27,49 @@ extern "C" void on_interrupt(int) {
   if (interrupt_seen.exchange(true)) _exit(exit_interrupted);
 }
 
-std::filesystem::path folder_of(const StudyOptions& options) {
-  return options.out.empty() ? results_of(options.scene, options.study) : std::filesystem::path(options.out);
+// The scene's name without ".toml", as the name of a folder: never a hidden one, nor "." or "..".
+std::string folder_name_of(const std::string& scene_file) {
+  std::string name = std::filesystem::path(scene_file).stem().string();
+  if (name.empty() || name[0] == '.') name = "_" + name.substr(std::min(name.find_first_not_of('.'), name.size()));
+  return name;
 }
 
 // A browser, where the desktop has one.
-void open_in_browser(const std::string& path) {
+void open_in_browser(const std::filesystem::path& path) {
   const bool desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-  setenv("KURBEL_REPORT", path.c_str(), 1);  // so that no path is read as a command
-  if (!desktop || std::system("command -v xdg-open > /dev/null && xdg-open \"$KURBEL_REPORT\" > /dev/null 2>&1 &") != 0)
-    fmt::print(stderr, "kurbel: no browser to open here; the report is {}\n", path);
+  if (!desktop || !is_installed("xdg-open") || spawn({"xdg-open", std::filesystem::absolute(path).string()}) < 0)
+    complain(fmt::format("kurbel: no browser to open here; the report is {}\n", path.string()));
 }
 
 }  // namespace
 
-std::filesystem::path results_of(const std::string& scene_file, const std::string& study) {
-  const auto folder = std::filesystem::path("results") / std::filesystem::path(scene_file).stem();
-  return study.empty() ? folder : folder / study;
+std::filesystem::path results_of(const StudyOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path("results") / folder_name_of(options.scene) / options.study;
 }
 
 const std::atomic<bool>& interrupted() { return interrupt_seen; }
 
-void catch_interrupts() {
+void catch_signals() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void add_scene(CLI::App& command, std::string& scene) {
+void add_scene(CLI::App& command, std::string& scene, bool& allow_files) {
   command.add_option("scene", scene, "scene file (TOML)")->required();
+  command.add_flag("--allow-files", allow_files,
+                   "let the scene read data files outside of its own folder (default: only there and below)");
 }
 
 void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study) {
   options.study = study;
-  add_scene(command, options.scene);
+  add_scene(command, options.scene, options.allow_files);
   command.add_option("--out", options.out,
-                     "folder for report.html, summary.json and tables as CSV (default: results/SCENE" +
-                         (study.empty() ? ")" : "/" + study + ")"));
+                     "folder for report.html, summary.json and tables as CSV, replaced as a whole (default: "
+                     "results/SCENE/" +
+                         study + ")");
   command.add_flag("--no-files", options.no_files, "print only");
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,
@@ -71,7 +82,7 @@ void add_study_options(CLI::App& command, StudyOptions& options, const std::stri
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-  if (written_) fmt::print(stderr, "\r\033[K");
+  if (written_) show_progress("");
 }
 
 void Progress::operator()(const std::string& what, double fraction) {
@@ -80,12 +91,15 @@ void Progress::operator()(const std::string& what, double fraction) {
   if (now - begin_ < std::chrono::seconds(1) || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   written_ = true;
-  fmt::print(stderr, "\r\033[K{}: {:.0f} %", what, 100 * fraction);
-  std::fflush(stderr);
+  show_progress(fmt::format("{}: {:.0f} %", what, 100 * fraction));
+}
+
+Scene read(const std::string& file, bool allow_files) {
+  return read_scene(file, all_kinds(), allow_files ? DataFiles::anywhere : DataFiles::below_the_scene);
 }
 
 Scene read(const StudyOptions& options) {
-  Scene scene = read_scene(options.scene, all_kinds());
+  Scene scene = read(options.scene, options.allow_files);
   if (const auto log = make_log(options.verbose))
     log(fmt::format("read {}: {} components on {} line{}, effects: {}", scene.file, scene.components.size(),
                     scene.lines.size(), scene.lines.size() == 1 ? "" : "s", scene.effects.describe()));
@@ -94,17 +108,10 @@ Scene read(const StudyOptions& options) {
 
 void check_folder(const StudyOptions& options) {
   if (options.no_files) return;
-  const std::filesystem::path folder = folder_of(options);
-  std::error_code status;
-  std::filesystem::path existing = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(existing, status) && existing.has_relative_path()) existing = existing.parent_path();
-  if (!std::filesystem::is_directory(existing, status))
-    throw std::invalid_argument(
-        fmt::format("--out {}: {} is a file; give a folder", folder.string(), existing.string()));
-  if (access(existing.c_str(), W_OK) != 0)
-    throw std::invalid_argument(
-        fmt::format("--out {}: no permission to write in {}; give another folder, or --no-files", folder.string(),
-                    existing.string()));
+  const std::filesystem::path folder = results_of(options);
+  for (const std::filesystem::path& place : {folder, incomplete_place(folder)})
+    if (const std::string why = why_no_results_in(place); !why.empty())
+      throw std::invalid_argument(fmt::format("--out {}: {}", folder.string(), why));
 }
 
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress) {
@@ -129,32 +136,42 @@ double quantity_of(const std::string& option, const std::string& text, const std
   return value->value;
 }
 
+namespace {
+
+// Where the files are, said.
+void write_files(const StudyOutput& output, const StudyOptions& options, bool stopped) {
+  const WriteOptions how{.plots = options.plots,
+                         .interrupted = stopped,
+                         .made_by = fmt::format("kurbel {} {}", options.study, options.scene)};
+  const std::filesystem::path folder = write_output(output, results_of(options), how);
+  if (!options.json && !options.quiet) {
+    say(fmt::format("results: {}\n", (folder / "summary.json").string()));
+    if (options.plots) say(fmt::format("plots for gnuplot: {}\n", (folder / "plots").string()));
+    say(fmt::format("report: {}\n", (folder / "report.html").string()));
+  }
+  if (options.open) open_in_browser(folder / "report.html");
+}
+
+}  // namespace
+
 int present(const StudyOutput& output, const StudyOptions& options) {
-  if (options.json) {
-    fmt::print("{}\n", output.json);
-  } else if (options.quiet) {
-    fmt::print("{}\n", output.conclusion);
-  } else {
-    fmt::print("{}", wants_colour(STDOUT_FILENO) ? coloured(output.table, output.conclusion) : output.table);
-  }
-  if (!options.no_files) {
-    const std::filesystem::path folder = folder_of(options);
-    write_output(output, folder.string(), options.plots);
-    if (!options.json && !options.quiet) {
-      fmt::print("results: {}\n", (folder / "summary.json").string());
-      if (options.plots) fmt::print("plots for gnuplot: {}\n", (folder / "plots").string());
-      fmt::print("report: {}\n", (folder / "report.html").string());
-    }
-    if (options.open) open_in_browser((folder / "report.html").string());
-  }
-  if (output.complete && !interrupt_seen) {
+  // Asked once: what is decided here holds for the files as for the exit code.
+  const bool stopped = interrupt_seen;
+  if (options.json)
+    say(printable_json(output.json) + "\n");
+  else if (options.quiet)
+    say(printable(output.conclusion) + "\n");
+  else
+    say_with_conclusion(output.table, output.conclusion);
+  if (!options.no_files) write_files(output, options, stopped);
+  if (output.complete && !stopped) {
     if (output.unconfirmed.empty()) return exit_done;
-    fmt::print(stderr, "kurbel: not confirmed: {}. Loosen --accuracy, or take --no-error if no error is wanted\n",
-               output.unconfirmed);
+    complain(fmt::format("kurbel: not confirmed: {}. Loosen --accuracy, or take --no-error if no error is wanted\n",
+                         output.unconfirmed));
     return exit_not_confirmed;
   }
-  fmt::print(stderr, "kurbel: {}\n", output.complete ? "interrupted" : output.diagnosis);
-  return interrupt_seen ? exit_interrupted : exit_run_failed;
+  complain(fmt::format("kurbel: {}\n", output.complete ? "interrupted" : output.diagnosis));
+  return stopped ? exit_interrupted : exit_run_failed;
 }
 
 }  // namespace kurbel::app

@@ -19,18 +19,21 @@ inline constexpr int exit_done = 0, exit_user_error = 2, exit_run_failed = 3, ex
 
 // Set by Ctrl-C; runs end cleanly on it.
 const std::atomic<bool>& interrupted();
-void catch_interrupts();
+// Ctrl-C ends the run, and at the second time the program; a reader that leaves and a file that may not grow are errors
+// of writing, not the end.
+void catch_signals();
 
 // Options that every study on a scene has.
 struct StudyOptions {
-  std::string study;  // its results go into a folder of this name within the scene's; empty: the scene's own
+  std::string study;  // the command: its results go into a folder of this name within the scene's
   std::string scene, out;
   bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
+  bool allow_files = false;
 };
-// results/SCENE, or results/SCENE/STUDY: no study writes over another's report.
-std::filesystem::path results_of(const std::string& scene_file, const std::string& study = "");
-void add_scene(CLI::App& command, std::string& scene);
-void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study = "");
+// --out, or results/SCENE/STUDY: no study writes over another's results.
+std::filesystem::path results_of(const StudyOptions& options);
+void add_scene(CLI::App& command, std::string& scene, bool& allow_files);
+void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {
@@ -44,8 +47,9 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_{};
 };
 
-// Reads the scene and logs it; throws SceneError.
-Scene read(const StudyOptions& options);
+// Reads a scene; of data files those below its own folder, unless all are allowed. Throws SceneError.
+Scene read(const std::string& file, bool allow_files);
+Scene read(const StudyOptions& options);  // and logs it
 
 // Before anything runs: hours of work must not end at a folder that cannot be written. Throws std::invalid_argument.
 void check_folder(const StudyOptions& options);

@@ -4,22 +4,23 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/terminal.h"
 #include "studies/effect_study_output.h"
 
 namespace kurbel::app {
 namespace {
 
 int list_effects() {
-  fmt::print(
+  say(fmt::format(
       "elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where "
       "an excitation "
-      "meets a mode, and for starts and blows; unless mentioned: off\n");
+      "meets a mode, and for starts and blows; unless mentioned: off\n"));
   for (const EffectFlag& effect : effect_flags())
-    fmt::print("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
-               effect.parameters, effect.states, effect.matters,
-               effect.unsaid == EffectFlag::Unsaid::off           ? "off"
-               : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
-                                                                  : "on, even in the rigid machine");
+    say(fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
+                    effect.parameters, effect.states, effect.matters,
+                    effect.unsaid == EffectFlag::Unsaid::off           ? "off"
+                    : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
+                                                                       : "on, even in the rigid machine"));
   return exit_done;
 }
 

@@ -94,8 +94,7 @@ int gears(GearsArguments a) {
     check_folder(a.study);
     return present(output_of(find_gears(scene, {.pair = a.pair, .speed = speed})), a.study);
   }
-  a.study.scene = "gear_pair";  // names the folder of the results
-  a.study.study.clear();
+  a.study.scene = "pair_alone";  // names the folder of the results
   check_folder(a.study);
   return present(alone(a, speed), a.study);
 }

@@ -54,7 +54,7 @@ void add_modes_command(CLI::App& app, int& code) {
   const auto arguments = std::make_shared<ModesArguments>();
   CLI::App* command = app.add_subcommand(
       "modes", "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra");
-  add_study_options(*command, arguments->study);
+  add_study_options(*command, arguments->study, "modes");
   command->add_option("--effects", arguments->effects,
                       "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
   command->add_option("--count", arguments->count, "number of modes (default: 20)");

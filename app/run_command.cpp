@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/terminal.h"
 #include "engine/model.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "studies/known_accuracy.h"
@@ -22,8 +23,8 @@ struct RunArguments {
   bool no_error = false, explain = false;
 };
 
-void add_run_options(CLI::App& command, RunArguments& arguments) {
-  add_study_options(command, arguments.study);
+void add_run_options(CLI::App& command, RunArguments& arguments, const std::string& name) {
+  add_study_options(command, arguments.study, name);
   command.add_option("--effects", arguments.effects,
                      "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
                      "some couplings; -NAME takes one away (overrides the scene)");
@@ -81,7 +82,7 @@ int run(const RunArguments& arguments) {
   const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
   const auto model = compile(scene, effects);
   if (arguments.explain) {
-    fmt::print("{}", model->explain());
+    say(model->explain());
     return exit_done;
   }
   check_arguments(arguments, scene);
@@ -117,7 +118,7 @@ void add_run_commands(CLI::App& app, int& code) {
   const auto add = [&](const char* name, const char* what, int (*action)(const RunArguments&)) {
     const auto arguments = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand(name, what);
-    add_run_options(*command, *arguments);
+    add_run_options(*command, *arguments, name);
     command->callback([&code, arguments, action] { code = action(*arguments); });
     return std::pair{command, arguments};
   };

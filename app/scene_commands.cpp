@@ -1,11 +1,11 @@
 // scene_commands.cpp — commands that help to write a scene: check, figures, new, keys, schema.
 #include "app/command_line.h"
+#include "app/terminal.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -18,6 +18,7 @@
 #include "studies/schema.h"
 #include "studies/simulate.h"
 #include "studies/templates/templates.h"
+#include "studies/whole_file.h"
 
 namespace kurbel::app {
 namespace {
@@ -42,15 +43,6 @@ const SceneTemplate& template_named(const std::string& kind) {
                                           did_you_mean(kind, names), listed(names)));
 }
 
-void write_new(const fs::path& path, std::string_view text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out)
-    throw std::invalid_argument(
-        fmt::format("cannot write {}: is there such a folder, room and permission?", path.string()));
-}
-
 // The path as one word of a shell's line.
 std::string as_word(const std::string& path) {
   const bool plain =
@@ -66,58 +58,57 @@ int new_scene(const std::string& kind, const std::string& file) {
   const SceneTemplate& scene = template_named(kind);
   const fs::path path = file.empty() ? fs::path(kind + ".toml") : fs::path(file);
   const fs::path schema = path.parent_path() / "scene.schema.json";
-  if (fs::exists(fs::symlink_status(path)))
+  const std::string_view body = scene.text.substr(scene.text.starts_with("#:schema") ? scene.text.find('\n') + 1 : 0);
+  const bool taken = fs::exists(fs::symlink_status(path));
+  if (taken || !write_whole(path, fmt::format("#:schema ./scene.schema.json\n{}", body), Existing::keep))
     throw std::invalid_argument(fmt::format(
         "{} exists already and is left as it is; name another file: kurbel new {} FILE", path.string(), kind));
-  const std::string_view body = scene.text.substr(scene.text.starts_with("#:schema") ? scene.text.find('\n') + 1 : 0);
-  write_new(path, fmt::format("#:schema ./scene.schema.json\n{}", body));
-  const bool fresh = !fs::exists(fs::symlink_status(schema));
-  if (fresh) write_new(schema, scene_schema());
+  const bool fresh = !fs::exists(fs::symlink_status(schema)) && write_whole(schema, scene_schema(), Existing::keep);
   const std::string word = as_word(path.string());
-  fmt::print("wrote {} — {}\n", path.string(), scene.doc);
-  if (fresh) fmt::print("wrote {} — editors complete and check keys by it\n", schema.string());
-  fmt::print(
-      "next:\n"
-      "  kurbel compare {0}    the rigid against the elastic machine: is rigid good enough?\n"
-      "  kurbel run {0}        the machine as the scene says\n"
-      "  kurbel check {0}      after a change: is the scene sound?\n"
-      "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
-      word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '));
+  say(fmt::format("wrote {} — {}\n", path.string(), scene.doc));
+  if (fresh) say(fmt::format("wrote {} — editors complete and check keys by it\n", schema.string()));
+  say(
+      fmt::format("next:\n"
+                  "  kurbel compare {0}    the rigid against the elastic machine: is rigid good enough?\n"
+                  "  kurbel run {0}        the machine as the scene says\n"
+                  "  kurbel check {0}      after a change: is the scene sound?\n"
+                  "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
+                  word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' ')));
   return exit_done;
 }
 
 // All keys as Markdown, or those of one kind as text for a terminal.
 int print_keys(const std::string& kind, bool list_kinds) {
   if (list_kinds) {
-    for (const std::string& name : names_of_keys()) fmt::print("{}\n", name);
+    for (const std::string& name : names_of_keys()) say(fmt::format("{}\n", name));
     return exit_done;
   }
   if (kind.empty()) {
-    fmt::print("{}", keys_in_markdown());
+    say(keys_in_markdown());
     return exit_done;
   }
   const std::vector<std::string> names = names_of_keys();
   if (std::find(names.begin(), names.end(), kind) == names.end())
     throw std::invalid_argument(
         fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), did_you_mean(kind, names), listed(names)));
-  fmt::print("{}", keys_of(kind));
+  say(keys_of(kind));
   return exit_done;
 }
 
-int check(const std::string& file) {
-  const Scene scene = read_scene(file, all_kinds());
+int check(const std::string& file, bool allow_files) {
+  const Scene scene = read(file, allow_files);
   const auto model = compile(scene, scene.effects);
   const auto coordinates = model->free_shafts + model->twist_count();
-  fmt::print("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
-             scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",
-             scene.effects.describe());
+  say(fmt::format("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
+                  scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",
+                  scene.effects.describe()));
   return exit_done;
 }
 
-int figures(const std::string& file) {
-  const Scene scene = read_scene(file, all_kinds());
+int figures(const std::string& file, bool allow_files) {
+  const Scene scene = read(file, allow_files);
   for (const Figure& f : figure_list(*compile(scene, scene.effects)))
-    fmt::print("{}{}\n", f.name, f.unit.empty() ? "" : fmt::format(" [{}]", f.unit));
+    say(fmt::format("{}{}\n", f.name, f.unit.empty() ? "" : fmt::format(" [{}]", f.unit)));
   return exit_done;
 }
 
@@ -126,7 +117,7 @@ int figures(const std::string& file) {
 void add_scene_commands(CLI::App& app, int& code) {
   struct Words {
     std::string first, second;
-    bool list = false;
+    bool list = false, allow_files = false;
   };
   const auto add = [&](const char* name, const char* what, int (*action)(const Words&)) {
     const auto words = std::make_shared<Words>();
@@ -134,11 +125,12 @@ void add_scene_commands(CLI::App& app, int& code) {
     command->callback([&code, words, action] { code = action(*words); });
     return std::pair{command, words};
   };
-  const auto [check_command, checked] = add("check", "validate a scene", [](const Words& w) { return check(w.first); });
-  add_scene(*check_command, checked->first);
-  const auto [figures_command, listed_scene] =
-      add("figures", "list the figures that runs of a scene yield", [](const Words& w) { return figures(w.first); });
-  add_scene(*figures_command, listed_scene->first);
+  const auto [check_command, checked] =
+      add("check", "validate a scene", [](const Words& w) { return check(w.first, w.allow_files); });
+  add_scene(*check_command, checked->first, checked->allow_files);
+  const auto [figures_command, listed_scene] = add("figures", "list the figures that runs of a scene yield",
+                                                   [](const Words& w) { return figures(w.first, w.allow_files); });
+  add_scene(*figures_command, listed_scene->first, listed_scene->allow_files);
   const auto [new_command, made] =
       add("new", "write a commented scene to start from", [](const Words& w) { return new_scene(w.first, w.second); });
   std::string kinds;
@@ -152,7 +144,7 @@ void add_scene_commands(CLI::App& app, int& code) {
   keys_command->add_option("kind", kind->first, "e.g. coupling, \"induction motor\", run (default: all)");
   keys_command->add_flag("--list", kind->list, "only the names of the kinds, a line each");
   add("schema", "print the JSON Schema of a scene, for editors", [](const Words&) {
-    fmt::print("{}", scene_schema());
+    say(scene_schema());
     return exit_done;
   });
 }

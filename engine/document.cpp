@@ -1,13 +1,15 @@
 // document.cpp — the one source that includes toml++.
 #include "engine/document.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <cerrno>
+#include <system_error>
 
 namespace kurbel {
 namespace {
@@ -75,21 +77,69 @@ std::string DocumentValue::describe() const {
   return "";
 }
 
+namespace {
+
+// Opened without waiting: a pipe without a writer would keep the program for ever.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : descriptor_(path.find('\0') == std::string::npos
+                        ? open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)
+                        : (errno = ENOENT, -1)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+// Why a file cannot be read as a text, or nothing.
+std::string why_unreadable(int descriptor) {
+  if (descriptor < 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return "no such file; check the path, or list the folder with ls";
+    if (errno == EACCES || errno == EPERM) return "cannot be opened for reading; check its permissions";
+    if (errno == ENXIO) return "is a socket; give a regular file";
+    return fmt::format("cannot be opened for reading: {}", std::generic_category().message(errno));
+  }
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return "cannot be read";
+  if (S_ISDIR(status.st_mode)) return "is a folder; give a file inside it";
+  if (!S_ISREG(status.st_mode))
+    return fmt::format("is a {}; give a regular file", S_ISFIFO(status.st_mode) ? "pipe" : "device");
+  return "";
+}
+
+}  // namespace
+
 std::string read_text_file(const std::string& path, std::size_t limit) {
   const auto refuse = [&](const std::string& text) { throw SceneError({{path, {}, text}}); };
-  std::error_code status;
-  if (!std::filesystem::exists(path, status)) refuse("no such file; check the path, or list the folder with ls");
-  if (std::filesystem::is_directory(path, status)) refuse("is a folder; give a file inside it");
-  // Read no more than the limit: pipes and devices have no size to ask for.
-  std::ifstream in(path, std::ios::binary);
-  if (!in) refuse("cannot be opened for reading; check its permissions");
-  std::string text(limit + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) refuse("cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > limit)
-    refuse(fmt::format("is larger than {} MB; put long tables into CSV files", limit / 1'000'000));
+  const OpenFile file(path);
+  if (const std::string why = why_unreadable(file.descriptor()); !why.empty()) refuse(why);
+  // No more than the limit is held, whatever size the file is said to have or grows to.
+  std::string text;
+  char piece[1 << 16];
+  for (ssize_t n; (n = read(file.descriptor(), piece, sizeof piece)) != 0;) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse(fmt::format("cannot be read: {}", std::generic_category().message(errno)));
+    text.append(piece, static_cast<std::size_t>(n));
+    if (text.size() > limit)
+      refuse(fmt::format("is larger than {} MB; put long tables into CSV files", limit / 1'000'000));
+  }
   return text;
+}
+
+bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  if (file.native().find('\0') != std::string::npos) return true;  // names no file
+  std::error_code error;
+  const auto own = std::filesystem::canonical(folder.empty() ? "." : folder, error);
+  if (error) return true;
+  const auto real = std::filesystem::weakly_canonical(file, error);
+  if (error) return true;
+  return std::mismatch(own.begin(), own.end(), real.begin(), real.end()).first == own.end();
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,13 @@ struct DocumentEntry {
 // Largest scene file that is read; anything bigger is no scene.
 inline constexpr std::size_t max_scene_bytes = 4'000'000;
 
-// The text of a file. Throws SceneError if it is missing, a folder, unreadable, or larger than `limit`.
+// The text of a file. Throws SceneError if it is missing, unreadable, larger than `limit`, or no regular file: a pipe
+// may keep its reader waiting for ever.
 std::string read_text_file(const std::string& path, std::size_t limit);
+
+// Whether a file lies in a folder or below it, links followed; true as well where that cannot be told, because the file
+// cannot be opened either.
+bool lies_below(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 // Throws SceneError with line and column on text that is not TOML.
 DocumentValue parse_toml(const std::string& text, const std::string& file);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/printable.h"
+
 namespace kurbel {
 namespace {
 
@@ -15,23 +17,6 @@ std::vector<Message> sorted(std::vector<Message> messages) {
 }
 
 constexpr std::size_t most_shown = 100;
-
-// A user's text may hold anything; a terminal must not obey it.
-std::string printable(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const bool c1 = c == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    if (c < 0x20 || c == 0x7F) {
-      out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : c == '\r' ? "\\r" : fmt::format("\\x{:02X}", c);
-    } else if (c1) {
-      out += fmt::format("\\x{:02X}", static_cast<unsigned char>(text[++i]));
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
 
 std::string joined(const std::vector<Message>& messages) {
   std::string text;

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "engine/data_files.h"
 #include "engine/document.h"
 #include "engine/network.h"
 #include "engine/section_reader.h"
@@ -43,8 +44,8 @@ std::string method_does_not_fit(const std::string& method, const std::string& mo
 
 class SceneReader {
  public:
-  SceneReader(const std::string& text, const std::string& file, const std::vector<Kind>& kinds)
-      : kinds_(kinds), messages_(file), document_(parse_toml(text, file)) {
+  SceneReader(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed)
+      : kinds_(kinds), messages_(file), data_files_(allowed), document_(parse_toml(text, file)) {
     scene_.file = file;
     scene_.text = text;
   }
@@ -154,8 +155,8 @@ class SceneReader {
     const DocumentEntry* on = entry.value.find("on");
     std::vector<std::string> read_elsewhere = {"kind"};
     if (on || kind->placement == Placement::inline_one) read_elsewhere.push_back("on");
-    Section section =
-        read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_, read_elsewhere);
+    Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), messages_,
+                                   read_elsewhere, data_files_);
     if (on) read_on(section, on->value);
     index_[name] = scene_.components.size();
     scene_.components.push_back(std::move(section));
@@ -563,6 +564,7 @@ class SceneReader {
 
   const std::vector<Kind>& kinds_;
   Messages messages_;
+  DataFiles data_files_;
   DocumentValue document_;
   Scene scene_;
   std::map<std::string, std::size_t> index_;  // of each component in scene_.components
@@ -627,12 +629,18 @@ const std::vector<Key>& run_keys() {
   return keys;
 }
 
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed) {
+  return SceneReader(text, file, kinds, allowed).read();
+}
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds) {
-  return SceneReader(text, file, kinds).read();
+  return parse_scene(text, file, kinds, DataFiles::below_the_scene);
 }
 
+Scene read_scene(const std::string& path, const std::vector<Kind>& kinds, DataFiles allowed) {
+  return parse_scene(read_text_file(path, max_scene_bytes), path, kinds, allowed);
+}
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds) {
-  return parse_scene(read_text_file(path, max_scene_bytes), path, kinds);
+  return read_scene(path, kinds, DataFiles::below_the_scene);
 }
 
 }  // namespace kurbel

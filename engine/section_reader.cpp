@@ -87,8 +87,8 @@ std::string unit_over(const std::string& over) {
 
 class CurveReader {
  public:
-  CurveReader(const DocumentValue& table, const Key& key, std::string what, Messages& messages)
-      : table_(table), key_(key), what_(std::move(what)), messages_(messages) {}
+  CurveReader(const DocumentValue& table, const Key& key, std::string what, Messages& messages, DataFiles allowed)
+      : table_(table), key_(key), what_(std::move(what)), messages_(messages), allowed_(allowed) {}
 
   bool read(CurveData& curve) {
     if (table_.type != Type::table)
@@ -242,7 +242,12 @@ class CurveReader {
       column[0] = static_cast<int>(items[0].integer);
       column[1] = static_cast<int>(items[1].integer);
     }
-    const std::filesystem::path path = std::filesystem::path(messages_.file()).parent_path() / value.text;
+    const std::filesystem::path folder = std::filesystem::path(messages_.file()).parent_path();
+    const std::filesystem::path path = folder / value.text;
+    if (allowed_ == DataFiles::below_the_scene && !lies_below(folder, path))
+      return refuse(value.at, fmt::format("file {} lies outside of the scene's folder; put it there or below, or, if "
+                                          "you trust the scene, allow it with --allow-files",
+                                          value.describe()));
     try {
       const std::size_t before = messages_.all().size();
       const Columns data = read_csv(path.string(), column[0], column[1], messages_);
@@ -298,6 +303,7 @@ class CurveReader {
   const Key& key_;
   std::string what_;
   Messages& messages_;
+  DataFiles allowed_;
   std::vector<std::string> meant_;  // known keys that unknown ones were taken for
   std::string x_unit_, y_unit_;
   double x_factor_ = 1, y_factor_ = 1;
@@ -351,7 +357,7 @@ bool read_list(const DocumentValue& value, const Key& key, const std::string& wh
 }
 
 bool read_nested(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
-                 Setting& setting) {
+                 DataFiles allowed, Setting& setting) {
   std::vector<const DocumentValue*> tables;
   if (value.type == Type::table) tables.push_back(&value);
   for (const DocumentValue& item : value.items) tables.push_back(&item);
@@ -369,9 +375,9 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
     const bool one_kind = key.nested->size() == 1;
     const Kind* kind = one_kind ? &key.nested->front() : read_kind(table, *key.nested, name, table.at, messages);
     if (kind) {
-      setting.sections.push_back(
-          read_section(table, *kind, key.name, name, messages,
-                       one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"}));
+      setting.sections.push_back(read_section(table, *kind, key.name, name, messages,
+                                              one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"},
+                                              allowed));
     } else {
       kinds_known = false;
     }
@@ -380,7 +386,7 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
 }
 
 bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
-                  Setting& setting) {
+                  DataFiles allowed, Setting& setting) {
   const auto refuse = [&](const std::string& allowed) {
     messages.add(value.at, fmt::format("{} = {}; must be {}", what, value.describe(), allowed));
     return false;
@@ -407,12 +413,12 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
         return refuse(listed(key.choices) + (near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
       }
     case KeyType::curve:
-      return CurveReader(value, key, what, messages).read(setting.curve);
+      return CurveReader(value, key, what, messages, allowed).read(setting.curve);
     case KeyType::quantities:
     case KeyType::integers:
       return read_list(value, key, what, messages, setting);
     case KeyType::sections:
-      return read_nested(value, key, what, messages, setting);
+      return read_nested(value, key, what, messages, allowed, setting);
   }
   return false;
 }
@@ -433,7 +439,7 @@ std::string wrong_dimension(const DocumentValue& value, const Quantity& got, con
 Setting fallback_setting(const Key& key, Location at, Messages& messages) {
   const DocumentValue document = parse_toml("x = " + key.fallback, "fallback of " + key.name);
   Setting setting{.key = key.name, .at = at};
-  read_setting(document.entries.front().value, key, key.name, messages, setting);
+  read_setting(document.entries.front().value, key, key.name, messages, DataFiles::below_the_scene, setting);
   return setting;
 }
 
@@ -492,7 +498,7 @@ const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds
 }
 
 Section read_section(const DocumentValue& table, const Kind& kind, const std::string& name, const std::string& what,
-                     Messages& messages, const std::vector<std::string>& passed_over) {
+                     Messages& messages, const std::vector<std::string>& passed_over, DataFiles allowed) {
   Section section{.name = name, .kind = &kind, .at = table.at};
   const std::size_t errors_before = messages.all().size();
   std::vector<std::string> known, meant;  // meant: by a key mistyped
@@ -511,7 +517,7 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
       continue;
     }
     Setting setting{.key = key->name, .at = entry.value.at, .given = true};
-    if (read_setting(entry.value, *key, what + ": " + key->name, messages, setting)) {
+    if (read_setting(entry.value, *key, what + ": " + key->name, messages, allowed, setting)) {
       section.settings.push_back(std::move(setting));
     } else {
       // Something was said about this value already: put the least harmful one in its place.

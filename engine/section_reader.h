@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/data_files.h"
 #include "engine/document.h"
 #include "engine/keys.h"
 
@@ -11,9 +12,10 @@ namespace kurbel {
 
 // Reads a table's values into a section of the given kind; whatever is wrong goes into `messages`.
 // `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are read by
-// somebody else.
+// somebody else. Curves may have their points in files, of which those `allowed` are read.
 Section read_section(const DocumentValue& table, const Kind& kind, const std::string& name, const std::string& what,
-                     Messages& messages, const std::vector<std::string>& passed_over = {});
+                     Messages& messages, const std::vector<std::string>& passed_over = {},
+                     DataFiles allowed = DataFiles::below_the_scene);
 
 // The kind named by the table's `kind` key, or null with a message.
 const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what, Location at,

@@ -9,6 +9,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/known_accuracy.h"
 #include "studies/machine_info.h"
 #include "studies/text_table.h"
@@ -412,7 +413,7 @@ StudyOutput output_of(const AccuracyStudy& study) {
                                      : study.answers.front();
   return {conclusion,
           table_text(study),
-          study_json(study).dump(2),
+          json_text(study_json(study)),
           [&study] { return report_of(study); },
           {{"settings.csv", [&study] { return settings_csv(study); }}},
           study.complete,

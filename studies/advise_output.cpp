@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "studies/json_text.h"
 #include "studies/text_table.h"
 
 namespace kurbel {
@@ -102,7 +103,7 @@ std::string json_of(const Advice& a) {
     held.push_back({{"what", h.what}, {"deviation", h.deviation}, {"figure", h.figure}, {"within", h.within}});
   j["held_out"] = held;
   j["warnings"] = a.warnings;
-  return j.dump(2) + "\n";
+  return json_text(j) + "\n";
 }
 
 Plot plane(const Advice& a) {

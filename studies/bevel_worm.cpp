@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "studies/json_text.h"
 #include "studies/text_table.h"
 
 namespace kurbel {
@@ -24,7 +25,7 @@ StudyOutput made(std::string title, std::string conclusion, Rows rows, Json json
   output.conclusion = conclusion;
   output.table = conclusion + "\n\n" + aligned(rows, 2);
   json["conclusion"] = conclusion;
-  output.json = json.dump(2);
+  output.json = json_text(json);
   output.report = [=] {
     Report report{.title = title, .subtitle = "Basic relations (THEORY 6)", .conclusion = conclusion};
     ReportSection& section = report.add("Geometry");

@@ -10,19 +10,21 @@
 #include "engine/units.h"
 #include "studies/effect_study.h"
 #include "studies/figure_text.h"
+#include "studies/report/run_report.h"
 
 namespace kurbel {
 namespace {
 
 void add_rows(Comparison& c) {
   for (const Figure& f : c.b.figures) {
+    if (!is_told(f, c.b)) continue;
     ComparisonRow row{f.name, f.unit, {}, {}, f.value, f.error, 0, {}};
-    if (const Figure* other = c.a.find(f.name)) {
+    if (const Figure* other = c.a.find(f.name); other && is_told(*other, c.a)) {
       row.a = other->value;
       row.a_error = other->error;
       row.difference = f.value - other->value;
       // Over what is zero but for its error there is no ratio.
-      if (std::abs(other->value) > floor_of(*other, c.a)) row.ratio = f.value / other->value;
+      if (std::isfinite(f.value) && std::abs(other->value) > floor_of(*other, c.a)) row.ratio = f.value / other->value;
     }
     c.rows.push_back(std::move(row));
   }

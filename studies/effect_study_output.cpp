@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/units.h"
+#include "studies/json_text.h"
 #include "studies/text_table.h"
 
 namespace kurbel {
@@ -117,7 +118,7 @@ std::string json_of(const EffectStudy& s) {
     effects.push_back(e);
   }
   j["effects"] = effects;
-  return j.dump(2) + "\n";
+  return json_text(j) + "\n";
 }
 
 // Change against cost: what lies on the left above costs little and matters.

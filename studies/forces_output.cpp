@@ -9,6 +9,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/report/run_report.h"
 #include "studies/text_table.h"
 
@@ -291,7 +292,7 @@ std::string json_of(const Forces& f, const std::string& conclusion) {
                                    {"first_order_across", c.first_y},
                                    {"peak_main_bearing", c.peak_bearing}});
   j["notes"] = f.notes;
-  return j.dump(2);
+  return json_text(j);
 }
 
 std::string csv_of(const ForceCycle& c) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "studies/gears.h"
+#include "studies/json_text.h"
 #include "studies/text_table.h"
 
 namespace kurbel {
@@ -233,7 +234,7 @@ std::string json_of(const Gears& g, const std::string& conclusion) {
   j["pairs"] = Json::array();
   for (const GearStage& s : g.stages) j["pairs"].push_back(stage_json(s));
   j["notes"] = g.notes;
-  return j.dump(2);
+  return json_text(j);
 }
 
 std::string path_csv(const GearPair& p) {

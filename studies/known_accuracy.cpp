@@ -6,16 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <system_error>
+
+#include "engine/document.h"
 
 namespace kurbel {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::size_t largest_summary = 100'000'000;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, Location at, const std::string& text) {
   throw SceneError({{file.string(), at, text}});
@@ -28,11 +30,11 @@ std::string text_of(const std::filesystem::path& file) {
     refuse(file, {}, "--setting: no such file; kurbel accuracy SCENE writes one and tells its path");
   if (std::filesystem::is_directory(status))
     refuse(file, {}, "--setting: is a folder; give the summary.json that kurbel accuracy SCENE wrote");
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) refuse(file, {}, "--setting: cannot be read; check its permissions");
-  return text.str();
+  try {
+    return read_text_file(file.string(), largest_summary);
+  } catch (const SceneError& unreadable) {
+    refuse(file, {}, "--setting: " + unreadable.messages.front().text);
+  }
 }
 
 Json parsed(const std::filesystem::path& file, const std::string& text) {

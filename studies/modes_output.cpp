@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/units.h"
+#include "studies/json_text.h"
 #include "studies/text_table.h"
 
 namespace kurbel {
@@ -292,7 +293,7 @@ std::string json_of(const Modes& m, const std::string& conclusion) {
                     {"least", m.history->least},
                     {"equivalent_amplitude", equivalent_amplitude(m.history->cycles, 5)}};
   j["notes"] = m.notes;
-  return j.dump(2);
+  return json_text(j);
 }
 
 std::string shapes_csv(const Modes& m) {

@@ -1,40 +1,28 @@
-// output.cpp — files appear under their names only when they are whole.
+// output.cpp — a study's files as one result set.
 #include "studies/output.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
+#include "studies/result_set.h"
 
 namespace kurbel {
-namespace {
 
-void write_whole(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path temporary = path.string() + ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}: is there room and permission?", temporary.string()));
-  std::filesystem::rename(temporary, path);
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code status;
-  std::filesystem::create_directories(folder, status);
-  if (status) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder, status.message()));
-}
-
-}  // namespace
-
-void write_output(const StudyOutput& output, const std::string& folder, bool plots) {
-  make_folder(folder);
-  const std::filesystem::path path(folder);
-  for (const CsvFile& csv : output.csv) write_whole(path / csv.name, csv.text());
-  write_whole(path / "summary.json", output.json + "\n");
+std::filesystem::path write_output(const StudyOutput& output, const std::filesystem::path& folder,
+                                   const WriteOptions& options) {
+  const bool whole = output.complete && !options.interrupted;
+  const std::filesystem::path place = whole ? folder : incomplete_place(folder);
+  ResultSet set(place);
+  for (const CsvFile& csv : output.csv) set.add(csv.name, csv.text());
+  set.add("summary.json", output.json + "\n");
   const Report report = output.report();
-  write_html(report, (path / "report.html").string());
-  if (plots) write_gnuplot(report, (path / "plots").string());
+  set.add("report.html", html_of(report));
+  if (options.plots) {
+    const std::vector<TextFile> files = gnuplot_files(report);
+    for (const TextFile& file : files) set.add("plots/" + file.name, file.text);
+    if (const Descriptor plots = open_folder(set.folder(), "plots"))
+      for (const std::string& picture : draw_by_gnuplot(files, plots.get(), set.folder()))
+        set.adopt("plots/" + picture);
+  }
+  set.put_in_place(options.made_by, whole);
+  return place;
 }
 
 }  // namespace kurbel

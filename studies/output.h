@@ -1,6 +1,7 @@
 // output.h — what every study hands out: a conclusion, a table for the terminal, JSON, a report, tables as CSV.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,8 +26,16 @@ struct StudyOutput {
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
 };
 
-// Writes summary.json, report.html and the CSV files into the folder, each under a temporary name first. With plots the
-// report's plots are written for gnuplot too, into plots/. Throws std::runtime_error if the folder cannot be written.
-void write_output(const StudyOutput& output, const std::string& folder, bool plots = false);
+struct WriteOptions {
+  bool plots = false;              // the report's plots for gnuplot too, into plots/
+  bool interrupted = false;        // by the user: not to replace what is complete
+  std::string made_by = "kurbel";  // for the manifest: the command
+};
+
+// Writes summary.json, report.html and the CSV files as one result set (result_set.h): into the folder, but what is
+// incomplete or was interrupted beside it, into FOLDER.incomplete. Returns where it is. Throws std::runtime_error where
+// it could not be written; then all is as it was.
+std::filesystem::path write_output(const StudyOutput& output, const std::filesystem::path& folder,
+                                   const WriteOptions& options = {});
 
 }  // namespace kurbel

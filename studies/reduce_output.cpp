@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/units.h"
+#include "studies/json_text.h"
 #include "studies/reduce.h"
 #include "studies/text_table.h"
 
@@ -228,7 +229,7 @@ std::string json_of(const MachineReduction& r) {
     j["harmonics"].push_back(std::move(one));
   }
   j["notes"] = r.notes;
-  return j.dump(2);
+  return json_text(j);
 }
 
 std::string csv_of(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows) {

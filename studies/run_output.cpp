@@ -10,6 +10,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/report/run_report.h"
 #include "studies/text_table.h"
 
@@ -126,7 +127,8 @@ Json result_json(const Result& r) {
                 {"states", r.states},
                 {"explanation", r.explanation}};
   j["figures"] = Json::array();
-  for (const Figure& f : r.figures) j["figures"].push_back(figure_json(f));
+  for (const Figure& f : r.figures)
+    if (is_told(f, r)) j["figures"].push_back(figure_json(f));
   j["final"] = Json::object();
   for (const auto& [name, state] : r.final_state) j["final"][name] = state_json(state);
   j["events"] = Json::array();
@@ -254,8 +256,9 @@ std::string table_of(const Result& r) {
   std::string text = r.title + "\n" + heading(r);
   std::vector<std::vector<std::string>> rows = {{"figure", "value", "error", "unit", "at"}};
   for (const Figure& f : r.figures)
-    rows.push_back({f.name, value_cell(f.value, f.error), error_cell(f.value, f.error), pretty_unit(f.unit),
-                    f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""});
+    if (is_told(f, r))
+      rows.push_back({f.name, value_cell(f.value, f.error), error_cell(f.value, f.error), pretty_unit(f.unit),
+                      f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""});
   return text + aligned(rows, 1) + footing(r);
 }
 
@@ -275,8 +278,8 @@ std::string table_of(const Comparison& c) {
   return text;
 }
 
-std::string json_of(const Result& r) { return result_json(r).dump(2); }
-std::string json_of(const Comparison& c) { return comparison_json(c).dump(2); }
+std::string json_of(const Result& r) { return json_text(result_json(r)); }
+std::string json_of(const Comparison& c) { return json_text(comparison_json(c)); }
 
 StudyOutput output_of(const Result& r) {
   StudyOutput output{one_line(r), table_of(r), json_of(r), [&r] { return report_of(r); }, {}, r.complete, r.diagnosis};

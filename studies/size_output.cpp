@@ -8,6 +8,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/size.h"
 #include "studies/text_table.h"
 
@@ -305,7 +306,7 @@ std::string json_of(const Sizing& s) {
                             {"cycles", r.cycles}});
   if (s.dimensions) j["dimensions"] = dimensions_json(*s.dimensions);
   j["notes"] = s.notes;
-  return j.dump(2);
+  return json_text(j);
 }
 
 constexpr int curve_points = 720;

@@ -10,6 +10,7 @@
 
 #include "engine/units.h"
 #include "studies/figure_text.h"
+#include "studies/json_text.h"
 #include "studies/report/run_report.h"
 #include "studies/report/trace.h"
 #include "studies/text_table.h"
@@ -470,7 +471,7 @@ Report report_of(const SteadyStudy& s) {
 }  // namespace
 
 StudyOutput output_of(const SteadyStudy& s) {
-  StudyOutput output{s.conclusion, table_text(s), study_json(s).dump(2), [&s] { return report_of(s); }, {},
+  StudyOutput output{s.conclusion, table_text(s), json_text(study_json(s)), [&s] { return report_of(s); }, {},
                      s.complete,   s.diagnosis};
   if (s.diagram) output.csv.push_back({"operating_points.csv", [&s] { return diagram_csv(*s.diagram); }});
   for (const SteadyCycle& c : s.cycles)

@@ -1,16 +1,19 @@
 // gnuplot.cpp — static figures of a report's plots, without a browser.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <stdexcept>
 
+#include "engine/printable.h"
 #include "studies/report/report.h"
 #include "studies/report/thin.h"
+#include "studies/spawn.h"
+#include "studies/staging.h"
+#include "studies/whole_file.h"
 
 namespace kurbel {
 namespace {
@@ -49,10 +52,10 @@ std::string slug(const std::string& title) {
   return name.empty() ? "plot" : name.substr(0, 60);
 }
 
-// In gnuplot's single quotes a quote is doubled.
+// In gnuplot's single quotes a quote is doubled; a line feed would end them, and what follows were a command.
 std::string quoted(const std::string& text) {
   std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  for (const char c : printable(text)) out += c == '\'' ? "''" : std::string(1, c);
   return out + "'";
 }
 
@@ -60,20 +63,14 @@ std::string label(const Axis& axis) {
   return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}: is there room and permission?", path.string()));
-}
-
 // One block per series, two blank lines between: gnuplot's "index".
 std::string data_of(const Plot& plot) {
-  std::string text = fmt::format("# {}\n# {}, {}\n", plot.title, label(plot.x), label(plot.y));
+  std::string text =
+      fmt::format("# {}\n# {}, {}\n", printable(plot.title), printable(label(plot.x)), printable(label(plot.y)));
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     std::vector<double> x = plot.series[i].x, y = plot.series[i].y;
     thin_by_extremes(x, y, points_per_series);
-    text += fmt::format("{}# {}\n", i ? "\n\n" : "", plot.series[i].name);
+    text += fmt::format("{}# {}\n", i ? "\n\n" : "", printable(plot.series[i].name));
     for (std::size_t k = 0; k < x.size(); ++k) text += fmt::format("{:.9g} {:.9g}\n", x[k], y[k]);
   }
   return text;
@@ -119,26 +116,48 @@ std::string script_of(const Plot& plot, const std::string& name) {
 
 }  // namespace
 
-int write_gnuplot(const Report& report, const std::string& folder) {
-  std::filesystem::create_directories(folder);
+std::vector<TextFile> gnuplot_files(const Report& report) {
+  std::vector<TextFile> files;
   std::set<std::string> taken;
-  int drawn = 0;
   for (const ReportSection& section : report.sections)
     for (const Card& card : section.cards) {
       const Plot* plot = std::get_if<Plot>(&card);
       if (!plot || plot->series.empty()) continue;
       std::string name = slug(plot->title);
       for (int n = 2; !taken.insert(name).second; ++n) name = slug(plot->title) + "_" + std::to_string(n);
-      const std::filesystem::path base = std::filesystem::path(folder) / name;
-      write(base.string() + ".dat", data_of(*plot));
-      write(base.string() + ".gp", script_of(*plot, name));
-      // The folder goes by the environment, so that no name is read as a command.
-      setenv("KURBEL_PLOTS", folder.c_str(), 1);
-      const std::string command =
-          fmt::format("cd \"$KURBEL_PLOTS\" && command -v gnuplot > /dev/null && gnuplot {}.gp > /dev/null 2>&1", name);
-      if (std::system(command.c_str()) == 0) ++drawn;
+      files.push_back({name + ".dat", data_of(*plot)});
+      files.push_back({name + ".gp", script_of(*plot, name)});
     }
+  return files;
+}
+
+std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int folder, int kept) {
+  std::vector<std::string> drawn;
+  if (!is_installed("gnuplot")) return drawn;
+  for (const TextFile& file : files) {
+    if (!file.name.ends_with(".gp")) continue;
+    const std::string name = file.name.substr(0, file.name.size() - 3);
+    const bool well = run_and_wait({"gnuplot", file.name}, folder, kept);
+    for (const char* extension : {".svg", ".png"})
+      if (const std::string picture = name + extension; faccessat(folder, picture.c_str(), F_OK, 0) == 0) {
+        if (well)
+          drawn.push_back(picture);
+        else
+          unlinkat(folder, picture.c_str(), 0);
+      }
+  }
   return drawn;
+}
+
+int write_gnuplot(const Report& report, const std::string& path) {
+  std::filesystem::create_directories(path);
+  const std::vector<TextFile> files = gnuplot_files(report);
+  for (const TextFile& file : files) write_whole(std::filesystem::path(path) / file.name, file.text);
+  const Descriptor folder = open_folder(AT_FDCWD, path);
+  if (!folder) return 0;
+  const std::vector<std::string> drawn = draw_by_gnuplot(files, folder.get());
+  return static_cast<int>(
+      std::count_if(drawn.begin(), drawn.end(), [](const std::string& name) { return name.ends_with(".svg"); }));
 }
 
 }  // namespace kurbel

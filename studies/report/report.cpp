@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
 
@@ -14,6 +12,7 @@
 #include "studies/figure_text.h"
 #include "studies/report/assets.h"
 #include "studies/report/thin.h"
+#include "studies/whole_file.h"
 
 namespace kurbel {
 namespace {
@@ -424,15 +423,7 @@ std::string html_of(const Report& report) {
   return html;
 }
 
-void write_html(const Report& report, const std::string& path) {
-  // Under another name first: a page appears only when it is whole.
-  const std::string temporary = path + ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out << html_of(report);
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}: is there room and permission?", temporary));
-  std::filesystem::rename(temporary, path);
-}
+void write_html(const Report& report, const std::string& path) { write_whole(path, html_of(report)); }
 
 std::string report_footer() {
   return fmt::format("kurbel {} · g++ {} · Plotly.js 3.7.0 (basic)", KURBEL_VERSION, __VERSION__);

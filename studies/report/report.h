@@ -177,8 +177,15 @@ inline constexpr std::size_t points_per_series = 2400;
 std::string html_of(const Report& report);
 void write_html(const Report& report, const std::string& path);
 
-// For every plot NAME.dat and NAME.gp, and NAME.svg and NAME.png where gnuplot is installed. Returns how many plots
-// were drawn.
+struct TextFile {
+  std::string name, text;
+};
+// For every plot NAME.dat and NAME.gp.
+std::vector<TextFile> gnuplot_files(const Report& report);
+// Runs gnuplot, where it is installed, on these files in a folder; `kept` stays open for it (spawn.h). Returns the
+// pictures that it drew, NAME.svg and NAME.png.
+std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int folder, int kept = -1);
+// Both into a folder. Returns how many plots were drawn.
 int write_gnuplot(const Report& report, const std::string& folder);
 
 // --- helpers for studies ---

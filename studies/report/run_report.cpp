@@ -322,13 +322,14 @@ KeyFigure key_of(const Figure& f, const std::string& note) {
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;
   for (const Figure& f : r.figures)
-    if (f.name.starts_with("peak_torque.") && (!peak || std::abs(f.value) > std::abs(peak->value))) peak = &f;
+    if (f.name.starts_with("peak_torque.") && is_told(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
+      peak = &f;
   return peak;
 }
 
 const Figure* first_with(const Result& r, const std::string& prefix) {
   for (const Figure& f : r.figures)
-    if (f.name.starts_with(prefix)) return &f;
+    if (f.name.starts_with(prefix) && is_told(f, r)) return &f;
   return nullptr;
 }
 
@@ -378,7 +379,13 @@ bool nothing_turned_over(const EnergyBalance& e) {
          std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
 }
 
-bool has_works(const Result& r) { return r.energy.checks > 0 && (r.complete || !nothing_turned_over(r.energy)); }
+bool is_told(const Figure& f, const Result& r) { return r.complete || std::isfinite(f.value); }
+
+bool has_works(const Result& r) {
+  const auto finite = [](const auto& line) { return std::isfinite(line.second); };
+  return r.energy.checks > 0 && (r.complete || (!nothing_turned_over(r.energy) && std::isfinite(r.energy.relative) &&
+                                                std::all_of(r.energy.by_line.begin(), r.energy.by_line.end(), finite)));
+}
 
 std::vector<Plot> motion_plots(const Results& results) {
   std::vector<Plot> plots;
@@ -435,8 +442,9 @@ Table figures_table(const Result& r, bool folded) {
               .rows = {},
               .folded = folded};
   for (const Figure& f : r.figures)
-    table.rows.push_back(
-        {f.name, figure_text(f.value, f.error).value, error_cell(f.value, f.error), pretty_unit(f.unit), time_of(f)});
+    if (is_told(f, r))
+      table.rows.push_back(
+          {f.name, figure_text(f.value, f.error).value, error_cell(f.value, f.error), pretty_unit(f.unit), time_of(f)});
   return table;
 }
 

@@ -11,6 +11,8 @@ Report report_of(const Comparison& comparison);
 
 // No account has done work, and what is stored is what it was: a balance of energy proves nothing.
 bool nothing_turned_over(const EnergyBalance& energy);
+// Left out is what has no value in a run that broke off, because its motion had lost it.
+bool is_told(const Figure& figure, const Result& result);
 // A run that broke off before its works were drawn up has none to show.
 bool has_works(const Result& result);
 

@@ -9,7 +9,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -272,10 +274,12 @@ TEST_F(CommandLine, SpentBudgetEndsWithThreeADiagnosisAndPartialResults) {
        {"stopped at t = ", "the budget of 0.01 s of processor time is spent", "Raise `budget`, loosen `accuracy`"})
     EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
   EXPECT_NE(r.out.find("INCOMPLETE"), std::string::npos);
-  const auto summary = nlohmann::json::parse(text_of(folder_ / "out/summary.json"));
+  EXPECT_NE(r.out.find("results: out.incomplete/summary.json"), std::string::npos) << r.out;
+  EXPECT_FALSE(file("out"));
+  const auto summary = nlohmann::json::parse(text_of(folder_ / "out.incomplete/summary.json"));
   EXPECT_FALSE(summary["complete"]);
   EXPECT_FALSE(summary["diagnosis"].get<std::string>().empty());
-  EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: stopped at t = "));
+  EXPECT_TRUE(text_of(folder_ / "out.incomplete/trajectory.csv").starts_with("# incomplete: stopped at t = "));
 }
 
 // A series motor without a load: an event, a diagnosis, what was computed up to then.
@@ -287,10 +291,41 @@ TEST_F(CommandLine, RunawayEndsWithThreeAnEventAndADiagnosis) {
   EXPECT_EQ(r.code, 3);
   EXPECT_NE((r.out + r.err).find("ran away: its speed passed max_speed = 2500 rpm"), std::string::npos)
       << r.out << r.err;
-  const auto summary = nlohmann::json::parse(text_of(folder_ / "results/runaway/summary.json"));
+  const auto summary = nlohmann::json::parse(text_of(folder_ / "results/runaway/run.incomplete/summary.json"));
   EXPECT_FALSE(summary["complete"]);
   ASSERT_EQ(summary["events"].size(), 1u);
   EXPECT_EQ(summary["events"][0]["what"], "ran away: passed its max_speed");
+}
+
+// A clearance that no pin has: the motion loses its values at the first contact. Nothing of that is told as a figure.
+TEST_F(CommandLine, FiguresWithoutAValueAreLeftOutOfAnIncompleteRun) {
+  std::string text = text_of(std::string(KURBEL_SOURCE_DIR) + "/scenes/worn_crank_pin.toml");
+  const auto put = [&](const std::string& old, const std::string& value) {
+    const std::size_t at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    text.replace(at, old.size(), value);
+  };
+  put("gap = \"0.1 mm\"", "gap = \"1e300 mm\"");
+  put("friction = 0.05, radius = \"10 mm\"", "friction = 0.05, radius = \"1e150 mm\"");
+  std::ofstream(folder_ / "lost.toml") << text;
+  for (const char* verb : {"run", "compare"}) {
+    const Ended r = kurbel({verb, "lost.toml", "--out", verb});
+    if (r.code == 2) {  // refused before it runs
+      EXPECT_EQ(r.err.rfind("lost.toml:", 0), 0u) << r.err;
+      continue;
+    }
+    EXPECT_EQ(r.code, 3);
+    std::istringstream lines(r.out);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find("stopped at") == std::string::npos) {
+        EXPECT_EQ(line.find(" nan"), std::string::npos) << line;
+      }
+    const auto summary = nlohmann::json::parse(text_of(folder_ / (std::string(verb) + ".incomplete/summary.json")));
+    const auto run = std::string(verb) == "run" ? summary : summary["models"]["elastic"];
+    EXPECT_FALSE(run["complete"]);
+    EXPECT_FALSE(run["figures"].empty());
+    for (const auto& figure : run["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
+  }
 }
 
 TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
@@ -334,12 +369,56 @@ TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(1));
   EXPECT_EQ(r.code, 130);
   EXPECT_NE(r.err.find("interrupted"), std::string::npos) << r.err;
-  EXPECT_FALSE(nlohmann::json::parse(text_of(folder_ / "out/summary.json"))["complete"]);
-  EXPECT_TRUE(text_of(folder_ / "out/trajectory.csv").starts_with("# incomplete: "));
-  for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+  const fs::path place = folder_ / "out.incomplete";
+  EXPECT_FALSE(nlohmann::json::parse(text_of(place / "summary.json"))["complete"]);
+  EXPECT_TRUE(text_of(place / "trajectory.csv").starts_with("# incomplete: "));
+  EXPECT_NE(text_of(place / "set.sha256").find("; INCOMPLETE\n"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(place))
     EXPECT_TRUE(entry.path().extension() == ".json" || entry.path().extension() == ".csv" ||
-                entry.path().extension() == ".html")
+                entry.path().extension() == ".html" || entry.path().filename() == "set.sha256")
         << entry.path();
+  EXPECT_FALSE(file("out"));
+}
+
+// What was complete stays to the last bit, however a later run ends; what a killed one left is gone after the next.
+TEST_F(CommandLine, CompleteResultsOutliveRunsThatFailAreInterruptedOrKilled) {
+  ASSERT_EQ(kurbel({"run", scene("until = \"0.2 s\"\n"), "--out", "out"}).code, 0);
+  const auto all = [&] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+      files[entry.path().filename()] = text_of(entry.path());
+    return files;
+  };
+  const auto before = all();
+  EXPECT_EQ(before.size(), 4u);
+  EXPECT_EQ(kurbel({"run", scene("until = \"1000000 s\"\nbudget = \"0.01 s\"\n"), "--out", "out"}).code, 3);
+  EXPECT_EQ(all(), before);
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const pid_t child = start({"run", scene("until = \"10000000 s\"\n"), "--out", "out"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(child, signal);
+    EXPECT_EQ(wait(child).code, signal == SIGKILL ? -1 : 130);
+    EXPECT_EQ(all(), before);
+  }
+  EXPECT_EQ(kurbel({"run", scene("until = \"0.3 s\"\n"), "--out", "out"}).code, 0);
+  EXPECT_NE(all(), before);
+  for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_FALSE(entry.path().filename().string()[0] == '.');
+}
+
+TEST_F(CommandLine, NoCommandWritesOverTheResultsOfAnother) {
+  const std::string name = scene("until = \"0.2 s\"\naccuracy = 1e-3\n");
+  for (const char* verb : {"run", "compare", "modes", "steady", "effects"}) {
+    const Ended r = kurbel({verb, name});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.out.find(std::string("results: results/scene/") + verb + "/summary.json"), std::string::npos) << r.out;
+  }
+  std::set<std::string> folders;
+  for (const auto& entry : fs::directory_iterator(folder_ / "results/scene")) {
+    folders.insert(entry.path().filename());
+    EXPECT_NE(text_of(entry.path() / "set.sha256").find("# kurbel " + entry.path().filename().string() + " scene.toml"),
+              std::string::npos);
+  }
+  EXPECT_EQ(folders, (std::set<std::string>{"run", "compare", "modes", "steady", "effects"}));
 }
 
 TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {

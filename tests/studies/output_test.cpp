@@ -76,7 +76,8 @@ TEST(Figures, AreListedBeforeTheyAreRun) {
 TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
   Scene scene = test::scene_file("scenes/driven_slider_crank.toml");
   scene.run.samples = 11;
-  const std::string folder = (std::filesystem::path(::testing::TempDir()) / "kurbel_trajectory").string();
+  const std::string folder =
+      (std::filesystem::path(::testing::TempDir()) / ("kurbel_trajectory_" + std::to_string(getpid()))).string();
   const Result result = run(scene, false);
   write_output(output_of(result), folder);
   std::ifstream in(folder + "/trajectory.csv");
@@ -91,7 +92,30 @@ TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
   }
   EXPECT_EQ(rows, 11);
   EXPECT_TRUE(last.starts_with("10,"));
-  EXPECT_FALSE(std::filesystem::exists(folder + "/trajectory.csv.part"));
+  std::filesystem::remove_all(folder);
+}
+
+// A run that broke off because its motion had lost all values: none of them is told, anywhere.
+TEST(Output, WhatHasNoValueInARunThatBrokeOffIsLeftOut) {
+  Result r = run(press_at_speed(), false);
+  const std::string lost = r.figures.front().name, kept = r.figures.back().name;
+  for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    r.complete = false;
+    r.diagnosis = "the motion lost its values";
+    r.figures.front().value = none;
+    r.energy.by_line["driving"] = r.energy.relative = none;
+    const StudyOutput output = output_of(r);
+    const auto json = nlohmann::json::parse(output.json);
+    for (const auto& figure : json["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
+    const std::string page = html_of(output.report());
+    for (const std::string& text : {output.table, output.conclusion, page.substr(page.find("id=\"data\""))}) {
+      EXPECT_EQ(text.find("nan"), std::string::npos)
+          << text.substr(std::max<std::size_t>(text.find("nan"), 60) - 60, 99);
+      EXPECT_EQ(text.find("inf "), std::string::npos);
+    }
+    EXPECT_EQ(output.table.find(lost), std::string::npos);
+    EXPECT_NE(output.table.find(kept), std::string::npos);
+  }
 }
 
 // The work of one press stroke is the area under its force: rise 0.5 mm, 2.5 mm full, drop 0.2 mm.

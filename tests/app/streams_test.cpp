@@ -1,0 +1,200 @@
+// streams_test.cpp — what is said arrives, or its loss is told; options without a value; signals at once; completion.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Ended {
+  int code = -1, signal = 0;
+  std::string out, err;
+};
+
+class Streams : public testing::Test {
+ protected:
+  Streams() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("kurbel_streams_" + name + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    // A pulsation: without one the steps would grow without limit.
+    std::ofstream(folder_ / "wheel.toml")
+        << "line = [\"wheel\"]\nwheel = { kind = \"flywheel\", inertia = \"1 kg*m2\" }\n"
+           "pulse = { kind = \"torque source\", amplitude = \"5 N*m\", frequency = \"5 Hz\", on = \"wheel\" }\n"
+           "run = { until = \"1 s\", start = { speed = \"1 rad/s\" } }\n";
+  }
+  ~Streams() override { fs::remove_all(folder_); }
+
+  pid_t start(const std::vector<std::string>& words, const std::function<void()>& prepare = {}) {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    dup2(open("stdout", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
+    dup2(open("stderr", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDERR_FILENO);
+    if (prepare) prepare();
+    std::vector<char*> argv = {const_cast<char*>("kurbel")};
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    execv(KURBEL_EXECUTABLE, argv.data());
+    _exit(98);
+  }
+  Ended wait(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+            text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
+  }
+  Ended kurbel(const std::vector<std::string>& words, const std::function<void()>& prepare = {}) {
+    return wait(start(words, prepare));
+  }
+  static std::function<void()> onto_full(int stream) {
+    return [stream] { dup2(open("/dev/full", O_WRONLY), stream); };
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Streams, LossOfWhatWasSaidIsToldAndNoSuccess) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"--version"},
+                                                                                     {"--help"},
+                                                                                     {"run", "--help"},
+                                                                                     {"keys"},
+                                                                                     {"schema"},
+                                                                                     {"check", "wheel.toml"},
+                                                                                     {"figures", "wheel.toml"},
+                                                                                     {"effects"},
+                                                                                     {"run", "wheel.toml"},
+                                                                                     {"run", "wheel.toml", "--json"}}) {
+    const Ended r = kurbel(words, onto_full(STDOUT_FILENO));
+    EXPECT_EQ(r.code, 3) << words[0];
+    EXPECT_NE(r.err.find("could not be written: No space left on device"), std::string::npos) << words[0] << r.err;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "results/wheel/run/set.sha256")) << "the files are there all the same";
+  EXPECT_EQ(kurbel({"check", "absent.toml"}, onto_full(STDOUT_FILENO)).code, 2);
+}
+
+TEST_F(Streams, ClosedStreamsTakeNothingFromFilesAndGetNothingIntoThem) {
+  const Ended r = kurbel({"run", "wheel.toml", "--out", "out"}, [] { close(STDOUT_FILENO), close(STDERR_FILENO); });
+  EXPECT_EQ(r.code, 3);
+  EXPECT_EQ(text_of(folder_ / "out/summary.json")[0], '{');
+  EXPECT_EQ(text_of(folder_ / "out/report.html").find("results: "), std::string::npos);
+  EXPECT_EQ(kurbel({"run", "wheel.toml", "--out", "out"}, [] { close(STDIN_FILENO); }).code, 0);
+}
+
+TEST_F(Streams, ReaderThatLeavesEndsNothingBeforeTheFilesAreThere) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  const Ended r = kurbel({"run", "wheel.toml", "--json", "--out", "out"}, [&] { dup2(ends[1], STDOUT_FILENO); });
+  close(ends[1]);
+  EXPECT_EQ(r.code, 3);
+  EXPECT_EQ(r.signal, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/set.sha256"));
+}
+
+TEST_F(Streams, FullStderrChangesNoExitCode) {
+  EXPECT_EQ(kurbel({"check", "absent.toml"}, onto_full(STDERR_FILENO)).code, 2);
+  EXPECT_EQ(kurbel({"nonsense"}, onto_full(STDERR_FILENO)).code, 2);
+  EXPECT_EQ(kurbel({"run", "wheel.toml", "--verbose"}, onto_full(STDERR_FILENO)).code, 0);
+  EXPECT_EQ(kurbel({"run", "wheel.toml"},
+                   [] {
+                     onto_full(STDERR_FILENO)();
+                     onto_full(STDOUT_FILENO)();
+                   })
+                .code,
+            3);
+}
+
+// From when the program has been loaded (ten milliseconds, in which the system answers signals), it ends as documented.
+TEST_F(Streams, SignalInTheFirstMillisecondsEndsWith130) {
+  int held = 0;
+  for (int n = 0; n < 20; ++n) {
+    const pid_t child = start({"run", "wheel.toml", "--until", "1000000 s", "--no-files"});
+    const std::string status = "/proc/" + std::to_string(child) + "/status";
+    for (bool caught = false; !caught;) {
+      const std::string text = text_of(status);
+      const std::size_t at = text.find("SigCgt:");
+      ASSERT_NE(at, std::string::npos) << "ended before it held the signal";
+      caught = std::stoull(text.substr(at + 7), nullptr, 16) >> (SIGTERM - 1) & 1;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500 * n));
+    kill(child, n % 2 ? SIGTERM : SIGINT);
+    const Ended r = wait(child);
+    EXPECT_EQ(r.signal, 0) << n;
+    EXPECT_TRUE(r.code == 130 || r.code == 0) << r.code;
+    held += r.code == 130;
+  }
+  EXPECT_GT(held, 10);
+}
+
+// Every option of every command that takes a value, as --help lists them.
+TEST_F(Streams, NoOptionTakesAnEmptyValue) {
+  const std::string help = kurbel({"--help"}).out;
+  const std::string list = help.substr(help.find("Subcommands:"));
+  const std::regex command("\n  ([a-z]+) "), option("\n  (--[a-z-]+) (?:TEXT|FLOAT|INT|UINT)");
+  int options = 0;
+  for (std::sregex_iterator c(list.begin(), list.end(), command), end; c != end; ++c) {
+    const std::string name = (*c)[1], own = kurbel({name, "--help"}).out;
+    for (std::sregex_iterator o(own.begin(), own.end(), option); o != end; ++o, ++options) {
+      const std::string word = (*o)[1];
+      const Ended r = kurbel({name, "wheel.toml", word, ""});
+      EXPECT_EQ(r.code, 2) << name << " " << word;
+      EXPECT_NE(r.err.find(word + ": must not be empty"), std::string::npos) << r.err;
+    }
+  }
+  EXPECT_GT(options, 40);
+  EXPECT_EQ(kurbel({"run", ""}).code, 2);
+  EXPECT_EQ(kurbel({"new", ""}).code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "results"));
+}
+
+TEST_F(Streams, ScenesOfOddNamesAreReadAndCompletionDoesNotWaitForThem) {
+  for (const char* name : {".toml", "x=1.toml", "-x.toml"}) {
+    ASSERT_EQ(kurbel({"new", "press", std::string("./") + name}).code, 0);
+    EXPECT_EQ(kurbel({"check", std::string("./") + name}).code, 0);
+  }
+  ASSERT_EQ(mkfifo((folder_ / "pipe.toml").c_str(), 0600), 0);
+  const std::string script = std::string(KURBEL_SOURCE_DIR) + "/scripts/kurbel.bash-completion";
+  int nobody_writes[2];
+  ASSERT_EQ(pipe(nobody_writes), 0);
+  for (const std::string name : {"x=1.toml", "./x=1.toml", ".toml", "-x.toml", "pipe.toml", "absent.toml"}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      dup2(nobody_writes[0], STDIN_FILENO);
+      dup2(open("completed", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
+      const std::string command = "source '" + script + "'; COMP_WORDS=(kurbel run '" + name +
+                                  "' --effects elasticity:m); COMP_CWORD=4; _kurbel; echo ${COMPREPLY[*]}";
+      execlp("timeout", "timeout", "5", "bash", "-c", command.c_str(), nullptr);
+      _exit(98);
+    }
+    EXPECT_EQ(wait(child).code, 0) << name;
+    const bool couplings = text_of(folder_ / "completed").find("elasticity:motor_coupling") != std::string::npos;
+    EXPECT_EQ(couplings, name != "pipe.toml" && name != "absent.toml") << name;
+  }
+  close(nobody_writes[0]);
+  close(nobody_writes[1]);
+}
+
+}  // namespace
+}  // namespace kurbel
