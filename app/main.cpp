@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "app/command_line.h"
+#include "engine/deadline.h"
 #include "engine/messages.h"
 #include "engine/units.h"
 
@@ -72,6 +75,7 @@ int main(int argc, char** argv) {
   add_scene_commands(app, code);
   catch_interrupts();
   try {
+    const kurbel::Deadline deadline(HUGE_VAL, &interrupted());  // whatever a command is at
     app.parse(argc, argv);
     return code;
   } catch (const CLI::Success& success) {
@@ -84,6 +88,13 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "kurbel: {}\n", error.what());
     return exit_user_error;
+  } catch (const kurbel::OutOfTime& over) {
+    fmt::print(stderr, "kurbel: {}\n", over.what());
+    return exit_interrupted;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "kurbel: the memory is not enough; ask for fewer samples or output components, or a smaller scene\n");
+    return exit_run_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "kurbel: {}\n", error.what());
     return exit_run_failed;

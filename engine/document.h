@@ -33,7 +33,7 @@ struct DocumentEntry {
 };
 
 // Largest scene file that is read; anything bigger is no scene.
-inline constexpr std::size_t max_scene_bytes = 4'000'000;
+inline constexpr std::size_t max_scene_bytes = 16'000'000;
 
 // The text of a file. Throws SceneError if it is missing, a folder, unreadable, or larger than `limit`.
 std::string read_text_file(const std::string& path, std::size_t limit);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "studies/modes.h"
 
@@ -55,6 +56,8 @@ std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<Effe
   if (effects.elastic.empty()) return {};
   try {
     return find_modes(scene, effects, {});
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }
@@ -153,6 +156,8 @@ class Screening {
     for (LinearDrive::Joint& joint : stiff.joints) joint.stiffness *= factor;
     try {
       quasi_static_ = respond(stiff, modes_->excitations);
+    } catch (const OutOfTime&) {
+      throw;
     } catch (const std::exception&) {
     }
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/run.h"
 
 namespace kurbel {
@@ -189,7 +190,10 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
     MeanTorque mean;
   };
   std::vector<At> scan;
-  const auto look = [&](double speed) { scan.push_back({speed, mean_torque(machine, speed)}); };
+  const auto look = [&](double speed) {
+    Deadline::check();
+    scan.push_back({speed, mean_torque(machine, speed)});
+  };
   // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
   constexpr int steps = 80;
   for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
