@@ -7,6 +7,8 @@
 #include <queue>
 #include <set>
 
+#include "engine/build_component.h"
+#include "engine/deadline.h"
 #include "engine/model.h"
 #include "engine/no_element.h"
 #include "engine/relations.h"
@@ -49,6 +51,7 @@ Merging merge(const Network& network, IsRigid is_rigid, Through relations = Thro
   Merging merging{std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
   for (std::size_t first = 0; first < n; ++first) {
     if (merging.group[first] >= 0) continue;
+    Deadline::check();
     std::vector<std::size_t> queue = {first};
     merging.group[first] = merging.groups;
     for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -511,6 +514,7 @@ class Compiler {
     std::string last;
     int loss = -1;
     for (std::size_t i = 0; i < model_.elastic.size(); ++i) {
+      Deadline::check();
       ElasticJoint& e = model_.elastic[i];
       const Network::Joint& joint = net().joints[at(e.joint)];
       if (joint.component != last || loss < 0) loss = account(joint.component, Account::harmful);
@@ -527,6 +531,7 @@ class Compiler {
       if (net().relations[at(relation.relation)].lossy)
         relation.loss_account = account(net().relations[at(relation.relation)].component, Account::harmful);
     for (std::size_t i = 0; i < net().elements.size(); ++i) {
+      Deadline::check();
       Network::ShaftElement& e = net().elements[i];
       ShaftPorts ports{.id = static_cast<int>(i),
                        .shaft = model_.shaft_of_node[at(e.node)],
@@ -699,7 +704,7 @@ Network build_network(const Scene& scene) {
   Messages messages(scene.file);
   for (const Section& section : scene.components) {
     network.components.push_back(section.name);
-    section.kind->build(section, network, messages);
+    build_component(section, network, messages);
   }
   messages.throw_if_any();
   const auto port_named = [&](const std::string& from) {

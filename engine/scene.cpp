@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "engine/build_component.h"
+#include "engine/deadline.h"
 #include "engine/document.h"
 #include "engine/network.h"
 #include "engine/section_reader.h"
@@ -81,12 +83,13 @@ class SceneReader {
   void check_parameters() {
     for (const Section& section : scene_.components) {
       Network scratch;
-      if (section.sound) section.kind->build(section, scratch, messages_);
+      if (section.sound) build_component(section, scratch, messages_);
     }
   }
 
   void read_components() {
     for (const DocumentEntry& entry : document_.entries) {
+      Deadline::check();
       if (entry.key == "title" || entry.key == "description") {
         if (entry.value.type != Type::text)
           refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));

@@ -37,13 +37,13 @@ std::string drive(const std::string& coupling, const std::string& wheel, const s
 
 TEST(Sizes, WhatWouldOverOrUnderflowIsRefusedWithItsLine) {
   EXPECT_EQ(said_of(drive("stiffness = \"1e308 N*m/rad\"", "2 kg*m2", "")),
-            "test.toml:3:46: coupling \"coupling\": stiffness = 1e308 N·m/rad; must be within ± 1e+30 in SI units; "
+            "test.toml:3:45: coupling \"coupling\": stiffness = 1e308 N·m/rad; must be within ± 1e+30 in SI units; "
             "check its unit and power of ten");
   EXPECT_EQ(said_of(drive("stiffness = \"1e-308 N*m/rad\"", "2 kg*m2", "")),
-            "test.toml:3:46: coupling \"coupling\": stiffness = 1e-308 N·m/rad; must be of a size of 1e-30 or more "
+            "test.toml:3:45: coupling \"coupling\": stiffness = 1e-308 N·m/rad; must be of a size of 1e-30 or more "
             "in SI units; check its unit and power of ten");
   EXPECT_EQ(said_of(drive("stiffness = \"1 N*m/rad\", damping = \"1e-50 N*m*s/rad\"", "2 kg*m2", "")),
-            "test.toml:3:75: coupling \"coupling\": damping = 1e-50 N·m·s/rad; must be 0 or of a size of 1e-30 or "
+            "test.toml:3:68: coupling \"coupling\": damping = 1e-50 N·m·s/rad; must be 0 or of a size of 1e-30 or "
             "more in SI units; check its unit and power of ten");
   EXPECT_EQ(said_of(drive("stiffness = \"1 N*m/rad\"", "2 kg*m2", "start = { angle = \"1e19 deg\" }, ")),
             "test.toml:6:27: start: angle = 1e19 deg; must be within ± 1e+09 rad; check its unit and power of ten");
