@@ -224,11 +224,12 @@ class Screening {
       const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
       const double ratio = maker->dynamics().rod().frequency(1) / std::max(crank, 1e-300);
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
-      screens.push_back({"rod frequency", ratio,
-                         fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it amplifies by "
-                                     "{:.2g}",
-                                     e.component, ratio, more),
-                         more > within_});
+      screens.push_back(
+          {"rod frequency", ratio,
+           fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it {}", e.component, ratio,
+                       std::isfinite(more) ? fmt::format("amplifies by {:.2g}", more)
+                                           : "goes with the crank and against it, at or beyond resonance"),
+           more > within_});
     }
     return screens;
   }
