@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <sstream>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "engine/deadline.h"
 #include "engine/messages.h"
 #include "engine/units.h"
 
@@ -83,6 +85,7 @@ int run(int argc, char** argv) {
   add_scene_commands(app, code);
   refuse_empty_values(app);
   try {
+    const kurbel::Deadline deadline(HUGE_VAL, &interrupted());  // whatever a command is at
     app.parse(argc, argv);
     return code;
   } catch (const CLI::Success& success) {
@@ -106,6 +109,9 @@ int run_and_tell(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     complain(fmt::format("kurbel: {}\n", error.what()));
     return exit_user_error;
+  } catch (const kurbel::OutOfTime& over) {
+    complain(fmt::format("kurbel: {}\n", over.what()));
+    return exit_interrupted;
   } catch (const std::bad_alloc&) {
     complain("kurbel: the memory that is allowed does not suffice; raise the limit, or take a smaller scene\n");
     return exit_run_failed;

@@ -112,7 +112,7 @@ void check_start(const Section& s, Faults& faults) {
       faults.add(s.given("switch_time") ? "switch_speed" : nullptr,
                  s.given("switch_time") ? "\"switch_time\" and \"switch_speed\" both given; keep one"
                                         : "starting = \"star-delta\" needs \"switch_time\" or \"switch_speed\"");
-    if (s.given("switch_speed"))
+    if (s.given("switch_speed") && s.given("synchronous_speed"))  // a circuit has none
       faults.unless_below("switch_speed", s.number("switch_speed"), "synchronous_speed", s.number("synchronous_speed"));
   } else if (method != "direct" && !s.given("ramp")) {
     faults.add(nullptr, fmt::format("starting = \"{}\" needs \"ramp\", the time it takes", method));

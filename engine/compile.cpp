@@ -7,6 +7,8 @@
 #include <queue>
 #include <set>
 
+#include "engine/build_component.h"
+#include "engine/deadline.h"
 #include "engine/model.h"
 #include "engine/no_element.h"
 #include "engine/relations.h"
@@ -49,6 +51,7 @@ Merging merge(const Network& network, IsRigid is_rigid, Through relations = Thro
   Merging merging{std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
   for (std::size_t first = 0; first < n; ++first) {
     if (merging.group[first] >= 0) continue;
+    Deadline::check();
     std::vector<std::size_t> queue = {first};
     merging.group[first] = merging.groups;
     for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -118,15 +121,37 @@ class Compiler {
     return section ? section->at : Location{};
   }
 
+  // Of what is wrong with the machine as a whole.
+  Location location_of_line() const { return model_.scene.lines.empty() ? Location{} : model_.scene.lines.front().at; }
+
   void check_tree() {
-    if (net().nodes.empty()) throw SceneError({{model_.scene.file, {}, "the machine has no shaft"}});
+    if (net().nodes.empty()) throw SceneError({{model_.scene.file, location_of_line(), "the machine has no shaft"}});
+    check_sizes();
     const Merging all = merge(
         net(), [](const Network::Joint&) { return true; }, Through::all);
     const Merging joined = merge(net(), [](const Network::Joint&) { return true; });
     const bool loop = net().joints.size() + at(joined.groups) != net().nodes.size();
     if (all.groups > 1 || loop || !relations_are_independent(net(), joined.group))
       throw SceneError(
-          {{model_.scene.file, {}, "the shafts do not form a tree: a part is unconnected or a loop is closed"}});
+          {{model_.scene.file, location_of_line(),
+            "the shafts do not form a tree: a part is unconnected or a loop is closed; check the lines and branches"}});
+  }
+
+  // Compiling takes time in proportion to the shafts, and to the cube of the relations between their speeds.
+  void check_sizes() {
+    constexpr std::size_t most_shafts = 1'000'000, most_relations = 1000;
+    const auto refuse = [&](const std::string& component, const std::string& text) {
+      throw SceneError({{model_.scene.file, location_of(component), text}});
+    };
+    if (net().nodes.size() > most_shafts)
+      refuse(net().nodes[most_shafts].component,
+             fmt::format("the machine has {} shaft ends; must be at most {}; give fewer segments or components",
+                         net().nodes.size(), most_shafts));
+    if (net().relations.size() > most_relations)
+      refuse(net().relations[most_relations].component,
+             fmt::format("the machine has {} gears with losses, planetary gears and gears in housings; must be at most "
+                         "{}; give some of the gears without losses",
+                         net().relations.size(), most_relations));
   }
 
   // The reduction link is the crank of the first mechanism, else the first shaft of the line.
@@ -147,6 +172,19 @@ class Compiler {
     const double reduction = all.gain[at(model_.reduction_node)];
     for (double& ratio : model_.node_ratio) ratio /= reduction == 0 ? 1 : reduction;
     for (const double ratio : model_.node_ratio) model_.scale_ratio.push_back(ratio == 0 ? 1 : std::abs(ratio));
+    // Inertias count by their squares.
+    constexpr double farthest = 1e30;
+    for (std::size_t n = 0; n < net().nodes.size(); ++n) {
+      const double ratio = model_.scale_ratio[n];
+      if (ratio <= farthest && ratio >= 1 / farthest) continue;
+      const std::string& component = net().nodes[n].component;
+      messages_.add(
+          location_of(component),
+          fmt::format("\"{}\" turns {:.3g} times as fast as \"{}\"; must be within {:g} … {:g}; check the "
+                      "ratios between them",
+                      component, ratio, net().nodes[at(model_.reduction_node)].component, 1 / farthest, farthest));
+      messages_.throw_if_any();
+    }
   }
 
   // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
@@ -179,6 +217,7 @@ class Compiler {
   }
 
   void switch_effects() {
+    const std::set<std::string> elastic(model_.effects.elastic.begin(), model_.effects.elastic.end());
     for (Network::Joint& joint : net().joints) {
       if (joint.element && (joint.element->slips() || joint.element->springless())) {
         joint.elastic = !model_.effects.locked;
@@ -187,7 +226,7 @@ class Compiler {
               fmt::format("\"{}\" counts as locked; the shafts on either side are one", joint.component));
         continue;
       }
-      joint.elastic = joint.element && model_.effects.is_elastic(joint.component);
+      joint.elastic = joint.element && (model_.effects.all_elastic || elastic.count(joint.component) > 0);
       if (joint.element && !joint.elastic &&
           (model_.merged.empty() || model_.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
         model_.merged.push_back(fmt::format(
@@ -209,7 +248,7 @@ class Compiler {
         if (static_cast<int>(e) < model_.reduction_element) --model_.reduction_element;
       }
     if (model_.effects.joint_friction && !any)
-      messages_.add({},
+      messages_.add(location_of_line(),
                     "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
                     "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
   }
@@ -309,7 +348,7 @@ class Compiler {
     const std::vector<int> undefined = shafts_without_motion(model_);
     for (std::size_t s = 0; s < model_.free_shafts; ++s) {
       const Shaft& shaft = model_.shafts[s];
-      if (shaft.mean_inertia > 0) check_dead_centres(shaft);
+      if (shaft.variable && shaft.mean_inertia > 0) check_dead_centres(shaft);
     }
     for (const int s : undefined) {
       const Shaft& shaft = model_.shafts[at(s)];
@@ -473,6 +512,7 @@ class Compiler {
     std::string last;
     int loss = -1;
     for (std::size_t i = 0; i < model_.elastic.size(); ++i) {
+      Deadline::check();
       ElasticJoint& e = model_.elastic[i];
       const Network::Joint& joint = net().joints[at(e.joint)];
       if (joint.component != last || loss < 0) loss = account(joint.component, Account::harmful);
@@ -489,6 +529,7 @@ class Compiler {
       if (net().relations[at(relation.relation)].lossy)
         relation.loss_account = account(net().relations[at(relation.relation)].component, Account::harmful);
     for (std::size_t i = 0; i < net().elements.size(); ++i) {
+      Deadline::check();
       Network::ShaftElement& e = net().elements[i];
       ShaftPorts ports{.id = static_cast<int>(i),
                        .shaft = model_.shaft_of_node[at(e.node)],
@@ -641,7 +682,7 @@ Network build_network(const Scene& scene) {
   Messages messages(scene.file);
   for (const Section& section : scene.components) {
     network.components.push_back(section.name);
-    section.kind->build(section, network, messages);
+    build_component(section, network, messages);
   }
   messages.throw_if_any();
   const auto port_named = [&](const std::string& from) {

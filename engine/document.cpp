@@ -148,7 +148,7 @@ namespace {
 // are found before it reads: the place and the reason, or line 0.
 Message unfit_for_toml(const std::string& text, const std::string& file) {
   constexpr int most_dots = 8;
-  Location at{1, 0};
+  Location at{1, 0};  // of the character that is looked at
   int dots = 0;
   std::string quote;
   const std::size_t byte_order_mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
@@ -178,6 +178,7 @@ Message unfit_for_toml(const std::string& text, const std::string& file) {
       const auto end = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(i) + 1, text.end(),
                                     [](char b) { return (static_cast<unsigned char>(b) & 0xC0) != 0x80; }) -
                        text.begin();
+      at.column = std::max(at.column, 1);  // a line may begin with half a character
       return {file, at,
               fmt::format("not TOML: {} outside of quotes; texts and quantities with units stand in quotes",
                           static_cast<std::size_t>(end) - i == 1
@@ -188,6 +189,19 @@ Message unfit_for_toml(const std::string& text, const std::string& file) {
     }
   }
   return {};
+}
+
+// toml++ counts on beyond the end of a text, which is where it stopped.
+Location within(const std::string& text, Location at) {
+  int lines = 1, columns = 0;  // up to `at`
+  for (std::size_t i = 0; i < text.size() && lines <= at.line; ++i) {
+    if (text[i] == '\n' && lines == at.line) break;
+    if (text[i] == '\n')
+      ++lines, columns = 0;
+    else if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80)
+      ++columns;
+  }
+  return {std::clamp(at.line, 1, lines), std::clamp(at.column, 1, columns + 1)};
 }
 
 std::string_view line_of(std::string_view text, std::size_t number) {
@@ -220,7 +234,7 @@ std::string why_not_toml(std::string_view said, std::string_view line, int colum
 
 DocumentValue parse_toml(const std::string& text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw SceneError({{file, {}, "is empty; a scene needs at least `line` and the tables of its components"}});
+    throw SceneError({{file, {1, 1}, "is empty; a scene needs at least `line` and the tables of its components"}});
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n') + 1;
     const std::size_t begin = nul == 0 ? 0 : text.rfind('\n', nul) + 1;  // npos + 1 = 0
@@ -233,7 +247,7 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
     throw SceneError(
-        {{file, location(error.source()),
+        {{file, within(text, location(error.source())),
           fmt::format("not TOML: {}", why_not_toml(error.description(), line_of(text, error.source().begin.line),
                                                    static_cast<int>(error.source().begin.column)))}});
   }

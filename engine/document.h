@@ -34,7 +34,7 @@ struct DocumentEntry {
 };
 
 // Largest scene file that is read; anything bigger is no scene.
-inline constexpr std::size_t max_scene_bytes = 4'000'000;
+inline constexpr std::size_t max_scene_bytes = 16'000'000;
 
 // The text of a file. Throws SceneError if it is missing, unreadable, larger than `limit`, or no regular file: a pipe
 // may keep its reader waiting for ever.

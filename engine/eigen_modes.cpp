@@ -11,6 +11,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 namespace {
 
@@ -149,6 +151,7 @@ class KrylovSearch {
     const Index count = std::min<Index>(wanted, most);
     MatrixXd next = random_block(std::min<Index>(block, most));
     for (;;) {
+      Deadline::check();
       extend(next);
       const bool full = basis_ >= most;
       if (full || basis_ >= 2 * count) {

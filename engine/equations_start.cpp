@@ -49,7 +49,8 @@ void Equations::set_shaft_angles(const double* twists, std::vector<double>& angl
   }
 }
 
-std::vector<double> Equations::start(double t, const StartSettings& settings) {
+// What it finds impossible is said where the scene tells of the start.
+std::vector<double> Equations::start(double t, const StartSettings& settings) try {
   const Model& m = *model_;
   std::vector<double> y(size(), 0.0);
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
@@ -72,6 +73,13 @@ std::vector<double> Equations::start(double t, const StartSettings& settings) {
   members_follow(y, given, t);
   settle_modes(t, y, settings.equilibrium);
   return y;
+} catch (const SceneError&) {
+  throw;
+} catch (const std::runtime_error& impossible) {
+  const Scene& scene = model_->scene;
+  if (scene.lines.empty()) throw;  // made by hand
+  throw SceneError({{scene.file, settings.at.line > 0 ? settings.at : scene.lines.front().at,
+                     fmt::format("[run]: start: {}", impossible.what())}});
 }
 
 std::vector<double> Equations::state_of(double t, double link_angle, std::span<const double> twists,

@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 namespace {
 
@@ -191,11 +193,12 @@ void ExplicitRungeKutta::search_step(double t_limit) {
       }
     }
     ++statistics_.rejected;
+    Deadline::check();
     const double factor = error > 1 && std::isfinite(error)
                               ? std::max(table_.smallest_factor, safety * std::pow(error, -table_.integral_exponent))
                               : 0.5;
     h = goal.h * factor;
-    if (h < shortest) fail(h, error);
+    if (!(h > shortest)) fail(h, error);  // of a step that begins near the least of numbers: 0
   }
 }
 

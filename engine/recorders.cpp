@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 namespace {
 
@@ -377,6 +379,7 @@ void CycleRecorder::step(StepView& view) {
   };
   for (const int sense : {1, -1})
     while (beyond(view.t(), sense) >= 0) {
+      Deadline::check();
       const auto above = [&](double t) { return beyond(t, sense); };
       const double b0 = above(from), b1 = above(view.t());
       const double crossing = b0 < 0 ? find_root(above, from, b0, view.t(), b1) : from;

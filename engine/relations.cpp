@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "engine/elimination.h"
 
@@ -164,23 +165,21 @@ std::vector<int> shafts_without_motion(const Model& model) {
 
 std::vector<int> loose_trees(const Model& model) {
   if (model.relations.empty()) return {};
-  std::vector<char> known(model.shafts.size(), 0);
-  const auto follow_twists = [&] {
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const ElasticJoint& e : model.elastic)
-        if (known[at(e.shaft_a)] != known[at(e.shaft_b)]) known[at(e.shaft_a)] = known[at(e.shaft_b)] = changed = true;
-    }
+  // Shafts that twists join hang together: each points towards the first of its group.
+  std::vector<std::size_t> towards(model.shafts.size());
+  for (std::size_t s = 0; s < towards.size(); ++s) towards[s] = s;
+  const auto first_of = [&](std::size_t s) {
+    while (towards[s] != s) s = towards[s] = towards[towards[s]];
+    return s;
   };
-  known[at(model.angles.front().shaft)] = 1;
-  follow_twists();
+  for (const ElasticJoint& e : model.elastic) towards[first_of(at(e.shaft_a))] = first_of(at(e.shaft_b));
+  std::vector<char> known(model.shafts.size(), 0);  // of groups, by their first
+  known[first_of(at(model.angles.front().shaft))] = 1;
   std::vector<int> loose;
   // Prescribed shafts first, the last of all: what swings against the frame counts its angle from there.
   for (std::size_t s = model.shafts.size(); s-- > 0;) {
-    if (known[s]) continue;
+    if (std::exchange(known[first_of(s)], 1)) continue;
     loose.push_back(model.shafts[s].reference);
-    known[s] = 1;
-    follow_twists();
   }
   return loose;
 }

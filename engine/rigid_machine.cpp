@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/period.h"
 #include "engine/run.h"
 
@@ -184,6 +185,7 @@ std::vector<double> RigidMachine::edges(int direction) {
   set_modes(sign * begin, sign);
   double here = begin, looked = ahead;
   while (here < end) {
+    Deadline::check();
     const double to = std::min(here + cell, end), middle = 0.5 * (here + to);
     const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
     double edge = HUGE_VAL, value_here = 1;

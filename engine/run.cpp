@@ -8,24 +8,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <deque>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "engine/deadline.h"
 #include "engine/diagnosis.h"
 #include "engine/work_stepper.h"
 
 namespace kurbel {
 namespace {
-
-double cpu_now() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
 // run they count as zero.
@@ -77,13 +71,16 @@ class Loop {
         may_dip_(guards_beyond_angles(equations)) {}
 
   RunOutcome run() {
-    begin_ = cpu_now();
+    begin_ = processor_time();
     choose_method();
     try {
+      const Deadline deadline(options_.budget, options_.interrupted);
       start();
       while (!out_.stopped && stepper_->t() < options_.until && advance_or_jam()) {
       }
       out_.complete = !broken_;
+    } catch (const OutOfTime& over) {
+      stop_at(over);
     } catch (const StepFailure& failure) {
       broken_ = {failure.not_finite ? Breakdown::Kind::not_finite : Breakdown::Kind::collapse, failure.time,
                  failure.what(), failure.state};
@@ -102,11 +99,9 @@ class Loop {
     if (options_.method != "auto") {
       reason = "asked for";
       if (method_ == Method::work_equation)
-        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty())
-          throw std::invalid_argument("method \"work\": " + why);
+        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty()) refuse_method(why);
       if (method_ == Method::fehlberg_87)
-        if (const std::string why = rates_of_time_alone(); !why.empty())
-          throw std::invalid_argument("method \"fehlberg8\": " + why);
+        if (const std::string why = rates_of_time_alone(); !why.empty()) refuse_method(why);
     } else if (work_equation_pays()) {
       method_ = Method::work_equation;
       reason = "rigid, torques of angle and speed: load edges lie at known angles";
@@ -116,6 +111,14 @@ class Loop {
       reason = "explicit while its steps are held by accuracy, not by stability";
     }
     out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // With its place where the scene asks for it.
+  [[noreturn]] void refuse_method(const std::string& why) const {
+    const Scene& scene = equations_.model().scene;
+    const std::string text = fmt::format("method \"{}\": {}", options_.method, why);
+    if (scene.run.method != options_.method || scene.run.method_at.line == 0) throw std::invalid_argument(text);
+    throw SceneError({{scene.file, scene.run.method_at, text}});
   }
 
   // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
@@ -205,7 +208,7 @@ class Loop {
 
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
-    if (out_of_budget()) return false;
+    look_at_time();
     const double until = shortened_ > 0 ? std::min(limit(), stepper_->t() + shortened_) : limit();
     try {
       stepper_->step(until);
@@ -626,20 +629,23 @@ class Loop {
     out_.statistics.reason = fmt::format("at {:.4g} s: {}", t, reason);
   }
 
-  bool out_of_budget() {
-    if (options_.interrupted && options_.interrupted->load()) {
-      broken_ = {.t = stepper_->t(), .why = "interrupted"};
-      return true;
-    }
-    if (++checks_ % 64 != 0) return false;
+  // Between steps. What takes long within one asks for itself.
+  void look_at_time() {
+    if (options_.interrupted && options_.interrupted->load()) throw OutOfTime(0);
+    if (++checks_ % 64 != 0) return;
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
-    if (cpu_now() - begin_ < options_.budget) return false;
-    broken_ = {.kind = Breakdown::Kind::budget,
-               .t = stepper_->t(),
-               .why = fmt::format("the budget of {} s of processor time is spent (steps of {:.3g} s at the end). "
-                                  "Raise `budget`, loosen `accuracy`, or switch an effect off",
-                                  options_.budget, last_step_)};
-    return true;
+    Deadline::check();
+  }
+  void stop_at(const OutOfTime& over) {
+    const double t = stepper_ ? stepper_->t() : 0;
+    if (over.interrupted())
+      broken_ = {.t = t, .why = over.what()};
+    else
+      broken_ = {.kind = Breakdown::Kind::budget,
+                 .t = t,
+                 .why = fmt::format("{} (steps of {:.3g} s at the end). Raise `budget`, loosen `accuracy`, or switch "
+                                    "an effect off",
+                                    over.what(), last_step_)};
   }
 
   void add_statistics() {
@@ -660,7 +666,7 @@ class Loop {
       out_.state.assign(stepper_->y().begin(), stepper_->y().end());
     }
     if (out_.complete && !options_.extension) out_.held = equations_.held(out_.t, out_.state);
-    out_.statistics.cpu_seconds = cpu_now() - begin_;
+    out_.statistics.cpu_seconds = processor_time() - begin_;
     if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
   }
 

@@ -7,7 +7,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "engine/build_component.h"
 #include "engine/data_files.h"
+#include "engine/deadline.h"
 #include "engine/document.h"
 #include "engine/network.h"
 #include "engine/section_reader.h"
@@ -82,12 +84,13 @@ class SceneReader {
   void check_parameters() {
     for (const Section& section : scene_.components) {
       Network scratch;
-      if (section.sound) section.kind->build(section, scratch, messages_);
+      if (section.sound) build_component(section, scratch, messages_);
     }
   }
 
   void read_components() {
     for (const DocumentEntry& entry : document_.entries) {
+      Deadline::check();
       if (entry.key == "title" || entry.key == "description") {
         if (entry.value.type != Type::text)
           refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));
@@ -259,7 +262,8 @@ class SceneReader {
         if (!find(name)) {
           if (unreadable_.count(name)) continue;
           refuse(line.name_at[i], no_component(name, names));
-          if (const auto near = nearest(name, names)) meant.insert(*near);
+          if (explains())
+            if (const auto near = nearest(name, names)) meant.insert(*near);
           continue;
         }
         if (const auto [first, fresh] = placed.emplace(name, line.name_at[i]); !fresh)
@@ -277,7 +281,13 @@ class SceneReader {
                    section.kind->placement == Placement::inline_two ? "" : ", or say on = \"component\" in its table"));
     check_rings();
   }
+  // Of so many messages only the first are shown: what costs time to explain is left out of the rest.
+  bool explains() const {
+    constexpr std::size_t most_explained = 200;
+    return messages_.all().size() < most_explained;
+  }
   std::string no_component(const std::string& name, const std::vector<std::string>& names) const {
+    if (!explains()) return fmt::format("component {} has no table", in_quotes(name));
     const bool bare =
         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
     return fmt::format("component {} has no table{}{}; tables here: {}", in_quotes(name),
@@ -442,6 +452,7 @@ class SceneReader {
       return;
     }
     if (unreadable_.count(item.text)) return;
+    if (!explains()) return refuse(item.at, fmt::format("[effects]: elasticity: {}", item.describe()));
     const std::vector<std::string> allowed = elastic_names();
     const std::string why = section
                                 ? fmt::format("{} is a {}, which is always rigid", item.describe(), section->kind->name)
@@ -459,7 +470,8 @@ class SceneReader {
 
   void read_run() {
     static const Kind run_kind{.name = "run", .keys = run_keys()};
-    DocumentValue empty{.at = {1, 1}};
+    DocumentValue empty;
+    empty.at = {1, 1};
     const DocumentEntry* run = document_.find("run");
     if (run && run->value.type != Type::table)
       return refuse(run->at,
@@ -471,6 +483,8 @@ class SceneReader {
     scene_.run.accuracy = section.number("accuracy");
     scene_.run.method = section.text("method");
     scene_.run.model = section.text("model");
+    scene_.run.method_at = section.where("method");
+    scene_.run.model_at = section.where("model");
     scene_.run.samples = static_cast<int>(section.number("samples"));
     scene_.run.budget = section.number("budget");
     if (section.sound && !fits(scene_.run.method, scene_.run.model))
@@ -486,8 +500,10 @@ class SceneReader {
     for (const DocumentValue& item : value.items) {
       if (unreadable_.count(item.text)) continue;
       if (!find(item.text)) {
-        refuse(item.at, fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(),
-                                    suggestion(item.text, component_names()), shortened_list(component_names())));
+        refuse(item.at, explains()
+                            ? fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(),
+                                          suggestion(item.text, component_names()), shortened_list(component_names()))
+                            : fmt::format("[run]: output: {} is no component", item.describe()));
         continue;
       }
       scene_.run.output.push_back(item.text);
@@ -533,6 +549,8 @@ class SceneReader {
         refuse(entry.value.at,
                fmt::format("start: {} = {}; must be a table such as {}", entry.key, entry.value.describe(),
                            find(entry.key)->kind->elastic ? "{ twist = \"0.5 deg\" }" : "{ speed = \"300 rpm\" }"));
+      } else if (!unreadable_.count(entry.key) && !explains()) {
+        refuse(entry.at, fmt::format("start: unknown key {}", in_quotes(entry.key)));
       } else if (!unreadable_.count(entry.key)) {
         std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on"};
         for (const std::string& name : component_names()) allowed.push_back(name);

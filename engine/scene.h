@@ -32,9 +32,10 @@ struct RunSettings {
   double accuracy = 1e-6;  // measured error of every figure over its scale
   std::string method = "auto";
   std::string model = "reduced";
-  int samples = 1000;               // rows of the trajectory
-  std::vector<std::string> output;  // components in the trajectory; empty: all (both ends of long chains)
-  double budget = 300;              // s of CPU time for one integration
+  Location method_at = {}, model_at = {};  // where the file says so; else of [run]
+  int samples = 1000;                      // rows of the trajectory
+  std::vector<std::string> output;         // components in the trajectory; empty: all (both ends of long chains)
+  double budget = 300;                     // s of CPU time for one integration
 };
 
 // One step of an operating sequence: when it happens, what it sets.

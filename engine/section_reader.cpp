@@ -75,6 +75,26 @@ std::size_t characters(std::string_view text) {
 std::string write_instead(const std::string& unit) { return "write e.g. " + examples_of(unit); }
 
 bool is_number(const DocumentValue& v) { return v.type == Type::integer || v.type == Type::number; }
+bool is_whole(const DocumentValue& v) { return is_number(v) && v.number == std::floor(v.number); }  // 1e3 is
+
+// Sizes in SI units that can be computed with: products and quotients of ten such values are numbers still (1e±300).
+constexpr double least_size = 1e-30, greatest_size = 1e30;
+// An angle's last digit is 1e-7 rad here.
+constexpr double greatest_angle = 1e9;
+constexpr std::size_t most_points = 1'000'000, most_items = 100'000;
+
+// What must hold of a value besides its domain for its use to neither over- nor underflow; empty: it does.
+std::string size_allowed(double value, const Dimension& dimension, const Domain& domain) {
+  const double size = std::abs(value);
+  const bool angle = dimension == Dimension{{0, 0, 0, 1, 0}};
+  if (angle && size > greatest_angle) return fmt::format("within ± {:g} rad", greatest_angle);
+  if (size > greatest_size) return fmt::format("within ± {:g} in SI units", greatest_size);
+  const bool is_place = angle && domain.contains(0);  // on a turn, which nothing is divided by
+  if (size > 0 && size < least_size && !is_place)
+    return domain.contains(0) ? fmt::format("0 or of a size of {:g} or more in SI units", least_size)
+                              : fmt::format("of a size of {:g} or more in SI units", least_size);
+  return {};
+}
 
 // Unit of the first column of a curve, by what it is given over.
 std::string unit_over(const std::string& over) {
@@ -109,11 +129,11 @@ class CurveReader {
     }
     const std::size_t before = messages_.all().size();
     if (!read_over(curve)) return false;
-    const bool units = read_units(curve.over);
-    read_form(curve);
-    read_points("points", "file", true, curve.x, curve.y);
-    read_points("return_points", "return_file", false, curve.x_back, curve.y_back);
-    return units && messages_.all().size() == before && check_period(curve);
+    // Each says itself what is wrong with it; a mistyped key was named above, and what it should hold is missing.
+    const bool units = read_units(curve.over), form = read_form(curve),
+               points = read_points("points", "file", true, curve.x, curve.y),
+               back = read_points("return_points", "return_file", false, curve.x_back, curve.y_back);
+    return units && form && points && back && messages_.all().size() == before && check_period(curve);
   }
 
  private:
@@ -219,9 +239,31 @@ class CurveReader {
                       fmt::format("the point [{}, {}] is not finite", pair.items[0].number, pair.items[1].number));
       if (!(pair.items[0].number > last)) return refuse(pair.items[0].at, not_ascending(pair.items[0].number, last));
       last = pair.items[0].number;
-      x.push_back(pair.items[0].number * x_factor_);
-      y.push_back(pair.items[1].number * y_factor_);
+      if (!add_point(pair.items[0].number, pair.items[1].number, messages_.file(), pair.at, x, y)) return false;
     }
+    return true;
+  }
+  // In SI, where both are of a size to be computed with, and the first column still ascends.
+  bool add_point(double x, double y, const std::string& file, Location at, std::vector<double>& all_x,
+                 std::vector<double>& all_y) {
+    const double x_si = x * x_factor_, y_si = y * y_factor_;
+    std::string wrong;
+    if (!(std::abs(x_si) <= greatest_size) || !(std::abs(y_si) <= greatest_size))
+      wrong =
+          fmt::format("the point [{}, {}] is too large; in SI units both must be within ± {:g}", x, y, greatest_size);
+    else if (!all_x.empty() && !(x_si - all_x.back() > least_size))
+      wrong = fmt::format(
+          "x = {} lies so near to the point before it that no slope can be computed between them; set "
+          "them farther apart",
+          x);
+    else if (all_x.size() >= most_points)
+      wrong = fmt::format("more than {} points; thin them out", most_points);
+    if (!wrong.empty()) {
+      messages_.add_in(file, at, fmt::format("{}: {}", what_, wrong));
+      return false;
+    }
+    all_x.push_back(x_si);
+    all_y.push_back(y_si);
     return true;
   }
   static std::string not_ascending(double x, double last) {
@@ -234,13 +276,13 @@ class CurveReader {
     int column[2] = {1, 2};
     if (const DocumentEntry* columns = table_.find("columns")) {
       const auto& items = columns->value.items;
-      if (columns->value.type != Type::list || items.size() != 2 || items[0].integer < 1 || items[1].integer < 1 ||
-          items[0].integer > 1000 || items[1].integer > 1000)
+      const auto is_column = [](const DocumentValue& v) { return is_whole(v) && v.number >= 1 && v.number <= 1000; };
+      if (columns->value.type != Type::list || items.size() != 2 || !is_column(items[0]) || !is_column(items[1]))
         return refuse(columns->value.at,
                       fmt::format("columns = {}; must be two column numbers counted from 1, e.g. [1, 2]",
                                   columns->value.describe()));
-      column[0] = static_cast<int>(items[0].integer);
-      column[1] = static_cast<int>(items[1].integer);
+      column[0] = static_cast<int>(items[0].number);
+      column[1] = static_cast<int>(items[1].number);
     }
     const std::filesystem::path folder = std::filesystem::path(messages_.file()).parent_path();
     const std::filesystem::path path = folder / value.text;
@@ -260,8 +302,8 @@ class CurveReader {
           messages_.add_in(path.string(), {data.line[i], 1}, not_ascending(data.x[i], data.x[i - 1]));
           return false;
         }
-      for (const double v : data.x) x.push_back(v * x_factor_);
-      for (const double v : data.y) y.push_back(v * y_factor_);
+      for (std::size_t i = 0; i < data.x.size(); ++i)
+        if (!add_point(data.x[i], data.y[i], path.string(), {data.line[i], 1}, x, y)) return false;
     } catch (const SceneError& error) {
       return refuse(value.at, fmt::format("file {}: {}", value.describe(), error.messages.front().text));
     }
@@ -339,10 +381,14 @@ bool read_list(const DocumentValue& value, const Key& key, const std::string& wh
                                        key.type == KeyType::integers ? ", e.g. [19, 95]" : ""));
     return false;
   }
+  if (value.items.size() > most_items) {
+    messages.add(value.at, fmt::format("{} has {} values; must be at most {}", what, value.items.size(), most_items));
+    return false;
+  }
   for (const DocumentValue& item : value.items) {
     double number = 0;
     if (key.type == KeyType::integers) {
-      if (item.type != Type::integer || !key.domain.contains(item.number)) {
+      if (!is_whole(item) || !key.domain.contains(item.number)) {
         messages.add(item.at, fmt::format("{} = {}; must be a whole number, {}", what, item.describe(),
                                           key.domain.describe("")));
         return false;
@@ -395,7 +441,7 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
     case KeyType::quantity:
       return read_quantity(value, key.unit, key.domain, what, messages, setting.number);
     case KeyType::integer:
-      if (value.type != Type::integer || !key.domain.contains(value.number))
+      if (!is_whole(value) || !key.domain.contains(value.number))
         return refuse(fmt::format("a whole number, {}", key.domain.describe("")));
       setting.number = value.number;
       return true;
@@ -438,7 +484,9 @@ std::string wrong_dimension(const DocumentValue& value, const Quantity& got, con
 // A fallback is written as in a file; it is read by the same code.
 Setting fallback_setting(const Key& key, Location at, Messages& messages) {
   const DocumentValue document = parse_toml("x = " + key.fallback, "fallback of " + key.name);
-  Setting setting{.key = key.name, .at = at};
+  Setting setting;
+  setting.key = key.name;
+  setting.at = at;
   read_setting(document.entries.front().value, key, key.name, messages, DataFiles::below_the_scene, setting);
   return setting;
 }
@@ -477,6 +525,10 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
   }
   if (!domain.contains(result))
     return refuse(value.at, fmt::format("{}; must be {}", pretty_quantity(value), domain.describe(unit)));
+  UnitError none;
+  if (const std::string allowed = size_allowed(result, parse_unit(unit, none)->dimension, domain); !allowed.empty())
+    return refuse(value.at,
+                  fmt::format("{}; must be {}; check its unit and power of ten", pretty_quantity(value), allowed));
   return true;
 }
 
@@ -516,7 +568,10 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
                                near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
       continue;
     }
-    Setting setting{.key = key->name, .at = entry.value.at, .given = true};
+    Setting setting;
+    setting.key = key->name;
+    setting.at = entry.value.at;
+    setting.given = true;
     if (read_setting(entry.value, *key, what + ": " + key->name, messages, allowed, setting)) {
       section.settings.push_back(std::move(setting));
     } else {

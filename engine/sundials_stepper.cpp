@@ -19,6 +19,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 namespace {
 
@@ -366,6 +368,7 @@ int SundialsStepper::newton_matrix(double t, N_Vector y, SUNMatrix matrix, bool 
   if (!reuse_jacobian) {
     try {
       ++me.statistics_.jacobian_calls;
+      Deadline::check();
       me.system_.jacobian(t, {N_VGetArrayPointer(y), me.y_.size()}, values);
     } catch (...) {
       me.exception_ = std::current_exception();

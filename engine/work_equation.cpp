@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/period.h"
 #include "engine/run.h"
 
@@ -237,6 +238,7 @@ class WorkOverAngle::Walk {
     // The rest of the first cycle, whole cycles, and the last one.
     bool first = true;
     while (!over_) {
+      Deadline::check();
       if (motion_.s == 0 && !from_rest_) skip_cycles();
       auto k = static_cast<std::size_t>(&diagram_.panel_at(motion_.s) - diagram_.panel_.data());
       for (; k < diagram_.panel_.size() && !over_; ++k) walk_panel(diagram_.panel_[k], first);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/deadline.h"
 #include "mechanisms/load_kinds.h"
 
 namespace kurbel {
@@ -85,6 +86,8 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
   std::optional<Mechanism> mechanism;
   try {
     mechanism.emplace(s.name, data);
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception&) {  // Simbody's own checks, which speak of matrices
     messages.add(s.at, fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be computed "
                                    "together ({}); check their units",

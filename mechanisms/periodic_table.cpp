@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 
 namespace {
@@ -69,7 +71,10 @@ class TableBuilder {
     std::vector<Piece> level(first_pieces());
     for (std::size_t i = 0; i < level.size(); ++i) level[i].index = i;
     while (!level.empty()) {
-      for (Piece& piece : level) fit(piece);  // all of a level first: its scales are then known
+      for (Piece& piece : level) {  // all of a level first: its scales are then known
+        Deadline::check();
+        fit(piece);
+      }
       level = split_or_keep(level);
     }
     return finish();

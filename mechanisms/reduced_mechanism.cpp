@@ -1,6 +1,7 @@
 // reduced_mechanism.cpp — tabulates the reduced functions of a mechanism and keeps the tables that were made.
 #include "mechanisms/reduced_mechanism.h"
 
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -61,7 +62,13 @@ CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_
   return key;
 }
 
+std::atomic<bool> rough_tables{false};
+constexpr double rough_tolerance = 1e-3;
+constexpr std::size_t rough_pieces = 16;
+
 }  // namespace
+
+void take_rough_tables(bool rough) { rough_tables = rough; }
 
 ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
                                    double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut)
@@ -79,6 +86,7 @@ ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, 
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,
                                                          std::size_t max_pieces, Extraction extraction) {
+  if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::second;
   static std::mutex mutex;
   static std::map<CacheKey, std::shared_ptr<const ReducedMechanism>> cache;
   constexpr std::size_t capacity = 256;  // a table is 20 kB … 1 MB

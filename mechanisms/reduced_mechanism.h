@@ -97,6 +97,10 @@ std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& da
                                                          std::size_t max_pieces = table_max_pieces,
                                                          Extraction extraction = Extraction::first);
 
+// For programs that compile scenes by the thousand and run none of them: tables of a few pieces of the closed forms in
+// place of all that are asked for, until told otherwise. For the whole process.
+void take_rough_tables(bool rough);
+
 // The same, always extracted afresh.
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance = table_tolerance,
                                    std::size_t max_pieces = table_max_pieces,

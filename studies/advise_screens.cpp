@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "studies/modes.h"
 
@@ -55,6 +56,8 @@ std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<Effe
   if (effects.elastic.empty()) return {};
   try {
     return find_modes(scene, effects, {});
+  } catch (const OutOfTime&) {
+    throw;
   } catch (const std::exception&) {
     return {};
   }
@@ -153,6 +156,8 @@ class Screening {
     for (LinearDrive::Joint& joint : stiff.joints) joint.stiffness *= factor;
     try {
       quasi_static_ = respond(stiff, modes_->excitations);
+    } catch (const OutOfTime&) {
+      throw;
     } catch (const std::exception&) {
     }
   }
@@ -219,11 +224,12 @@ class Screening {
       const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
       const double ratio = maker->dynamics().rod().frequency(1) / std::max(crank, 1e-300);
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
-      screens.push_back({"rod frequency", ratio,
-                         fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it amplifies by "
-                                     "{:.2g}",
-                                     e.component, ratio, more),
-                         more > within_});
+      screens.push_back(
+          {"rod frequency", ratio,
+           fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it {}", e.component, ratio,
+                       std::isfinite(more) ? fmt::format("amplifies by {:.2g}", more)
+                                           : "goes with the crank and against it, at or beyond resonance"),
+           more > within_});
     }
     return screens;
   }

@@ -94,7 +94,7 @@ class Figures {
   // Heat of what slips.
   void collect_heat() {
     for (const ElasticJoint& e : model_.elastic)
-      if (e.slips)
+      if (e.slips && !run_.energy->work.empty())  // empty: failed before its first step
         add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
             energy_scale(), run_.outcome.t);
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/model.h"
 #include "engine/run.h"
 #include "engine/units.h"
@@ -71,6 +72,7 @@ class PassageRecorder final : public Observer {
     // Each within the whole step, so that no target moves for those asked for beside it.
     const double from = view.t_previous();
     while (passed_.size() < targets_.size()) {
+      Deadline::check();
       const double at_end = beyond(view.t());
       if (at_end < 0) return;
       const double at_begin = beyond(from);

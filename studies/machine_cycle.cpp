@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/run.h"
 
 namespace kurbel {
@@ -189,7 +190,10 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
     MeanTorque mean;
   };
   std::vector<At> scan;
-  const auto look = [&](double speed) { scan.push_back({speed, mean_torque(machine, speed)}); };
+  const auto look = [&](double speed) {
+    Deadline::check();
+    scan.push_back({speed, mean_torque(machine, speed)});
+  };
   // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
   constexpr int steps = 80;
   for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
@@ -224,9 +228,11 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
   const std::string balance = fmt::format(
       "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
       "takes "
-      "{:.6g} N·m; {:.6g} N·m are missing ({:.3g} % of the load)",
+      "{:.6g} N·m; {:.6g} N·m are missing{}",
       rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
-      100 * -best->mean.net() / std::abs(best->mean.load));
+      best->mean.load == 0
+          ? ""
+          : fmt::format(" ({:.3g} % of the load)", 100 * -best->mean.net() / std::abs(best->mean.load)));
   if (machine.uses_time())
     throw WeakDrive(
         fmt::format("as it is at t = 0 the drive is too weak for the cycle: {}. Some torque depends on time "

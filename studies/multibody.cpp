@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "engine/deadline.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "mechanisms/mechanism.h"
 #include "mechanisms/multibody_run.h"
@@ -19,12 +19,6 @@ namespace {
 constexpr double tightest_accuracy = 1e-11;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cpu_now() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 const MechanismMaker* only_mechanism(const Model& model) {
   const MechanismMaker* found = nullptr;
@@ -98,7 +92,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   const RunSettings& settings = model.scene.run;
   const MechanismMaker* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
-    throw SceneError({{model.scene.file, settings.start.at,
+    throw SceneError({{model.scene.file, settings.model_at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
   if (!mechanism || !std::holds_alternative<SliderCrankData>(mechanism->mechanism().data))
@@ -117,7 +111,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   problem.shaft_inertia = model.shafts.front().inertia;
   const auto phi_now = std::make_shared<double>(0);
   problem.shaft_torque = [torque, phi_now, phase = crank.phase, &options](double t, double phi, double omega) {
-    if (options.interrupted && options.interrupted->load()) throw std::runtime_error("interrupted");
+    Deadline::check();
     *phi_now = phi;
     return (*torque)(t, phi - phase, omega);
   };
@@ -146,10 +140,11 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   result.explanation = model.explain() + "model: multibody, the loop closed by Simbody at every step\n";
   result.until = problem.t_end;
   result.accuracy = options.accuracy.value_or(settings.accuracy);
-  const double begin = cpu_now();
+  const double begin = processor_time();
   const auto run_at = [&](double accuracy) {
     problem.accuracy = accuracy;
     ++result.runs;
+    const Deadline deadline(std::min(settings.budget, options.budget.value_or(settings.budget)), options.interrupted);
     return run_multibody(problem);
   };
   try {
@@ -157,17 +152,17 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
       return std::max(std::abs(a.samples.back().phi - b.samples.back().phi),
                       std::abs(a.samples.back().omega - b.samples.back().omega) / model.speed_scale);
     };
-    double last_begin = cpu_now();
+    double last_begin = processor_time();
     MultibodyResult coarse, fine = run_at(std::clamp(result.accuracy, tightest_accuracy, 1e-3));
     while (options.measure_error && problem.accuracy / 10 >= tightest_accuracy) {
       coarse = std::move(fine);
-      last_begin = cpu_now();
+      last_begin = processor_time();
       fine = run_at(problem.accuracy / 10);
       if (scaled_difference(coarse, fine) <= result.accuracy) break;
     }
     if (coarse.samples.empty()) coarse = fine;
     result.tolerance = problem.accuracy;
-    result.statistics.cpu_seconds = cpu_now() - last_begin;
+    result.statistics.cpu_seconds = processor_time() - last_begin;
     result.statistics.stepper.steps = fine.steps;
     result.statistics.stepper.rejected = fine.rejected;
     result.statistics.stepper.flow_calls = fine.evaluations;
@@ -190,6 +185,13 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     if (options.traces) result.traces = traces_of(model, crank, fine);
     result.notes.push_back(fmt::format(
         "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
+  } catch (const OutOfTime& over) {
+    result.complete = false;
+    result.diagnosis = over.interrupted() ? over.what()
+                                          : fmt::format(
+                                                "the multibody run was stopped: {}. Raise `budget`, loosen "
+                                                "`accuracy`, or shorten `until`",
+                                                over.what());
   } catch (const std::runtime_error& error) {
     result.complete = false;
     result.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy",
@@ -197,7 +199,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   }
   result.statistics.method = "Simbody " + problem.integrator;
   result.statistics.reason = "model = \"multibody\"";
-  result.cpu_total = cpu_now() - begin;
+  result.cpu_total = processor_time() - begin;
   return result;
 }
 

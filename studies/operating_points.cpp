@@ -228,6 +228,8 @@ class RatioTrial {
     present_ = 1;
     for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
   }
+  // A stage whose ratio can be set: none where all of them have losses or teeth that yield.
+  bool has_gears() const { return !gears_of(network_, gearbox_).empty(); }
   double present() const { return present_; }
   // Start time with another ratio of the last stage; HUGE_VAL: never.
   double operator()(double ratio) {
@@ -267,6 +269,7 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, doubl
   for (const Section& component : scene.components) {
     if (component.kind->name != "gearbox") continue;
     RatioTrial trial(scene, component.name, target, limit, interrupted);
+    if (!trial.has_gears()) continue;
     RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, false};
     const double reached = trial(trial.present());
     search.present_time = std::isfinite(reached) ? reached : 0;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
+
 namespace kurbel {
 namespace {
 
@@ -128,6 +130,7 @@ class PiecewiseBuilder {
     // Depth first, so that the pieces come out in order.
     std::vector<Piece> done;
     while (!fresh.empty()) {
+      Deadline::check();
       Piece piece = std::move(fresh.back());
       fresh.pop_back();
       if (good(piece) || piece.hi - piece.lo < shortest_ || done.size() + fresh.size() > most_pieces) {

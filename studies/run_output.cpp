@@ -130,7 +130,11 @@ Json result_json(const Result& r) {
   for (const Figure& f : r.figures)
     if (is_told(f, r)) j["figures"].push_back(figure_json(f));
   j["final"] = Json::object();
-  for (const auto& [name, state] : r.final_state) j["final"][name] = state_json(state);
+  auto& states = j["final"].get_ref<Json::object_t&>();
+  for (const auto& [name, state] : r.final_state) {  // no name comes twice, and none is looked for
+    const std::pair<const std::string, Json> entry(name, state_json(state));
+    states.push_back(entry);
+  }
   j["events"] = Json::array();
   for (std::size_t k = 0; k < r.events.size(); ++k) j["events"].push_back(event_json(r, k));
   j["periods"] = {{"run_up_end", optional_json(r.periods.run_up_end)},

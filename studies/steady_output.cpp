@@ -76,9 +76,10 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
                                 p.stable() ? "stable" : "unstable", beside(p.drive_slope, p.load_slope),
                                 p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {} rpm), {} times what it needs",
-                                with_unit(d.strongest.drive, "N*m", 5), number(d.strongest.omega * per_minute, 5),
-                                number(d.margin(*p), 4)));
+    words.push_back(fmt::format(
+        "margin: the drive gives at most {} in the mean (at {} rpm), {}", with_unit(d.strongest.drive, "N*m", 5),
+        number(d.strongest.omega * per_minute, 5),
+        std::isfinite(d.margin(*p)) ? number(d.margin(*p), 4) + " times what it needs" : "and it needs nothing"));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }

@@ -90,14 +90,14 @@ TEST(BadScenes, FolderInPlaceOfAFileIsNamed) {
   }
 }
 
-TEST(BadScenes, FileAboveFourMegabytesIsRefusedBeforeParsing) {
+TEST(BadScenes, FileAboveSixteenMegabytesIsRefusedBeforeParsing) {
   const fs::path path = fs::temp_directory_path() / "kurbel_large_scene.toml";
   std::ofstream(path) << std::string(max_scene_bytes + 1, '[');
   try {
     read_scene(path.string(), all_kinds());
-    FAIL() << "5 MB were read";
+    FAIL() << "17 MB were read";
   } catch (const SceneError& error) {
-    EXPECT_EQ(std::string(error.what()), path.string() + ": is larger than 4 MB; put long tables into CSV files");
+    EXPECT_EQ(std::string(error.what()), path.string() + ": is larger than 16 MB; put long tables into CSV files");
   }
   fs::remove(path);
 }
@@ -123,7 +123,7 @@ TEST(BadScenes, ThousandsOfErrorsAreCutToAHundredLines) {
   EXPECT_TRUE(said.ends_with("more messages"));
 }
 
-// Quadratic work on 4 MB of text would take minutes.
+// Quadratic work on 16 MB of text would take minutes.
 TEST(BadScenes, LargeScenesAreReadInSeconds) {
   const auto begin = std::chrono::steady_clock::now();
   std::string text = "line = [\"c0\"]\n";

@@ -1,0 +1,88 @@
+// deadline_test.cpp — what takes long is ended by its budget and by the user, wherever it is.
+#include "engine/deadline.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/eigen_modes.h"
+#include "studies/reduce.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+void work_until_told() {
+  for (;;) Deadline::check();
+}
+
+TEST(Deadline, WithoutOneNothingIsEnded) {
+  for (int i = 0; i < 1000; ++i) Deadline::check();
+}
+
+TEST(Deadline, EndsWorkWhenItsProcessorTimeIsSpent) {
+  const double begin = processor_time();
+  try {
+    const Deadline deadline(0.02);
+    work_until_told();
+  } catch (const OutOfTime& over) {
+    EXPECT_FALSE(over.interrupted());
+    EXPECT_EQ(std::string(over.what()), "the budget of 0.02 s of processor time is spent");
+  }
+  EXPECT_NEAR(processor_time() - begin, 0.02, 0.02);
+  Deadline::check();  // it is no longer in force
+}
+
+TEST(Deadline, OfTwoTheSoonerHolds) {
+  for (const auto& [outer, inner] : {std::pair{0.01, 100.0}, std::pair{100.0, 0.01}}) {
+    const Deadline first(outer);
+    const Deadline second(inner);
+    EXPECT_THROW(work_until_told(), OutOfTime);
+  }
+}
+
+TEST(Deadline, AnInterruptEndsWorkAtOnce) {
+  std::atomic<bool> interrupted = true;
+  const Deadline outer(100, &interrupted);
+  const Deadline inner(100);
+  try {
+    work_until_told();
+  } catch (const OutOfTime& over) {
+    EXPECT_TRUE(over.interrupted());
+    EXPECT_EQ(std::string(over.what()), "interrupted");
+  }
+}
+
+// What fails is often tried another way; an interrupt is none of that.
+TEST(Deadline, IsNoFailureThatMayBeSwallowed) {
+  static_assert(!std::is_base_of_v<std::runtime_error, OutOfTime>);
+  static_assert(!std::is_base_of_v<std::logic_error, OutOfTime>);
+}
+
+TEST(Deadline, ASpentBudgetEndsARunWithADiagnosis) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.budget = 1e-3;
+  const Result result = test::run(scene, false);
+  EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.diagnosis.find("the budget of 0.001 s of processor time is spent"), std::string::npos)
+      << result.diagnosis;
+}
+
+TEST(Deadline, ASpentBudgetEndsAMultibodyRunWithADiagnosis) {
+  Scene scene = test::scene_file("scenes/free_slider_crank.toml");
+  scene.run.model = "multibody";
+  scene.run.budget = 1e-3;
+  const Result result = simulate(scene, {}, "multibody", {});
+  EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.diagnosis.find("budget"), std::string::npos) << result.diagnosis;
+}
+
+TEST(Deadline, AnInterruptEndsTheExtractionOfAMechanism) {
+  std::atomic<bool> interrupted = true;
+  const Deadline deadline(100, &interrupted);
+  const std::string text =
+      "line = [\"crank\"]\ncrank = { kind = \"slider-crank\", radius = \"101.7 mm\", rod = \"350 mm\", crank_inertia = "
+      "\"0.5 kg*m2\", slider_mass = \"3 kg\" }\n";
+  EXPECT_THROW(compile(test::scene_from(text), {}), OutOfTime);
+}
+
+}  // namespace
+}  // namespace kurbel
