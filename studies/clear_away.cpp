@@ -57,11 +57,15 @@ void part(int folder, const std::string& prefix, const std::set<std::string>& ow
       continue;
     } else if (within != own.end() && within->starts_with(whole + "/")) {
       const Descriptor inner = open_folder(folder, name);
+      if (!inner) {  // a link of the user's in its place
+        take_over(folder, name, target);
+        continue;
+      }
       // A folder of that name in the new set is made only for what is taken over.
-      for (const std::string& file : inner ? names_in(inner.get()) : std::vector<std::string>{})
+      for (const std::string& file : names_in(inner.get()))
         if (!own.contains(whole + "/" + file)) mkdirat(target, name.c_str(), 0777);
       const Descriptor there = open_folder(target, name);
-      if (inner) part(inner.get(), whole + "/", own, there.get());
+      part(inner.get(), whole + "/", own, there.get());
       unlinkat(folder, name.c_str(), AT_REMOVEDIR);
     } else {
       take_over(folder, name, target);

@@ -101,11 +101,8 @@ std::string why_no_results_in(const fs::path& folder) {
     existing = path.parent_path();
   }
   if (!fs::is_directory(existing, error)) return fmt::format("{} is a file; give a folder", existing.string());
-  if (access(existing.c_str(), W_OK) != 0)
-    return fmt::format(
-        "no permission to write in {}, where results are put together; give another folder, or --no-files",
-        existing.string());
-  return "";
+  const std::string why = why_nothing_made_in(existing);
+  return why.empty() ? "" : why + ", or --no-files";
 }
 
 ResultSet::ResultSet(const fs::path& folder) : path_(resolved(folder)), target_(path_.filename()) {

@@ -136,4 +136,16 @@ bool lock_abandoned(int descriptor, int folder, const std::string& name) {
   return is_same(descriptor, folder, name);
 }
 
+std::string why_nothing_made_in(const std::filesystem::path& folder) {
+  const std::string name = (folder / staged_name({.replaced = false, .target = "trial"})).string();
+  if (mkdir(name.c_str(), 0700) == 0) {
+    rmdir(name.c_str());
+    return "";
+  }
+  if (errno == EACCES || errno == EPERM || errno == EROFS)
+    return fmt::format("no permission to write in {}; give another place", folder.string());
+  return fmt::format("cannot write in {}: {}; give another place", folder.string(),
+                     std::generic_category().message(errno));
+}
+
 }  // namespace kurbel

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -59,5 +60,9 @@ inline constexpr std::size_t longest_target = 200;  // bytes of NAME
 // than an hour counts as abandoned.
 bool lock_own(int descriptor, int folder, const std::string& name);
 bool lock_abandoned(int descriptor, int folder, const std::string& name);
+
+// Why nothing can be made in a folder, with a next step; empty: it can. Asked by doing it: what the system allows is
+// more than modes (a read-only disk, /proc).
+std::string why_nothing_made_in(const std::filesystem::path& folder);
 
 }  // namespace kurbel

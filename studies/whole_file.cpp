@@ -53,9 +53,7 @@ std::string why_no_file_at(const std::filesystem::path& path) {
   if (name.size() > longest_target) return fmt::format("the name is longer than {} bytes", longest_target);
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     return S_ISDIR(status.st_mode) ? "is a folder; give a file in it" : "is no regular file; give another path";
-  if (access(folder.c_str(), W_OK) != 0)
-    return fmt::format("no permission to write in {}; give another path", folder.string());
-  return "";
+  return why_nothing_made_in(folder);
 }
 
 bool write_whole(const std::filesystem::path& path, std::string_view text, Existing existing) {

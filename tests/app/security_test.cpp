@@ -255,7 +255,7 @@ TEST_F(Security, HasNoFileWrittenThroughALink) {
   EXPECT_EQ(
       kurbel({"advise", "s.toml", "--within", "50 %", "--no-held-out", "--no-files", "--write", "lean.toml"}).code, 0);
   EXPECT_EQ(kurbel({"new", "press", "new.toml"}).code, 0);
-  // Links within a set are taken for the user's, and moved with what else is.
+  // Links in the place of a set's files go with them, one in the place of its folder is the user's.
   fs::remove(own / "fresh/summary.json");
   fs::create_symlink("../../victim", own / "fresh/summary.json");
   fs::remove_all(own / "fresh/plots");
@@ -263,6 +263,9 @@ TEST_F(Security, HasNoFileWrittenThroughALink) {
   EXPECT_EQ(kurbel({"run", "s.toml", "--out", "fresh", "--plots", "--no-error"}).code, 0);
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(own / "fresh/summary.json")));
   EXPECT_TRUE(fs::is_directory(fs::symlink_status(own / "fresh/plots")));
+  EXPECT_EQ(fs::read_symlink(own / "fresh/plots.kept-1"), "../..");
+  for (const auto& entry : fs::directory_iterator(own))
+    EXPECT_EQ(entry.path().filename().string().find(".kurbel-"), std::string::npos) << entry.path();
   EXPECT_EQ(text_of(folder_ / "victim"), "precious");
   EXPECT_EQ(text_of(own / "lean.toml").rfind("title", 0), 0u);
 }
