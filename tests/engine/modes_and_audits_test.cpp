@@ -34,14 +34,6 @@ const std::string elastic =
 
 // --- linearised ------------------------------------------------------------------------------------------------------
 
-// ω² ≤ k/J_a + i² k/J_b, which for two shafts is the frequency itself.
-TEST(FastestRate, OfTwoShaftsAndAMeshIsTheirFrequency) {
-  const auto model =
-      model_of("line = [\"a\", \"mesh\", \"b\"]\n" + body("a", 0.2) + body("b", 3) +
-               "mesh = { kind = \"gear mesh\", teeth = [20, 50], stiffness = \"900 N*m/rad\" }\n" + elastic);
-  EXPECT_NEAR(model->fastest_rate, std::sqrt(900 * (1 / 0.2 + 2.5 * 2.5 / 3)), 1e-9);
-}
-
 // Where the speed is given behind the coupling, what drives before it goes through: M, or i M behind a gear.
 TEST(LinearDrive, MeanTorqueOfACouplingIsWhatDrivesTowardsAHeldShaft) {
   const std::string ends =
