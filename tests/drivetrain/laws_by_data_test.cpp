@@ -6,10 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivetrain/catalogue_motor.h"
 #include "drivetrain/dc_circuits.h"
 #include "drivetrain/gear_pair.h"
 #include "drivetrain/governor.h"
+#include "drivetrain/induction_circuit.h"
 #include "drivetrain/motors.h"
+#include "drivetrain/rubber_coupling.h"
 #include "drivetrain/universal_joint.h"
 #include "tests/support/scenes.h"
 
@@ -84,6 +87,60 @@ TEST(InductionMotor, AtAPartOfTheVoltageAndReversed) {
   }
 }
 
+// A motor by catalogue points, likewise; at its points it has their torques.
+TEST(CatalogueMotor, AtAPartOfTheVoltageAndReversed) {
+  const CataloguePoints points{.starting_torque = 90,
+                               .pull_up = {{40, 70}},
+                               .breakdown = {120, 150},
+                               .rated = {148, 50},
+                               .synchronous_speed = 157};
+  const CatalogueMotor motor{points.curve(), 157, 50};
+  for (const auto& [omega, torque] :
+       {std::pair{0.0, 90.0}, {40.0, 70.0}, {120.0, 150.0}, {148.0, 50.0}, {157.0, 0.0}, {166.0, -50.0}})
+    for (const double command : {0.6, -0.6}) {
+      ShaftState<double> x{.rate = std::copysign(omega, command), .command = command};
+      x.mode = motor.first_mode(x);
+      EXPECT_NEAR(motor.torque(x), std::copysign(0.36, command) * torque, 1e-10) << omega;
+    }
+}
+
+// A turning shunt motor begins with (c U − k ω)/R, or over R + R_b where it brakes.
+TEST(DcShuntCircuit, BeginsWithTheCurrentOfItsPartOfTheVoltage) {
+  const DcShuntCircuit motor{.line = {.voltage = 220, .resistance = 0.5, .constant = 1.4, .brake = {.resistance = 1.7}},
+                             .inductance = 0.02};
+  for (const double command : {0.6, -0.6}) {
+    double current = 0;
+    ShaftState<double> x{.rate = 70, .command = command, .own = &current};
+    x.mode = motor.first_mode(x);
+    motor.first_states(x, &current);
+    EXPECT_NEAR(current, (command * 220 - 1.4 * 70) / (command > 0 ? 0.5 : 2.2), 1e-12);
+  }
+}
+
+// Switched off the stator's current ceases, the rotor's flux L_m i_s + L_r i_r stays.
+TEST(TwoAxisMotor, SwitchedOffKeepsTheFluxOfItsRotor) {
+  const EquivalentCircuit circuit{220, 60, 2, 0.435, 0.816, 0.5, 1.9, 26.13};
+  const TwoAxisMotor motor{circuit, circuit.characteristic()};
+  const double before[4] = {30, -12, -25, 17};
+  double own[4] = {30, -12, -25, 17};
+  ShaftState<double> x{.rate = 100, .own = own};
+  x.on = false;
+  motor.switched(x, own);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(own[k], 0);
+    EXPECT_NEAR(motor.rotor() * own[2 + k], motor.mutual() * before[k] + motor.rotor() * before[2 + k], 1e-12);
+  }
+}
+
+// A damper in place of relaxing branches loses at ω_ref what they lose there, c + Σ k T/(1 + ω² T²); ω_ref given.
+TEST(RubberCoupling, WithoutRelaxationIsDampedAtItsReferenceFrequency) {
+  const CouplingData spring{4000, {Damping::As::viscous, 1.5, 70}};
+  const StaticRubberData rubber{spring, {{900, 0.02}, {300, 0.15}}};
+  const Coupling element = rubber.settled(0.3);
+  EXPECT_DOUBLE_EQ(element.stiffness, 4000);
+  EXPECT_NEAR(element.damping, 1.5 + 900 * 0.02 / (1 + 1.4 * 1.4) + 300 * 0.15 / (1 + 10.5 * 10.5), 1e-12);
+}
+
 // A turning series motor begins with (R + s κ ω) i = |c| U.
 TEST(DcSeriesCircuit, BeginsWithTheCurrentOfItsPartOfTheVoltage) {
   const DcSeriesCircuit motor{.line = {.voltage = 200, .resistance = 0.8, .constant = 0.05, .max_speed = 500},
@@ -137,6 +194,41 @@ TEST(GearWheel, LeastShiftOfHelicalTeeth) {
     const double least = 0.9 - 11 * std::pow(std::sin(transverse), 2) / (2 * std::cos(helix));
     EXPECT_NEAR(least_shift(rack, 11, helix), least, 1e-12);
     EXPECT_NEAR(least_teeth(rack, helix, least), 11, 1e-9);
+  }
+}
+
+// Teeth that advance by b tan β along the pitch cylinder overlap by that over the transverse pitch.
+TEST(GearPair, OverlapIsTheAdvanceOfAToothOverItsPitch) {
+  GearPairData d;
+  d.module = 3e-3;
+  d.teeth = {19, 53};
+  d.helix = -25 * degree;
+  d.width = {40e-3, 35e-3};
+  const double pitch = std::numbers::pi * 3e-3 / std::cos(25 * degree);
+  EXPECT_NEAR(solve_gear_pair(d).overlap_ratio, 35e-3 * std::tan(25 * degree) / pitch, 1e-12);
+}
+
+// ∫ r² dA of the sections, told along their outline, ∮ (r²/4)(x dy − y dx): Simpson on each straight piece is exact.
+TEST(GearWheel, InertiaIsThatOfItsDrawnOutline) {
+  for (const int teeth : {6, 17, -60}) {
+    GearPairData d;
+    d.module = 5e-3;
+    d.teeth = {teeth > 0 ? teeth : 20, teeth > 0 ? 40 : teeth};
+    d.shift = {teeth == 6 ? 0.6 : 0.1, 0};
+    d.width = {20e-3, 20e-3};
+    d.bore = {8e-3, 0};
+    const MeshedWheel w = solve_gear_pair(d).wheel[teeth > 0 ? 0 : 1];
+    const std::vector<OutlinePoint> p = wheel_outline(w, 24);
+    double section = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const OutlinePoint &a = p[i], &b = p[(i + 1) % p.size()];
+      const auto squared = [](double x, double y) { return x * x + y * y; };
+      const double middle = squared(0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
+      section += (a.x * b.y - b.x * a.y) / 4 * (squared(a.x, a.y) + 4 * middle + squared(b.x, b.y)) / 6;
+    }
+    const double disc = std::numbers::pi / 32 * std::pow(w.bore, 4);
+    const double inertia = 7850 * 20e-3 * (teeth > 0 ? section - disc : disc - section);
+    EXPECT_NEAR(w.inertia, inertia, 1e-9 * inertia) << teeth;
   }
 }
 
