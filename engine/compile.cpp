@@ -405,6 +405,17 @@ class Compiler {
   }
 
   // Rated speed and torque, carried to the reduction link and from there to every shaft.
+  // Of the stiffest elastic joint, in the link's measure.
+  double torque_of_a_small_twist() const {
+    constexpr double small = 1e-3;  // [rad]
+    double torque = 0;
+    for (const ElasticJoint& e : model_.elastic) {
+      const Network::Joint& joint = model_.network.joints[at(e.joint)];
+      const double ratio = model_.scale_ratio[at(joint.a)];
+      torque = std::max(torque, joint.element->stiffness() * small * ratio);
+    }
+    return torque;
+  }
   void find_scales() {
     double speed = 0, torque = 0, resisting = 0, inertia = 0;
     for (std::size_t n = 0; n < net().nodes.size(); ++n)
@@ -434,7 +445,9 @@ class Compiler {
     if (torque == 0) torque = resisting;  // nothing drives: the loads set the scale
     if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / inertia);  // after one turn
     if (speed == 0) speed = 1;
-    if (torque == 0) torque = std::max(0.5 * inertia * speed * speed, 1e-12);  // kinetic energy per radian
+    if (torque == 0) torque = 0.5 * inertia * speed * speed;  // kinetic energy per radian
+    if (torque == 0) torque = torque_of_a_small_twist();      // all motions are given
+    torque = std::max(torque, 1e-12);
     check_scales(speed, torque);
     model_.speed_scale = speed;
     model_.torque_scale = torque;

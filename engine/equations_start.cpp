@@ -249,8 +249,9 @@ void Equations::balance_twists(std::span<double> y, double t) {
                                  y.begin() + static_cast<std::ptrdiff_t>(states_), [](double w) { return w == 0; });
   if (still)
     for (std::size_t e = 0; e < net.elements.size(); ++e) {
-      hold_low += element_hold_[e].low * m.node_ratio[at(net.elements[e].node)];
-      hold_high += element_hold_[e].high * m.node_ratio[at(net.elements[e].node)];
+      const double ratio = m.node_ratio[at(net.elements[e].node)];
+      hold_low += ratio * (ratio > 0 ? element_hold_[e].low : element_hold_[e].high);
+      hold_high += ratio * (ratio > 0 ? element_hold_[e].high : element_hold_[e].low);
     }
   const double held = std::clamp(-torque, hold_low, hold_high);
   const double capacity = held > 0 ? hold_high : hold_low;
@@ -259,7 +260,8 @@ void Equations::balance_twists(std::span<double> y, double t) {
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const std::size_t n = at(net.elements[e].node);
     need[n] += element_inertia_[e] * m.node_ratio[n] * acceleration - element_torque_[e];
-    if (still && capacity != 0) need[n] -= held / capacity * (held > 0 ? element_hold_[e].high : element_hold_[e].low);
+    const bool upwards = (held > 0) == (m.node_ratio[n] > 0);  // on the element's own shaft
+    if (still && capacity != 0) need[n] -= held / capacity * (upwards ? element_hold_[e].high : element_hold_[e].low);
   }
   const std::vector<double> joint_torque = balanced_joints(std::move(need));
   std::vector<double> twists(m.elastic.size());

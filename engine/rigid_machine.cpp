@@ -186,7 +186,9 @@ std::vector<double> RigidMachine::edges(int direction) {
   double here = begin, looked = ahead;
   while (here < end) {
     Deadline::check();
-    const double to = std::min(here + cell, end), middle = 0.5 * (here + to);
+    // On one grid all along, so that cells keep off the round angles behind an edge, too.
+    const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end),
+                 middle = 0.5 * (here + to);
     const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
     double edge = HUGE_VAL, value_here = 1;
     for (const std::size_t i : watched) {
