@@ -21,6 +21,9 @@
 #include <sstream>
 #include <thread>
 
+#include "engine/csv.h"
+#include "engine/document.h"
+
 namespace kurbel {
 namespace {
 
@@ -377,9 +380,14 @@ TEST_F(Security, LargerFilesAreRefusedAndEndlessOnesNotReadOn) {
   };
   const Ended large = kurbel({"check", "large.toml"}, little), data = kurbel({"check", "s.toml"}, little);
   EXPECT_EQ(large.code, 2);
-  EXPECT_NE(large.err.find("is larger than 4 MB"), std::string::npos) << large.err;
+  const std::string scenes = std::to_string(max_scene_bytes / 1'000'000) + " MB",
+                    tables = std::to_string(max_csv_bytes / 1'000'000) + " MB";
+  EXPECT_NE(large.err.find("is larger than " + scenes), std::string::npos) << large.err;
   EXPECT_EQ(data.code, 2);
-  EXPECT_NE(data.err.find("is larger than 64 MB"), std::string::npos) << data.err;
+  EXPECT_NE(data.err.find("is larger than " + tables), std::string::npos) << data.err;
+  const std::string promised = text_of(std::string(KURBEL_SOURCE_DIR) + "/SECURITY.md");
+  EXPECT_NE(promised.find("A scene of more than " + scenes + " and a data file of more than " + tables),
+            std::string::npos);
 }
 
 TEST_F(Security, EndsByItsBudgetAndByCtrlC) {
