@@ -20,8 +20,8 @@ struct DocumentValue {
   std::int64_t integer = 0;
   double number = 0;
   std::string text = {};
-  std::vector<DocumentValue> items = {};    // of a list
-  std::vector<DocumentEntry> entries = {};  // of a table, in the order of the file
+  std::vector<DocumentValue> items = {};  // of a list
+  std::vector<DocumentEntry> entries;     // of a table, in the order of the file
 
   const DocumentEntry* find(std::string_view key) const;
   std::string describe() const;  // as in the file: 12, "abc", true; "a list", "a table"

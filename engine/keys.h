@@ -96,7 +96,7 @@ struct Setting {
   std::string text = {};
   std::vector<double> numbers = {};
   CurveData curve = {};
-  std::vector<Section> sections = {};
+  std::vector<Section> sections;
 };
 
 // One table of the scene: a component, or a table nested in one. Holds every key of its kind that was given or has a

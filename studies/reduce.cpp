@@ -346,8 +346,7 @@ Chain elastic_chain(const Model& model, int node) {
     ChainInertia& i = chain.inertias[at(group[n])];
     const double ratio = model.node_ratio[n] / target;
     i.reduced += inertia * ratio * ratio;
-    const double beside = i.ratio == 0 ? 1 : ratio / i.ratio;  // what stands in the usual motion, such as a housing
-    i.own += inertia * beside * beside;
+    if (i.ratio == 0) i.own += inertia;  // stands in the usual motion, such as a housing
     if (inertia > 0 && i.name.find(label) == std::string::npos) i.name += (i.name.empty() ? "" : ", ") + label;
   };
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
@@ -357,6 +356,8 @@ Chain elastic_chain(const Model& model, int node) {
       add(at(e.node), e.element->mean_inertia(), e.component);
       chain.inertias[at(group[at(e.node)])].mechanism = true;
     }
+  for (ChainInertia& i : chain.inertias)
+    if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);
   for (const Network::Joint& joint : net.joints) {
     if (!joint.element) continue;
     const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness(),
