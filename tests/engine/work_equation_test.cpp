@@ -344,7 +344,7 @@ TEST(WorkEquation, RefusesInWordsWhatItCannotDo) {
     scene.run.method = "work";
     try {
       test::run(scene, false);
-    } catch (const std::invalid_argument& error) {
+    } catch (const SceneError& error) {
       return error.what();
     }
     return "accepted";

@@ -63,9 +63,10 @@ run = { until = "1 s" }
   try {
     test::run(scene);
     FAIL();
-  } catch (const std::invalid_argument& error) {
+  } catch (const SceneError& error) {
     EXPECT_STREQ(error.what(),
-                 "method \"fehlberg8\": the torque of \"motor\" depends on time, and its error estimate is blind to "
+                 "test.toml:5:1: method \"fehlberg8\": the torque of \"motor\" depends on time, and its error estimate "
+                 "is blind to "
                  "what depends on time alone; choose dop853 or verner6");
   }
 }
