@@ -75,7 +75,9 @@ class Simulation {
   void confirm() {
     while (!ladder_agrees() && tighten()) {
     }
-    if (interrupted() || !run_elsewhere(tolerance_)) return;
+    // No tighter at first than what suffices usually: a low order may have needed a far tighter tolerance than another.
+    const double usual = settings_.accuracy / 10 / tolerance_step;
+    if (interrupted() || !run_elsewhere(std::max(tolerance_, usual))) return;
     while (!confirmed() && !interrupted()) {
       const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
       const bool went_on =
