@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -35,22 +36,32 @@ fs::path resolved(const fs::path& folder) {
   return path;
 }
 
-// Why what stands under a name cannot be replaced by a result set.
-std::string why_not_replaced(int parent, const std::string& name, const fs::path& path) {
+// Why what stands under a name cannot be replaced by a result set, as it looks now; nothing: another writer put
+// something else in its place meanwhile.
+std::optional<std::string> why_not_replaced_now(int parent, const std::string& name, const fs::path& path) {
   struct stat status {};
   if (fstatat(parent, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return "";
   if (S_ISLNK(status.st_mode)) return fmt::format("{} is a link that leads nowhere; give a folder", path.string());
   if (!S_ISDIR(status.st_mode)) return fmt::format("{} is a file; give a folder", path.string());
   const Descriptor folder = open_folder(parent, name);
-  if (!folder || faccessat(parent, name.c_str(), W_OK, 0) != 0)
+  if (!folder || faccessat(parent, name.c_str(), W_OK, 0) != 0) {
+    if (errno == ENOENT) return std::nullopt;
     return fmt::format("no permission to write in {}; give another folder, or --no-files", path.string());
+  }
   std::string found;
   for_each_name(folder.get(), [&](const std::string& entry) { found = entry; });
   if (found.empty() || files_of_set(folder.get())) return "";
+  // A set that was replaced is cleared away under another name.
+  if (!is_same(folder.get(), parent, name)) return std::nullopt;
   return fmt::format(
       "{} holds files that are not of a result set of kurbel ({} …), and results take their folder as a whole; give a "
       "folder of their own, e.g. {}, or move those files away",
       path.string(), in_quotes(found), (path / "results").string());
+}
+std::string why_not_replaced(int parent, const std::string& name, const fs::path& path) {
+  for (int attempt = 0; attempt < most_attempts; ++attempt)
+    if (const auto why = why_not_replaced_now(parent, name, path)) return *why;
+  return fmt::format("{} is replaced all the time; give another folder", path.string());
 }
 
 // A folder that is worked in, or that a disk is mounted on, cannot change places with another one.
