@@ -1,5 +1,5 @@
-// implicit_at_kinks_test.cpp — implicit methods where laws have kinks: an event that no single step ends on, and a motion so short
-// that a coarse step goes over it. Variants that broke off.
+// implicit_at_kinks_test.cpp — implicit methods where laws have kinks: an event that no single step ends on, and a
+// motion so short that a coarse step goes over it. Variants that broke off.
 #include <gtest/gtest.h>
 
 #include "engine/model.h"
