@@ -13,6 +13,7 @@
 #include "app/terminal.h"
 #include "engine/data_files.h"
 #include "engine/printable.h"
+#include "engine/section_reader.h"
 #include "engine/units.h"
 #include "studies/kinds.h"
 #include "studies/result_set.h"
@@ -133,6 +134,9 @@ double quantity_of(const std::string& option, const std::string& text, const std
   if (value->dimension != parse_quantity(example, error)->dimension || !domain.contains(value->value))
     throw std::invalid_argument(
         fmt::format("{} {}: must be {} with its unit, e.g. \"{}\"", option, in_quotes(text), what, example));
+  if (const std::string allowed = size_allowed(value->value, value->dimension, domain); !allowed.empty())
+    throw std::invalid_argument(
+        fmt::format("{} {}: must be {}; check its unit and power of ten", option, in_quotes(text), allowed));
   return value->value;
 }
 

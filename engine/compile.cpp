@@ -404,18 +404,17 @@ class Compiler {
     if (const auto [angle, periodic] = cycle_of(model_); periodic) model_.cycle = angle;
   }
 
-  // Rated speed and torque, carried to the reduction link and from there to every shaft.
-  // Of the stiffest elastic joint, in the link's measure.
+  // What the stiffest elastic joint bears at a small twist, on the link [N·m].
   double torque_of_a_small_twist() const {
     constexpr double small = 1e-3;  // [rad]
     double torque = 0;
     for (const ElasticJoint& e : model_.elastic) {
       const Network::Joint& joint = model_.network.joints[at(e.joint)];
-      const double ratio = model_.scale_ratio[at(joint.a)];
-      torque = std::max(torque, joint.element->stiffness() * small * ratio);
+      torque = std::max(torque, joint.element->stiffness() * small * model_.scale_ratio[at(joint.a)]);
     }
     return torque;
   }
+  // Rated speed and torque, carried to the reduction link and from there to every shaft.
   void find_scales() {
     double speed = 0, torque = 0, resisting = 0, inertia = 0;
     for (std::size_t n = 0; n < net().nodes.size(); ++n)

@@ -83,19 +83,6 @@ constexpr double least_size = 1e-30, greatest_size = 1e30;
 constexpr double greatest_angle = 1e9;
 constexpr std::size_t most_points = 1'000'000, most_items = 100'000;
 
-// What must hold of a value besides its domain for its use to neither over- nor underflow; empty: it does.
-std::string size_allowed(double value, const Dimension& dimension, const Domain& domain) {
-  const double size = std::abs(value);
-  const bool angle = dimension == Dimension{{0, 0, 0, 1, 0}};
-  if (angle && size > greatest_angle) return fmt::format("within ± {:g} rad", greatest_angle);
-  if (size > greatest_size) return fmt::format("within ± {:g} in SI units", greatest_size);
-  const bool is_place = angle && domain.contains(0);  // on a turn, which nothing is divided by
-  if (size > 0 && size < least_size && !is_place)
-    return domain.contains(0) ? fmt::format("0 or of a size of {:g} or more in SI units", least_size)
-                              : fmt::format("of a size of {:g} or more in SI units", least_size);
-  return {};
-}
-
 // Unit of the first column of a curve, by what it is given over.
 std::string unit_over(const std::string& over) {
   if (over == "time") return "s";
@@ -530,6 +517,18 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
     return refuse(value.at,
                   fmt::format("{}; must be {}; check its unit and power of ten", pretty_quantity(value), allowed));
   return true;
+}
+
+std::string size_allowed(double value, const Dimension& dimension, const Domain& domain) {
+  const double size = std::abs(value);
+  const bool angle = dimension == Dimension{{0, 0, 0, 1, 0}};
+  if (angle && size > greatest_angle) return fmt::format("within ± {:g} rad", greatest_angle);
+  if (size > greatest_size) return fmt::format("within ± {:g} in SI units", greatest_size);
+  const bool is_place = angle && domain.contains(0);  // on a turn, which nothing is divided by
+  if (size > 0 && size < least_size && !is_place)
+    return domain.contains(0) ? fmt::format("0 or of a size of {:g} or more in SI units", least_size)
+                              : fmt::format("of a size of {:g} or more in SI units", least_size);
+  return {};
 }
 
 const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what, Location at,

@@ -7,6 +7,7 @@
 #include "engine/data_files.h"
 #include "engine/document.h"
 #include "engine/keys.h"
+#include "engine/units.h"
 
 namespace kurbel {
 
@@ -20,6 +21,9 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
 // The kind named by the table's `kind` key, or null with a message.
 const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what, Location at,
                       Messages& messages);
+
+// What must hold of a value in SI besides its domain, for its use to neither over- nor underflow; empty: it does.
+std::string size_allowed(double value, const Dimension& dimension, const Domain& domain);
 
 // Value in SI of a text such as "4 kN*m"; false with a message if it is none or has another dimension than `unit`.
 bool read_quantity(const DocumentValue& value, const std::string& unit, const Domain& domain, const std::string& what,

@@ -21,8 +21,8 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1
 
 Eigen::Index ix(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-// A slider that finds no rest under loads that turn with its travel creeps: they go over from one sense to the other
-// within ± some `creep` · r, and take up their branches again beyond `creep_ends`.
+// A slider that finds no rest under loads that turn with its travel creeps: they go over from one sense to the other as
+// tanh(v/v₀), v₀ = `creep` times the output's scale, and take up their branches again beyond `creep_ends` v₀.
 constexpr int creeps = 2;         // in place of ±1 as the sense of travel
 constexpr double creep = 1e-2;    // of the output's scale [rad/s]
 constexpr double creep_ends = 5;  // in units of creep
@@ -219,7 +219,8 @@ double DeformingMechanismPool::creep_speed(const Placed& p) { return creep * p.m
 template <class T>
 SliderState<T> DeformingMechanismPool::slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                               std::size_t load) const {
-  const int travel = p.watches_travel ? now.mode[p.at.mode] : value_of(m.x_rate) >= 0 ? 1 : -1;
+  const bool watched = p.watches_travel && p.mechanism.loads[load].depends_on_travel();
+  const int travel = watched ? now.mode[p.at.mode] : value_of(m.x_rate) >= 0 ? 1 : -1;
   return {m.z[SliderCrankDynamics::phi], m.x, m.x_rate, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
 }
 
@@ -558,8 +559,10 @@ void DeformingMechanismPool::first_modes(const Instant& now, int* mode) const {
     if (mode[p.at.mode] != creeps) mode[p.at.mode] = rate >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       SliderState<double> s = slider(p, now, m, k);
-      if (p.watches_travel && mode[p.at.mode] == creeps) continue;
-      if (p.watches_travel) s.travel = mode[p.at.mode];
+      if (p.mechanism.loads[k].depends_on_travel()) {
+        if (mode[p.at.mode] == creeps) continue;  // takes its branches as they come
+        s.travel = mode[p.at.mode];
+      }
       std::visit(
           [&](const auto& law) {
             if constexpr (has_pieces<std::decay_t<decltype(law)>>)

@@ -51,6 +51,7 @@ class Simulation {
     fine_ = one_run(tolerance_);
     if (options_.measure_error && fine_->outcome.complete) {
       confirm();
+      note_interrupt();
       state_errors();
     }
     fill(*fine_, tolerance_);
@@ -117,7 +118,6 @@ class Simulation {
     if (!tighter->outcome.complete) {
       ladder_ended_ = true;
       unconfirmed_ = fmt::format("the confirming run failed ({})", tighter->outcome.diagnosis);
-      note_interrupt();
       return false;
     }
     coarse_ = std::move(fine_);
@@ -137,7 +137,6 @@ class Simulation {
       elsewhere_ended_ = true;
       unconfirmed_ = fmt::format("the run by another method that should confirm the figures failed ({})",
                                  other->outcome.diagnosis);
-      note_interrupt();
       return false;
     }
     // Where the ladder has ended, its last run has no finer one that could tell how good it is, and the one before it
@@ -158,7 +157,8 @@ class Simulation {
   }
 
   void note_interrupt() {
-    if (!interrupted()) return;
+    if (!interrupted() || confirmed()) return;
+    if (unconfirmed_.empty()) unconfirmed_ = "interrupted before all runs were made";
     fine_->outcome.complete = false;
     fine_->outcome.diagnosis =
         "interrupted in a run that measures the errors; the figures are whole, but their errors are not";

@@ -15,18 +15,15 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/support/files.h"
+
 namespace kurbel {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 struct Ended {
   int code = -1;

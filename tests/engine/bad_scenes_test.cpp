@@ -9,6 +9,7 @@
 
 #include "engine/document.h"
 #include "engine/model.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -18,12 +19,7 @@ namespace fs = std::filesystem;
 
 const std::string folder = test::source_path("tests/bad_scenes/");
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 std::vector<std::string> bad_scenes() {
   std::vector<std::string> names;

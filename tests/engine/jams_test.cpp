@@ -10,6 +10,7 @@
 #include "engine/equations.h"
 #include "engine/model.h"
 #include "engine/run.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -20,12 +21,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
-std::string scene_text(const std::string& name) {
-  const std::ifstream file(test::source_path("scenes/" + name));
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string scene_text(const std::string& name) { return test::text_of(test::source_path("scenes/" + name)); }
 bool has_note(const Result& r, const std::string& words) {
   return std::any_of(r.notes.begin(), r.notes.end(),
                      [&](const std::string& note) { return note.find(words) != std::string::npos; });

@@ -7,8 +7,10 @@
 
 #include "engine/work_equation.h"
 #include "tests/support/scenes.h"
+
 namespace kurbel {
 namespace {
+
 using test::figure;
 using test::run;
 using test::scene_from;

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "studies/templates/templates.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -19,12 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 struct Said {
   int code = -1;

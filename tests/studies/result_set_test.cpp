@@ -17,18 +17,14 @@
 #include "studies/clear_away.h"
 #include "studies/sha256.h"
 #include "studies/whole_file.h"
+#include "tests/support/files.h"
 
 namespace kurbel {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 

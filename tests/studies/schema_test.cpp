@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "engine/document.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -17,12 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::text_of;
 
 Json json_of(const DocumentValue& value) {
   using Type = DocumentValue::Type;
