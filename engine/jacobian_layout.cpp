@@ -89,7 +89,8 @@ JacobianLayout lay_out_jacobian(const Model& model) {
   for (const std::vector<int>& shafts : coupled_shafts(model)) {
     JacobianLayout::Coupled group{shafts, {}, {}};
     for (const auto& [column, row] : record.places)
-      if (column >= 0 && std::any_of(shafts.begin(), shafts.end(), [&](int s) { return record.speed(s) == row; }))
+      if (column >= 0 &&
+          std::any_of(shafts.begin(), shafts.end(), [&, row = row](int s) { return record.speed(s) == row; }))
         group.columns.push_back(column);
     for (const int s : shafts) group.columns.push_back(record.speed(s));
     std::sort(group.columns.begin(), group.columns.end());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
@@ -26,6 +27,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr int energy_checks = 60;
 // Below this a tolerance asks for more than double precision has.
 constexpr double least_tolerance = 2e-15;
+// The last step of a ladder may be as short as this: errors go at least with the root of the tolerance, so that the
+// coarser run's are twice the finer's, and their difference still covers the finer's.
+constexpr double least_step = 4;
 
 class Simulation {
  public:
@@ -82,7 +86,7 @@ class Simulation {
     while (!confirmed() && !interrupted()) {
       const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
       const bool went_on =
-          blame_elsewhere || ladder_ended_ ? tighten_elsewhere() || tighten() : tighten() || tighten_elsewhere();
+          blame_elsewhere || ladder_ended() ? tighten_elsewhere() || tighten() : tighten() || tighten_elsewhere();
       if (!went_on) return;
     }
   }
@@ -109,23 +113,27 @@ class Simulation {
     std::vector<Figure> figures = fine_->figures;
     return measure_errors(figures, witnesses(coarse, elsewhere));
   }
-  static bool can_be_tightened(double tolerance) { return tolerance / tolerance_step >= least_tolerance; }
+  // The next step of a ladder; its last one may be shorter, or there is none.
+  static double tighter(double tolerance) { return std::max(tolerance / tolerance_step, least_tolerance); }
+  static bool can_be_tightened(double tolerance) { return tighter(tolerance) <= tolerance / least_step; }
+  bool ladder_ended() const { return ladder_failed_ || !can_be_tightened(tolerance_); }
 
   // The next run of the ladder. False where it has come to its end: then the run before it stands.
   bool tighten() {
-    if (ladder_ended_ || !can_be_tightened(tolerance_)) return false;
-    std::unique_ptr<OneRun> tighter = one_run(tolerance_ / tolerance_step);
-    if (!tighter->outcome.complete) {
-      ladder_ended_ = true;
-      unconfirmed_ = fmt::format("the confirming run failed ({})", tighter->outcome.diagnosis);
+    if (ladder_ended()) return false;
+    const double before = std::exchange(tolerance_, tighter(tolerance_));
+    std::unique_ptr<OneRun> finer = one_run(tolerance_);
+    if (!finer->outcome.complete) {
+      tolerance_ = before;
+      ladder_failed_ = true;
+      unconfirmed_ = fmt::format("the confirming run failed ({})", finer->outcome.diagnosis);
       return false;
     }
     coarse_ = std::move(fine_);
-    fine_ = std::move(tighter);
-    tolerance_ /= tolerance_step;
+    fine_ = std::move(finer);
     log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for",
-                    tolerance_ * tolerance_step, tolerance_, error_by(coarse_.get(), nullptr),
-                    fine_->energy->relative(), settings_.accuracy));
+                    before, tolerance_, error_by(coarse_.get(), nullptr), fine_->energy->relative(),
+                    settings_.accuracy));
     return true;
   }
 
@@ -141,7 +149,7 @@ class Simulation {
     }
     // Where the ladder has ended, its last run has no finer one that could tell how good it is, and the one before it
     // says only how coarse that one was: two runs from elsewhere, one tighter than the other, say more.
-    if (elsewhere_ && (ladder_ended_ || !can_be_tightened(tolerance_))) {
+    if (elsewhere_ && ladder_ended()) {
       coarse_ = std::move(elsewhere_);
       weight_of_coarse_ = weight_of_elsewhere;
     }
@@ -152,8 +160,7 @@ class Simulation {
     return true;
   }
   bool tighten_elsewhere() {
-    return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) &&
-           run_elsewhere(elsewhere_tolerance_ / tolerance_step);
+    return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) && run_elsewhere(tighter(elsewhere_tolerance_));
   }
 
   void note_interrupt() {
@@ -257,8 +264,8 @@ class Simulation {
     const std::string& asked = settings_.method;
     if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
     if (asked == "dop853") return "verner6";
-    if (asked == "esdirk3" || asked == "esdirk5" || asked == "bdf") return "esdirk";
-    if (asked == "esdirk") return "esdirk5";
+    if (asked == "esdirk5") return "esdirk";  // "auto" may take esdirk5 itself where the machine is stiff
+    if (asked == "esdirk" || asked == "esdirk3" || asked == "bdf") return "auto";
     return "dop853";  // dopri5, work, verner6, fehlberg8, adams
   }
 
@@ -400,11 +407,11 @@ class Simulation {
   Equations equations_;
   std::optional<Equations> equations_elsewhere_;
   std::shared_ptr<WorkTables> work_tables_;
-  double tolerance_ = 0, elsewhere_tolerance_ = 0;       // of fine_ and elsewhere_
-  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;    // the run whose figures count, and its witnesses
-  double weight_of_coarse_ = 1;                          // measured_errors.h says why
-  bool ladder_ended_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
-  std::string unconfirmed_;                              // why that was
+  double tolerance_ = 0, elsewhere_tolerance_ = 0;        // of fine_ and elsewhere_
+  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses
+  double weight_of_coarse_ = 1;                           // measured_errors.h says why
+  bool ladder_failed_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
+  std::string unconfirmed_;                               // why that was
   Result result_;
 };
 
