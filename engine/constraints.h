@@ -39,6 +39,7 @@ class Constraints {
   explicit Constraints(std::size_t free_shafts = 0);
   void set(std::vector<ConstraintRow> rows);
   bool empty() const { return rows_.empty(); }
+  bool repeats() const { return !repeating_.empty(); }  // some rows say what others say, as the last solve found
 
   // Accelerations of the free shafts from the torques on them, and the rows' multipliers. In: alpha of prescribed
   // shafts. Shafts in no row are solved as well; others may be without inertia where the rows fix their motion.

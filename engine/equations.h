@@ -38,6 +38,7 @@ struct Contact {
   double speed_scale = 1, torque_scale = 1;
   std::string name;
   bool regularised = false;  // its events found no rest: λ follows v smoothly instead
+  int carries = 0;           // sign of the λ that it was last seen to carry where rows repeat; 0: either way
 };
 
 class Equations final : public OdeSystem {
@@ -164,6 +165,8 @@ class Equations final : public OdeSystem {
   int sense(std::size_t contact) const { return const_cast<Equations*>(this)->sense(contact); }
   double slip_speed(const Contact& contact, const Instant& now) const;
   void tie_stuck_contacts();
+  double capacity(const Contact& contact, const Hold& hold) const;
+  bool follow_what_is_carried();
   void add_known_contact_torques();
   void find_accelerations(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
   void refuse_broken_ties(double t) const;

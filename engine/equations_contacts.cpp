@@ -144,6 +144,31 @@ double Equations::effective_inertia(const Contact& contact) {
   return mobility > 0 ? 1 / mobility : 0;
 }
 
+// Measure of its share where rows repeat: what it can hold the way it carries.
+double Equations::capacity(const Contact& contact, const Hold& hold) const {
+  const double most = contact.carries > 0   ? hold.high
+                      : contact.carries < 0 ? -hold.low
+                                            : std::min(hold.high, -hold.low);
+  return std::clamp(most, least_capacity * contact.torque_scale, most_capacity * contact.torque_scale);
+}
+
+// A one-way clutch holds its drag one way, and whatever comes the other. True: one carries another way than it was tied
+// for.
+bool Equations::follow_what_is_carried() {
+  if (!tied_ || !constraints_.repeats()) return false;
+  bool changed = false;
+  for (const std::size_t c : row_contact_) {
+    Contact& contact = contacts_[c];
+    const double carried = contact_torque_[c];
+    if (std::abs(carried) <= nothing * contact.torque_scale) continue;
+    const Hold hold = limits(c);
+    const double before = capacity(contact, hold);
+    contact.carries = carried > 0 ? 1 : -1;
+    changed = changed || capacity(contact, hold) != before;
+  }
+  return changed;
+}
+
 // The constraint rows of the present modes, and the shafts that they tie to the frame; shares by the holds as they were
 // found last.
 void Equations::tie_stuck_contacts() {
@@ -164,10 +189,7 @@ void Equations::tie_stuck_contacts() {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
     if (sense(c) != 0 || contact.regularised || is_prescribed(contact)) continue;
-    const Hold hold = limits(c);
-    const double capacity = std::clamp(std::min(hold.high, -hold.low), least_capacity * contact.torque_scale,
-                                       most_capacity * contact.torque_scale);
-    rows.push_back({contact.motion, contact.torque, capacity});
+    rows.push_back({contact.motion, contact.torque, capacity(contact, limits(c))});
     row_contact_.push_back(c);
     tied_ = tied_ || contact.kind != Contact::Kind::frame;
   }
@@ -367,6 +389,11 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
   tie_stuck_contacts();
   try {
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    find_holds();
+    if (follow_what_is_carried()) {
+      tie_stuck_contacts();
+      evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+    }
   } catch (const Jam& jam) {  // what stands does not jam; what moves as these modes say does
     for (const std::size_t c : among)
       if (contacts_[c].kind == Contact::Kind::frame && contacts_[c].index == jam.shaft && sense(c) != 0) {

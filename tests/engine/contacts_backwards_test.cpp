@@ -58,6 +58,26 @@ TEST(ContactsBackwards, AOneWayClutchSharesByItsDrag) {
   EXPECT_EQ(figure(r, "final_speed.a"), 0);
 }
 
+// Pushed forwards it goes with whatever comes: brakes of static 40 and 20 N·m to either side of it hold 60 N·m
+// together, in proportion, A/40 = B/20; with a drag and without, and mirrored. Beyond they slip.
+TEST(ContactsBackwards, AOneWayClutchPassesOnWhatTheBrakesBehindItCanHold) {
+  for (const char* drag : {"", "drag = \"10 N*m\", "})
+    for (const double push : {39.0, 41.0, 50.0, 59.9, 60.1}) {
+      const Result r =
+          run(fmt::format("line = [\"a\", \"wheel\", \"b\"]\n{}{}wheel = {{ {}kind = \"one-way clutch\" }}\n{}{}{}",
+                          body("a", 0.3), body("b", 0.9), drag, brake("brake1", "a", 40), brake("brake2", "b", 20),
+                          source("push", "a", push)) +
+                  "run = { until = \"0.1 s\", samples = 2 }\n",
+              false);
+      if (push < 60) {
+        EXPECT_EQ(figure(r, "final_speed.b"), 0) << push;
+        EXPECT_NEAR(series(r, "torque.wheel").back(), push / 3, 5e-4 * push / 3) << drag;
+      } else {
+        EXPECT_NEAR(figure(r, "final_speed.b"), 0.1 * (push - 60) / 1.2, 1e-9) << drag;
+      }
+    }
+}
+
 // Nine drums, each braked with 10 N·m and pushed with ±(12 … 20) N·m; what joins them is not yet twisted. More contacts
 // than are enumerated: each is let go the way it is pushed.
 TEST(ContactsBackwards, ManyOverloadedAtOnceAreLetGoTheirOwnWay) {

@@ -193,7 +193,7 @@ class TreeChange {
     const double by = random_.factor(random_.chance(0.3) ? 1e4 : 3);
     if (value.type == Type::integer) {
       value.integer = extreme ? static_cast<std::int64_t>(random_.bits() >> random_.index(64))
-                              : static_cast<std::int64_t>(value.number * by);
+                              : static_cast<std::int64_t>(std::clamp(value.number * by, -9e18, 9e18));
     } else if (value.type == Type::number) {
       value.number = extreme ? extreme_number(any_number, random_) : value.number * by;
     } else {
