@@ -110,8 +110,12 @@ int run_and_tell(int argc, char** argv) {
     complain(fmt::format("kurbel: {}\n", error.what()));
     return exit_user_error;
   } catch (const kurbel::OutOfTime& over) {
-    complain(fmt::format("kurbel: {}\n", over.what()));
-    return exit_interrupted;
+    if (over.interrupted()) {
+      complain(fmt::format("kurbel: {}\n", over.what()));
+      return exit_interrupted;
+    }
+    complain(fmt::format("kurbel: {}; raise `budget` in [run], or ask for less\n", over.what()));
+    return exit_run_failed;
   } catch (const std::bad_alloc&) {
     complain("kurbel: the memory that is allowed does not suffice; raise the limit, or take a smaller scene\n");
     return exit_run_failed;

@@ -41,14 +41,19 @@ void Deadline::check() {
 }
 
 void Deadline::look() {
-  for (const Deadline* d = this; d; d = d->outer_)
+  for (const Deadline* d = this; d; d = d->outer_) {
     if (d->interrupted_ && d->interrupted_->load(std::memory_order_relaxed)) throw OutOfTime(0);
+    if (d->spent_) throw OutOfTime(d->budget_);
+  }
   const auto wall = std::chrono::steady_clock::now();
   if (wall - looked_ < between_looks) return;
   looked_ = wall;
   const double now = processor_time();
-  for (const Deadline* d = this; d; d = d->outer_)
-    if (now >= d->end_) throw OutOfTime(d->budget_);
+  for (Deadline* d = this; d; d = d->outer_)
+    if (now >= d->end_) {
+      d->spent_ = true;
+      throw OutOfTime(d->budget_);
+    }
 }
 
 }  // namespace kurbel

@@ -643,9 +643,9 @@ class Loop {
     else
       broken_ = {.kind = Breakdown::Kind::budget,
                  .t = t,
-                 .why = fmt::format("{} (steps of {:.3g} s at the end). Raise `budget`, loosen `accuracy`, or switch "
-                                    "an effect off",
-                                    over.what(), last_step_)};
+                 .why = fmt::format(
+                     "{}{}. Raise `budget`, loosen `accuracy`, or switch an effect off", over.what(),
+                     last_step_ > 0 ? fmt::format(" (steps of {:.3g} s at the end)", last_step_) : " before any step")};
   }
 
   void add_statistics() {

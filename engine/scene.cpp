@@ -642,7 +642,8 @@ const std::vector<Key>& run_keys() {
        .unit = "s",
        .fallback = "\"300 s\"",
        .domain = positive,
-       .doc = "processor time after which an integration is stopped with a diagnosis"},
+       .doc = "processor time after which an integration, or a study that is not made of runs, is stopped with a "
+              "diagnosis"},
   };
   return keys;
 }

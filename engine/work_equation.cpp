@@ -138,6 +138,7 @@ WorkOverAngle::WorkOverAngle(RigidMachine& machine, const std::vector<double>& e
 
 // One panel where 16 nodes resolve I_r and M, else two halves.
 void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, double largest_torque) {
+  Deadline::check();
   Panel panel;
   panel.begin = begin;
   panel.half = 0.5 * (end - begin);

@@ -51,8 +51,8 @@ std::unique_ptr<SimTK::Integrator> make_integrator(const std::string& name, cons
   throw std::invalid_argument(fmt::format("multibody run: unknown integrator \"{}\"; valid: {}", name, valid));
 }
 
-// The user's torque and force. Simbody's integrators take an exception for a step that failed, so it is kept for the
-// end.
+// The user's torque and force. Simbody's integrators take an exception for a step that failed and try a shorter one: it
+// is kept for the end, and thrown again whatever they try.
 class AppliedForces : public SimTK::Force::Custom::Implementation {
  public:
   AppliedForces(const MultibodyProblem& problem, const SliderCrankSystem& bodies, std::exception_ptr& error)
@@ -60,6 +60,7 @@ class AppliedForces : public SimTK::Force::Custom::Implementation {
 
   void calcForce(const State& state, Vector_<SpatialVec>& body_forces, Vector_<Vec3>&,
                  Vector& mobility_forces) const override {
+    if (error_) std::rethrow_exception(error_);
     const Vec3 end(bodies_.data.rod_length, 0, 0);
     try {
       if (problem_.shaft_torque)
@@ -74,7 +75,7 @@ class AppliedForces : public SimTK::Force::Custom::Implementation {
                                           body_forces);
       }
     } catch (...) {
-      if (!error_) error_ = std::current_exception();
+      error_ = std::current_exception();
       throw;
     }
   }
@@ -165,6 +166,7 @@ MultibodyResult run_multibody(const MultibodyProblem& problem) {
     integrator->initialize(state);
     for (const double t : times) {
       while (integrator->getTime() < t) integrator->stepTo(t);
+      if (error) std::rethrow_exception(error);
       result.samples.push_back(observe(bodies, integrator->getState()));
     }
   } catch (const std::exception& failure) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/model.h"
 #include "engine/units.h"
 
@@ -173,6 +174,7 @@ CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
 }
 
 void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
+  Deadline::check();
   const CyclePosition p = at(where.phi, motion);
   if (where.row) cycle_.rows.push_back(p);
   if (where.grid) cycle_.positions.push_back(p);

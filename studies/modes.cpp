@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/run.h"
 #include "studies/simulate.h"
 
@@ -312,6 +313,7 @@ class Study {
         found_.diagnosis = "interrupted within the sweep over the speeds";
         return;
       }
+      Deadline::check();
       if (speeds[i] == 0) continue;
       const double fraction = static_cast<double>(i) / static_cast<double>(speeds.size());
       if (options_.progress) options_.progress("forced response", 0.2 + 0.6 * fraction);
@@ -543,6 +545,7 @@ double parametric_half_width(double variation, double damping_ratio) {
 Modes find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {
   if (scene.run.model == "multibody")
     throw std::invalid_argument("modes belong to the reduced model; set model = \"reduced\" in [run]");
+  const Deadline deadline(scene.run.budget, options.interrupted);
   return Study(scene, effects, options).result();
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/units.h"
 
 namespace kurbel {
@@ -368,6 +369,9 @@ Chain elastic_chain(const Model& model, int node) {
   return chain;
 }
 
-MachineReduction reduce(const Scene& scene, const ReduceOptions& options) { return Reducer(scene, options).run(); }
+MachineReduction reduce(const Scene& scene, const ReduceOptions& options) {
+  const Deadline deadline(scene.run.budget);
+  return Reducer(scene, options).run();
+}
 
 }  // namespace kurbel

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/deadline.h"
 #include "engine/run.h"
 #include "engine/units.h"
 #include "studies/kinds.h"
@@ -436,6 +437,9 @@ std::string slope_of_what(const Sizing& s) {
   return !drive ? "the load's slope" : s.motor.empty() ? "the drive's slope" : "the motor's slope";
 }
 
-Sizing size_flywheel(const Scene& scene, const SizeOptions& options) { return Sizer(scene, options).run(); }
+Sizing size_flywheel(const Scene& scene, const SizeOptions& options) {
+  const Deadline deadline(scene.run.budget);
+  return Sizer(scene, options).run();
+}
 
 }  // namespace kurbel

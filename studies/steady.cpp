@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/deadline.h"
 #include "engine/units.h"
 #include "studies/figure_text.h"
 #include "studies/report/report.h"
@@ -791,6 +792,7 @@ std::string stability_text(const std::vector<std::complex<double>>& multipliers,
 }
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
+  const Deadline deadline(scene.run.budget, options.interrupted);
   return Study(scene, effects, options).run();
 }
 

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/eigen_modes.h"
+#include "studies/forces.h"
+#include "studies/modes.h"
 #include "studies/reduce.h"
+#include "studies/size.h"
+#include "studies/steady.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -29,6 +33,13 @@ TEST(Deadline, EndsWorkWhenItsProcessorTimeIsSpent) {
   }
   EXPECT_NEAR(processor_time() - begin, 0.02, 0.02);
   Deadline::check();  // it is no longer in force
+}
+
+// Libraries take an exception for a step that failed, and try a shorter one: that must not buy them time.
+TEST(Deadline, OnceSpentEveryLookEndsTheWork) {
+  const Deadline deadline(0.005);
+  EXPECT_THROW(work_until_told(), OutOfTime);
+  for (int i = 0; i < 1000; ++i) EXPECT_THROW(Deadline::check(), OutOfTime);
 }
 
 TEST(Deadline, OfTwoTheSoonerHolds) {
@@ -73,6 +84,32 @@ TEST(Deadline, ASpentBudgetEndsAMultibodyRunWithADiagnosis) {
   const Result result = simulate(scene, {}, "multibody", {});
   EXPECT_FALSE(result.complete);
   EXPECT_NE(result.diagnosis.find("budget"), std::string::npos) << result.diagnosis;
+}
+
+// Bodies in the loop cost a thousand times what tables do, before the first step as well.
+TEST(Deadline, ASpentBudgetEndsTheWorkOfBodiesOverTheAngle) {
+  Scene scene = test::scene_file("scenes/free_slider_crank.toml");
+  scene.run.budget = 0.01;
+  scene.effects = parse_effects("multibody", scene);
+  const double begin = processor_time();
+  const Result result = test::run(scene, false);
+  EXPECT_LT(processor_time() - begin, 1);  // 4 s to the end
+  EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.diagnosis.find("budget"), std::string::npos) << result.diagnosis;
+}
+
+TEST(Deadline, ASpentBudgetEndsEveryStudy) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.budget = 1e-9;
+  SizeOptions flywheel;
+  flywheel.delta = 0.05;
+  ForcesOptions many;
+  many.positions = 3600;
+  EXPECT_THROW(steady(scene, {scene.effects}, {}), OutOfTime);
+  EXPECT_THROW(find_modes(scene, scene.effects, {}), OutOfTime);
+  EXPECT_THROW(find_forces(scene, many), OutOfTime);
+  EXPECT_THROW(reduce(scene, {}), OutOfTime);
+  EXPECT_THROW(size_flywheel(scene, flywheel), OutOfTime);
 }
 
 TEST(Deadline, AnInterruptEndsTheExtractionOfAMechanism) {
