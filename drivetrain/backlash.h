@@ -1,6 +1,6 @@
 // backlash.h — an elastic contact with a gap b between the flanks, and two laws of contact that are published.
 //
-//     u = twist;  beyond the gap θ = u − ½ b sgn u, compression p = |θ|, ṗ = sgn(u) u̇            (THEORY 5)
+//     u = twist;  beyond the gap θ = u − ½ b sgn u, compression p = |θ|, ṗ = sgn(u) u̇     (theory 5.6, 5.7)
 //   no pulling    τ = sgn(u) (k p + min(k p, c ṗ)),  0 where k p + c ṗ ≤ 0: the damper never does more than the spring
 //                 and never pulls the flanks together (Modelica.Mechanics.Rotational.Components.ElastoBacklash)
 //   Hunt–Crossley τ = sgn(u) k pⁿ (1 + d ṗ), ≥ 0: damping grows with the compression, so the torque begins at nothing

@@ -1,6 +1,6 @@
 // bearing.h — friction of a bearing against the frame: dry, mixed and viscous.
 //
-//     M(ω) = −g(|ω|) sgn ω − b ω,   g(v) = M_c + (M_s − M_c) exp(−(v/ω_s)ⁿ)                   (THEORY 4; Stribeck)
+//     M(ω) = −g(|ω|) sgn ω − b ω,   g(v) = M_c + (M_s − M_c) exp(−(v/ω_s)ⁿ)                 (theory 8.6; Stribeck)
 //     M_c  kinetic (Coulomb) torque [N·m], M_s static torque [N·m], ≥ M_c
 //     ω_s  Stribeck speed [rad/s], where mixed friction has fallen to 1/e; n its exponent, 0.5 … 10
 //     b    viscous friction [N·m·s/rad]

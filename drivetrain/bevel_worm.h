@@ -1,4 +1,4 @@
-// bevel_worm.h — bevel and worm pairs by their basic relations (THEORY 6).
+// bevel_worm.h — bevel and worm pairs by their basic relations (theory 6).
 #pragma once
 
 #include <array>

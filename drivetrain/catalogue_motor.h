@@ -1,5 +1,5 @@
 // catalogue_motor.h — induction motor by the points of its catalogue: starting (locked rotor), pull-up, breakdown,
-// rated, synchronous. A cage motor starts with far more torque than Kloss gives it (THEORY 4.1: deep bars, double
+// rated, synchronous. A cage motor starts with far more torque than Kloss gives it (theory 4.1: deep bars, double
 // cages), so starts are computed with these points.
 //
 //     M

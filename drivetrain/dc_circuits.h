@@ -1,6 +1,6 @@
 // dc_circuits.h — DC motors with their circuits: the current is a state (effect "transients").
 //
-//     shunt   L di/dt = c U − R i − k ω,         M = k i                                       (THEORY 4)
+//     shunt   L di/dt = c U − R i − k ω,         M = k i                                (theory 4.7, 4.9)
 //     series  L di/dt = |c| U − R i − s κ ω i,   M = s κ i²,  s = sgn c
 //     U, c    voltage [V] and the command of the operating sequence: its part, < 0 reversed (of a series motor its
 //             armature alone, so that the torque turns round)

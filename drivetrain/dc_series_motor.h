@@ -1,5 +1,5 @@
 // dc_series_motor.h — DC series motor, static: armature and field carry the same current, flux in proportion to it.
-//     M = κ i²,  U = (R + κ ω) i   ⇒   M = κ U²/(R + κ ω)²                                    (THEORY 4)
+//     M = κ i²,  U = (R + κ ω) i   ⇒   M = κ U²/(R + κ ω)²                                  (theory 4.8)
 //
 // A command c of the operating sequence sets the voltage to |c| U; c < 0 reverses the armature against the field, and
 // with it the torque: M = sgn c · κ (c U)²/(R + κ ω sgn c)². 0 opens the circuit.

@@ -60,7 +60,7 @@ std::array<double, 2> shifts_of(const GearPairData& d, double mating_sum) {
   return {0.5 * mating_sum, 0.5 * mating_sum};
 }
 
-// inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂) (THEORY 6).
+// inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂) (theory 6.5).
 double working_angle_by_shift(const GearPairData& d, double sum) {
   const double value =
       involute(transverse_angle_of(d)) + 2 * std::tan(d.rack.pressure_angle) * sum / (d.teeth[0] + d.teeth[1]);

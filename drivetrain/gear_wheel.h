@@ -31,9 +31,9 @@ struct BasicRack {
   double greatest_root_radius() const;
 };
 
-// Least number of teeth without undercut at shift x: z = 2 (h* − x) cos β/sin² α_t (THEORY 6); 17.10 at 20°, h* = 1.
+// Least number of teeth without undercut at shift x: z = 2 (h* − x) cos β/sin² α_t (theory 6.3); 17.10 at 20°, h* = 1.
 double least_teeth(const BasicRack& rack, double helix = 0, double shift = 0);
-// Least shift without undercut: x = h* − z sin² α_t/(2 cos β), h* = h_a* (THEORY 6).
+// Least shift without undercut: x = h* − z sin² α_t/(2 cos β), h* = h_a* (theory 6.4).
 double least_shift(const BasicRack& rack, int teeth, double helix = 0);
 
 // A point of an outline; and one by its radius and its angle from the middle of the tooth.

@@ -326,7 +326,7 @@ std::vector<Kind> induction_kinds() {
   return {
       {.name = "induction motor",
        .doc =
-           "induction motor from catalogue data: after Kloss (THEORY 4.1), or through its starting, pull-up, breakdown "
+           "induction motor from catalogue data: after Kloss (theory 4.1), or through its starting, pull-up, breakdown "
            "and rated points; with its frequency or its circuit also by the two-axis model",
        .keys = joined(joined(joined(joined(induction_keys(), two_axis_keys()), starting_keys()),
                              {inertia_key("", "rotor inertia")}),

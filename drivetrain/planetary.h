@@ -1,4 +1,4 @@
-// planetary.h — planetary and differential trains by Willis: speeds and torques of the three shafts (THEORY 5).
+// planetary.h — planetary and differential trains by Willis: speeds and torques of the three shafts (theory 7.6, 7.7).
 //
 //     ω_s − ω_c = i₀ (ω_r − ω_c)      i₀: ratio with the carrier held; −z_r/z_s for a simple train with a ring
 //     T_s + T_r + T_c = 0             T: torques on the shafts from outside; uniform motion, massless wheels

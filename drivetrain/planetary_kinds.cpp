@@ -132,7 +132,7 @@ void build_differential(const Section& s, Network& net, Messages&) {
   net.relate(willis(s, {first, second, cage}, bevel_differential()));
 }
 
-// η₁ = tan γ/tan(γ + ρ′), η₂ = tan(γ − ρ′)/tan γ (THEORY 6).
+// η₁ = tan γ/tan(γ + ρ′), η₂ = tan(γ − ρ′)/tan γ (theory 6.15).
 void build_worm(const Section& s, Network& net, Messages& messages) {
   const auto refuse = [&](const char* key, const std::string& text) {
     messages.add(s.where(key), fmt::format("worm gear \"{}\": {}", s.name, text));

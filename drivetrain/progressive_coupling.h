@@ -1,5 +1,5 @@
 // progressive_coupling.h — coupling whose torque over its twist is given by points ("graphically"), with a damper.
-//     τ = M(θ) + c θ̇,   E = ∫ M dθ from 0 to θ                                             (THEORY 5)
+//     τ = M(θ) + c θ̇,   E = ∫ M dθ from 0 to θ                                           (theory 5.8)
 // M(0) = 0, M rises strictly; straight between the points or a monotone cubic (curve.h). Points for θ ≥ 0 alone count
 // for both senses: M(−θ) = −M(θ). Beyond the last point it goes on straight. The pieces are modes: points are events.
 #pragma once

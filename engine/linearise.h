@@ -1,7 +1,7 @@
 // linearise.h — the drive as a linear system about an operating point: inertias, springs and dampers of a compiled
 // model.
 //
-//     M q̈ + C q̇ + K q = f,   K = Σ k_j g_j g_jᵀ with θ_j = g_jᵀ q = gain_a q_a − gain_b q_b        (THEORY 5)
+//     M q̈ + C q̇ + K q = f,   K = Σ k_j g_j g_jᵀ with θ_j = g_jᵀ q = gain_a q_a − gain_b q_b     (theory 12.1)
 // q are the small departures of the shafts' angles from uniform motion (or rest). Everything comes from the exact
 // Jacobian of the same compiled equations, so C holds the slopes of motors and loads at the operating point, too.
 // Mechanisms enter by the mean of their inertia over the cycle, unless the crank is held at an angle.

@@ -1,6 +1,6 @@
 // work_stepper.h — Stepper of rigid machines over their angle: T and t as functions of φ, load edges as step ends.
 //
-//     dT/dφ = M(φ, ω),   dt/dφ = 1/ω,   ω = √(2T/I_r)                                             (THEORY 2.5)
+//     dT/dφ = M(φ, ω),   dt/dφ = 1/ω,   ω = √(2T/I_r)                                             (theory 2.5)
 // Dormand–Prince 8(5,3) over s = ±φ; T itself comes from the work diagram where torques are of the angle alone, so that
 // energy is exact and errors of phase grow with time, not with its square. Near rest, T < 0.2 rad · |M|, 1/ω is
 // singular and the same machine is integrated over time instead; so starts, stalls and reversals are ordinary events of

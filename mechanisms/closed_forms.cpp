@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-// Gathers (2.1) and (2.2) over the links.
+// Gathers theory 2.1 and 2.2 over the links.
 class LinkSum {
  public:
   LinkSum(double gravity, double elevation)

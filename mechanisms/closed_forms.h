@@ -2,7 +2,7 @@
 // extraction. Nothing here knows Simbody, Newton's method or a difference that cancels near a change point.
 //
 // Positions by triangles; their sides' sums and differences are formed before anything is subtracted from them.
-// Derivatives by Taylor series, I_r and M_g by (2.1) and (2.2) over all links.
+// Derivatives by Taylor series, I_r and M_g by theory 2.1 and 2.2 over all links.
 #pragma once
 
 #include "mechanisms/mechanism_bodies.h"

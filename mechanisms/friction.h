@@ -1,4 +1,4 @@
-// friction.h — friction of the classical pairs in closed form: plane, wedge, screw, journal, roller.   (THEORY 4)
+// friction.h — friction of the classical pairs in closed form: plane, wedge, screw, journal, roller.   (theory 8)
 //
 // f is a coefficient of friction [1], φ_f = atan f its angle; angles in rad, forces in N, torques in N·m. Where motion
 // is impossible whatever the force (λ + φ_f ≥ π/2) the force is +∞. Every function throws std::invalid_argument for

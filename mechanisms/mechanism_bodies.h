@@ -17,7 +17,7 @@ struct LinkBody {
 // One configuration seen from the crank; primes are derivatives by φ, all from Simbody's bodies and constraints. The
 // output is the link that carries the loads: it slides (position in m) or rocks (angle in rad).
 struct ReducedSample {
-  double inertia, inertia_slope, inertia_curvature;  // I_r [kg·m²] (2.1), I_r′, I_r″
+  double inertia, inertia_slope, inertia_curvature;  // I_r [kg·m²] (theory 2.1), I_r′, I_r″
   double output_position;                            // x [m] or ψ [rad]
   double output_velocity_ratio;                      // x′ = v/ω [m/rad], ψ′ [1]
   double output_acceleration_ratio;                  // x″ [m/rad²], ψ″ [1/rad]

@@ -80,7 +80,7 @@ class SampledBodies final : public MechanismBodies {
       sample.output_velocity_ratio = output.velocity_ratio[0];
       sample.output_acceleration_ratio = output.acceleration_ratio[0];
     }
-    // Power of the weights at ω = 1 (2.2).
+    // Power of the weights at ω = 1 (theory 2.2).
     const Vec3 weight_per_mass = -planar_->gravity * planar_->up();
     for (const PlanarSystem::Weight& weight : planar_->weights) {
       const PointMotion& point = reduced.points[weight.point];

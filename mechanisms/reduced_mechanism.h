@@ -3,7 +3,7 @@
 //
 // Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
 // digits.
-//     (2.4)  M_d − M_c = I_r ε + ½ ω² I_r′        power of a force F on the output: F x′ ω
+//     M_d − M_c = I_r ε + ½ ω² I_r′ (theory 2.4)        power of a force F on the output: F x′ ω
 #pragma once
 
 #include <cstddef>

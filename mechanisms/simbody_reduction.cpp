@@ -223,7 +223,7 @@ Reduction SimbodyReduction::reduce(State& state) const {
   matter_.multiplyByM(state, result.q1, momentum);
   result.inertia = ~result.q1 * momentum;
 
-  // Acceleration at constant speed: G u̇ + b = 0; the inertia forces then do I_r′ = 2 uᵀ (M u̇ + c), by (2.4).
+  // Acceleration at constant speed: G u̇ + b = 0; the inertia forces then do I_r′ = 2 uᵀ (M u̇ + c), theory 2.4.
   Vector bias, residual;
   matter_.calcBiasForAccelerationConstraints(state, bias);
   result.q2 = solve(bias);
@@ -237,7 +237,7 @@ Reduction SimbodyReduction::reduce(State& state) const {
   result.q3 = solve(closure_jerks(state, motion));
   matter_.multiplyBySystemJacobian(state, result.q3, jerk);
 
-  // I_r″ = 2 Σ [ m (a·a + v·j) + I_S (α² + ω ζ) ], the derivative of (2.1) taken twice.
+  // I_r″ = 2 Σ [ m (a·a + v·j) + I_S (α² + ω ζ) ], the derivative of theory 2.1 taken twice.
   for (std::size_t k = 1; k < motion.size(); ++k) {
     const MobilizedBody& body = matter_.getMobilizedBody(MobilizedBodyIndex(int(k)));
     const SimTK::MassProperties& mass = body.getBodyMassProperties(state);

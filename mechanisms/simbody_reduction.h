@@ -29,7 +29,7 @@ struct PointMotion {
 
 // The mechanism as seen from its reduction coordinate φ, at one configuration; derivatives are by φ.
 struct Reduction {
-  double inertia = 0, slope = 0, curvature = 0;  // I_r, I_r′, I_r″ (2.1)
+  double inertia = 0, slope = 0, curvature = 0;  // I_r, I_r′, I_r″ (theory 2.1)
   SimTK::Vector q1, q2, q3;                      // dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates
   std::vector<PointMotion> points;               // one for each tracked point
   double determinant = 0;    // of ∂(closure errors)/∂(dependent coordinates): changes sign only in a dead position

@@ -27,7 +27,7 @@ StudyOutput made(std::string title, std::string conclusion, Rows rows, Json json
   json["conclusion"] = conclusion;
   output.json = json_text(json);
   output.report = [=] {
-    Report report{.title = title, .subtitle = "Basic relations (THEORY 6)", .conclusion = conclusion};
+    Report report{.title = title, .subtitle = "Basic relations (theory 6)", .conclusion = conclusion};
     ReportSection& section = report.add("Geometry");
     Table table{.title = title, .columns = rows.front(), .rows = {}, .text_columns = 2};
     table.rows.assign(rows.begin() + 1, rows.end());

@@ -49,7 +49,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
   return torques;
 }
 
-// Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (THEORY 5).
+// Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (theory 5.15).
 void note_sudden_loads(Comparison& c) {
   if (c.b.model && c.b.model->elastic.empty()) return;  // nothing swings
   std::vector<std::string> sudden;

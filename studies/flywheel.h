@@ -1,4 +1,4 @@
-// flywheel.h — flywheel synthesis from one steady cycle (THEORY 3): work diagram, inertia, speed, punch presses.
+// flywheel.h — flywheel synthesis from one steady cycle (theory 3): work diagram, inertia, speed, punch presses.
 //
 // Everything is reduced to the reduction link. Torques are functions of its angle over one cycle; I_em(φ) is the
 // reduced inertia of the executive mechanism, I₀ the constant inertia of the drive with its flywheel:
@@ -55,7 +55,7 @@ struct Tangent {
 
 struct Wittenbauer {
   Tangent upper, lower;       // of ½ω_max² and ½ω_min²
-  double inertia = 0;         // I₀ [kg·m²] (3.2)
+  double inertia = 0;         // I₀ [kg·m²] (theory 3.2)
   double kinetic_energy = 0;  // T₀ at the cycle's begin [J]
 };
 
@@ -72,7 +72,7 @@ Mertsalov mertsalov(const WorkDiagram& diagram, const MechanismInertia& mechanis
 // Without I_em: I₀ = ΔA_max/(ω_mean² δ) (turning-moment diagrams).
 double inertia_by_fluctuation(double fluctuation, double mean_speed, double delta);
 
-// (3.1) I_fly = I_drive − 1.1 I_motor − I_gearbox, all on the flywheel's shaft.
+// I_fly = I_drive − 1.1 I_motor − I_gearbox (theory 3.1), all on the flywheel's shaft.
 double flywheel_by_parts(double drive, double motor, double gearbox);
 
 void check_delta(double delta);  // std::invalid_argument unless 0 < δ < 2
@@ -89,7 +89,7 @@ class SpeedCycle {
   double speed(double phi) const;  // [rad/s]
   Extreme fastest() const { return fastest_; }
   Extreme slowest() const { return slowest_; }
-  double delta() const;  // (2.6)
+  double delta() const;  // (theory 2.6)
   double kinetic_energy_at_begin() const { return energy_; }
 
  private:

@@ -1,7 +1,7 @@
 // forces.h — kinetostatics of a scene's slider-crank over a cycle: reactions, balancing torque, friction, balancing.
 //
 // First problem: the crank turns at a given speed; what forces does that need? Second problem: the machine runs as its
-// torques drive it, rigid, and the forces follow from the motion found (last whole cycle).           (THEORY 4)
+// torques drive it, rigid, and the forces follow from the motion found (last whole cycle).           (theory 9)
 #pragma once
 
 #include <atomic>

@@ -375,13 +375,13 @@ void add_formulas(ReportSection& section, const GearStage& s) {
   const double alpha_n = p.data.rack.pressure_angle;
   const MeshedWheel& one = p.wheel[0];
   section.cards.push_back(Formula{
-      .title = "Working pressure angle (THEORY 6)",
+      .title = "Working pressure angle (theory 6.5)",
       .symbols = "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
       .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
                              involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
                              p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle), p.working_angle / degree)});
   section.cards.push_back(
-      Formula{.title = "Centre distance (THEORY 6)",
+      Formula{.title = "Centre distance (theory 6.6)",
               .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
               .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", mm * one.transverse_module,
                                      p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),

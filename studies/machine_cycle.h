@@ -15,7 +15,7 @@ namespace kurbel {
 // At a constant speed of the reduction link [rad/s]. All over the same breaks, which hold every load edge.
 struct MachineCycle {
   double speed = 0;
-  Piecewise drive, load;         // M_d, M_c [N·m]: M_c positive when it brakes (THEORY 2.2)
+  Piecewise drive, load;         // M_d, M_c [N·m]: M_c positive when it brakes (theory 2.2)
   std::vector<Piecewise> share;  // per work account, positive when it drives; M_d − M_c is their sum
   MechanismInertia mechanism;    // I_em [kg·m²]
 };
@@ -43,7 +43,7 @@ struct OperatingSpeed {
 // a steady one); nothing limits the speed; as WeakDrive, the drive is too weak, and by how much.
 OperatingSpeed operating_speed(RigidMachine& machine);
 
-// Steady motion with torques of angle and speed: the periodic solution of dT/dφ = M(φ, ω), T = ½ I ω² (THEORY 2.3),
+// Steady motion with torques of angle and speed: the periodic solution of dT/dφ = M(φ, ω), T = ½ I ω² (theory 11.5),
 // with more inertia on the link. Found by Newton's method on the return map; spectrally accurate within each piece.
 struct SteadyRigidCycle {
   bool found = false;

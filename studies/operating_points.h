@@ -1,7 +1,7 @@
 // operating_points.h — where the drive's mean torque meets the loads' over a cycle, and how a machine gets there.
 //
 //     M̄(ω) = (1/Φ) ∮ M(φ, ω) dφ at constant ω;  operating points M̄_d(ω) = M̄_c(ω), stable where dM̄_d/dω < dM̄_c/dω
-//                                                                                                    (THEORY 4)
+//                                                                                                 (theory 4.15)
 #pragma once
 
 #include <atomic>

@@ -408,19 +408,19 @@ void add_formulas(ReportSection& section, const MachineReduction& r) {
     const Names n = names_of(r);
     const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit), x = r.to_rocker ? "" : " m";
     section.cards.push_back(
-        Formula{.title = fmt::format("Reduced {} (THEORY 2.1)", r.to_rocker ? "inertia" : "mass"),
+        Formula{.title = fmt::format("Reduced {} (theory 2.1)", r.to_rocker ? "inertia" : "mass"),
                 .symbols = fmt::format("{}_r = I_r / x′²", n.inertia),
                 .numbers = fmt::format("{}_r = {:.6g} kg·m² / ({:.6g}{})² = {:.6g} {}", n.inertia,
                                        p->inertia * *p->ratio * *p->ratio, *p->ratio, x, p->inertia, i),
                 .note = where});
-    section.cards.push_back(Formula{.title = "Resistance reduced to it (THEORY 2.2)",
+    section.cards.push_back(Formula{.title = "Resistance reduced to it (theory 2.2)",
                                     .symbols = fmt::format("{}_r = M_c / x′", n.torque),
                                     .numbers = fmt::format("{}_r = {:.6g} N·m / {:.6g}{} = {:.6g} {}", n.torque,
                                                            p->load * *p->ratio, *p->ratio, x, p->load, t),
                                     .note = where});
     return;
   }
-  section.cards.push_back(Formula{.title = "Reduced inertia (THEORY 2.1)",
+  section.cards.push_back(Formula{.title = "Reduced inertia (theory 2.1)",
                                   .symbols = "I_r(φ) = I_drive + I_em(φ)",
                                   .numbers = fmt::format("I_r = {:.6g} + {:.6g} = {:.6g} kg·m²", p->drive_inertia,
                                                          p->mechanism_inertia, p->inertia),
@@ -428,7 +428,7 @@ void add_formulas(ReportSection& section, const MachineReduction& r) {
   std::string sum;
   for (const std::size_t k : acting(r)) sum += fmt::format("{}{:.6g}", sum.empty() ? "" : " + ", p->share[k]);
   section.cards.push_back(
-      Formula{.title = "Reduced torque (THEORY 2.2)",
+      Formula{.title = "Reduced torque (theory 2.2)",
               .symbols = "M_r = Σ [F·v + M·ω]/ω = M_d − M_c",
               .numbers = fmt::format("M_r = {} = {:.6g} N·m", sum.empty() ? "0" : sum, p->drive - p->load),
               .note = where});

@@ -30,7 +30,7 @@ struct SizeMethod {
   std::string name;
   double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
   double flywheel = 0;           // less everything else that turns at constant ratio, on its own shaft [kg·m²]
-  double flywheel_by_parts = 0;  // (3.1)
+  double flywheel_by_parts = 0;  // (theory 3.1)
   std::optional<double> delta;   // reached at constant driving torque, exact; empty: the machine would stop
 };
 

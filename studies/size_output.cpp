@@ -76,8 +76,8 @@ std::string comparison_with_scene(const Sizing& s) {
 
 Table methods_table(const Sizing& s) {
   Table t{.title = "Flywheel by each method",
-          .columns = {"method", "I_drive on link [kg·m²]", "flywheel [kg·m²]", "by (3.1) [kg·m²]", "against exact [%]",
-                      "δ reached"},
+          .columns = {"method", "I_drive on link [kg·m²]", "flywheel [kg·m²]", "by theory 3.1 [kg·m²]",
+                      "against exact [%]", "δ reached"},
           .rows = {}};
   std::vector<SizeMethod> all = s.methods;
   if (s.soft) all.push_back(*s.soft);
@@ -165,7 +165,7 @@ double round_scale(double value) {
   return 10 * decade;
 }
 
-// Scales of diagrams on a sheet, per millimetre (THEORY 3).
+// Scales of diagrams on a sheet, per millimetre (theory 3).
 Table scales_table(const Sizing& s) {
   const double length = 1e3 * *s.sheet, height = length / 2;
   const double mu_phi = s.diagram.excess.length() / length;
@@ -477,7 +477,7 @@ void add_cycle_formulas(ReportSection& section, const Sizing& s) {
   const WorkDiagram& d = s.diagram;
   const double cycle = d.excess.length();
   section.cards.push_back(
-      Formula{.title = "Driving torque from the balance of work (THEORY 2.3)",
+      Formula{.title = "Driving torque from the balance of work (theory 2.3)",
               .symbols = s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ",
               .numbers = fmt::format("M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m", d.work, cycle, d.mean_torque())});
   section.cards.push_back(Formula{
@@ -486,7 +486,7 @@ void add_cycle_formulas(ReportSection& section, const Sizing& s) {
       .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
       .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * degrees, d.least.x * degrees)});
   const double fastest = s.mean_speed * (1 + s.delta / 2), slowest = s.mean_speed * (1 - s.delta / 2);
-  section.cards.push_back(Formula{.title = "Limits of the speed (THEORY 2.6)",
+  section.cards.push_back(Formula{.title = "Limits of the speed (theory 2.6)",
                                   .symbols = "ω_max, ω_min = ω_mean (1 ± δ/2)",
                                   .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s",
                                                          s.mean_speed, s.delta, fastest, slowest)});
@@ -495,7 +495,7 @@ void add_cycle_formulas(ReportSection& section, const Sizing& s) {
 void add_method_formulas(ReportSection& section, const Sizing& s) {
   const Tangent &u = s.exact.upper, &l = s.exact.lower;
   section.cards.push_back(
-      Formula{.title = "Wittenbauer (THEORY 3.2)",
+      Formula{.title = "Wittenbauer (theory 3.2)",
               .symbols = "I₀ = [max(ΔT − a I_em) − min(ΔT − b I_em)] / (a − b),   a = ½ ω_max²,  b = ½ ω_min²",
               .numbers = fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.7g} − {:.7g}) s⁻² = {:.7g} kg·m²", u.intercept(),
                                      l.intercept(), u.slope, l.slope, s.exact.inertia),
@@ -531,7 +531,7 @@ void add_flywheel_formulas(ReportSection& section, const Sizing& s) {
               .numbers = fmt::format("I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
                                      s.motor_inertia, s.gearbox_inertia, s.other_inertia, exact.flywheel)});
   section.cards.push_back(
-      Formula{.title = "The same by the customary allowance for couplings (THEORY 3.1)",
+      Formula{.title = "The same by the customary allowance for couplings (theory 3.1)",
               .symbols = "I_fly = I_drive − 1.1 I_motor − I_gearbox",
               .numbers = fmt::format("I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft, s.motor_inertia,
                                      s.gearbox_inertia, exact.flywheel_by_parts)});

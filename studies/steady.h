@@ -25,7 +25,7 @@ struct SteadyOptions {
   std::function<void(const std::string&)> log = {};
 };
 
-// δ of one shaft: (2.6).
+// δ of one shaft (theory 2.6).
 struct ShaftFluctuation {
   std::string shaft;  // "motor", "gearbox.in"
   double ratio = 1;   // of its mean speed to the link's

@@ -55,7 +55,7 @@ TEST(SizeCommand, WritesAReportWithEveryFormulaAndEndsWithZero) {
   EXPECT_EQ(json["reached"].size(), 6u);
   std::ifstream page(folder / "report.html");
   const std::string html((std::istreambuf_iterator<char>(page)), {});
-  for (const char* formula : {"Wittenbauer (THEORY 3.2)", "Mertsalov", "Neglecting I_em", "(THEORY 3.1)",
+  for (const char* formula : {"Wittenbauer (theory 3.2)", "Mertsalov", "Neglecting I_em", "(theory 3.1)",
                               "Punch-press form", "Rim speed", "Energy stored", "Greatest fluctuation of energy"})
     EXPECT_NE(html.find(formula), std::string::npos) << formula;
   EXPECT_TRUE(fs::exists(folder / "diagrams.csv"));

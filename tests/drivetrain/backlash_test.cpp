@@ -98,7 +98,7 @@ accuracy = 1e-9
                      digits(stiffness), coupling, effects, run);
 }
 
-// THEORY 5: M′ (1 + √(1 + 2kΔ/M′)) with M′ = M J₂/(J₁ + J₂) and the travel Δ = ½ b from the middle of the gap.
+// theory 5.14: M′ (1 + √(1 + 2kΔ/M′)) with M′ = M J₂/(J₁ + J₂) and the travel Δ = ½ b from the middle of the gap.
 TEST(StepTorqueThroughBacklash, PeakIsTheClosedForm) {
   for (const double gap : {1e-4, 1e-3, 0.01, 0.1, 0.4})
     for (const double stiffness : {300.0, 1e4, 2e6}) {

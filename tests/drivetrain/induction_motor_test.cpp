@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, CataloguePointsAtRandom, ::testing::Range(1, 41)
 
 // --- Kloss ---
 
-// M_st = 2 M_b (1 + a s_b)/(1/s_b + s_b + 2 a s_b), at s = 1; all torques go with U² (THEORY 4.1).
+// M_st = 2 M_b (1 + a s_b)/(1/s_b + s_b + 2 a s_b), at s = 1; all torques go with U² (theory 4.1).
 TEST(InductionMotor, StartingTorqueIsThatOfKlossAndGoesWithTheSquareOfVoltage) {
   for (const double a : {0.0, 0.6, 1.0}) {
     const auto full = InductionMotor::from_catalogue(11e3, 152.4, 157.07963, 2.6, a, 1);

@@ -225,7 +225,7 @@ until = "2 s"
 accuracy = 1e-8
 )";
 
-// THEORY 5: from rest the peak is twice M J2/(J1 + J2); started in equilibrium nothing rings.
+// theory 5.13: from rest the peak is twice M J2/(J1 + J2); started in equilibrium nothing rings.
 TEST(TwoMasses, StepFromRestRingsToTwiceTheRigidTorque) {
   const Result r = run(two_masses);
   EXPECT_NEAR(figure(r, "peak_spring_torque.c"), 2 * 6.0, 1e-7);

@@ -8,7 +8,7 @@ namespace {
 
 const std::string family = "Motor";
 
-// Kloss' formula with a = 0 (THEORY 4.1).
+// Kloss' formula with a = 0 (theory 4.1).
 struct Kloss {
   double synchronous = 100, rated = 96, power = 1500, ratio = 2.5;
   double breakdown() const { return ratio * power / rated; }

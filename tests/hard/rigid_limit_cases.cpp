@@ -1,5 +1,5 @@
 // rigid_limit_cases.cpp — stiffness to infinity at constant damping ratio: cost bounded, smooth torques lead to the
-// rigid machine, steps of torque to its motion but to twice its torque (THEORY 5).
+// rigid machine, steps of torque to its motion but to twice its torque (theory 5.15).
 #include <map>
 #include <mutex>
 

@@ -1,5 +1,6 @@
-// rigid_limit_test.cpp — the rigid model as the limit of the elastic one (THEORY 5): with smooth torques and constant
-// damping ratios the motion comes nearer as 1/k; after a step the motion does so too, but the peak torque does not.
+// rigid_limit_test.cpp — the rigid model as the limit of the elastic one (theory 5.15): with smooth torques and
+// constant damping ratios the motion comes nearer as 1/k; after a step the motion does so too, but the peak torque does
+// not.
 #include <fmt/format.h>
 
 #include "studies/compare.h"

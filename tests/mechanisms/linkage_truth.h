@@ -1,7 +1,7 @@
 // linkage_truth.h — four-bar, quick-return and knuckle press by their loop equations in closed form, in long double.
 //
 // Independent of Simbody and of the sources under test: positions by Freudenstein's equation and by the slider-crank's
-// triangle, derivatives by Taylor series, I_r and M_g by (2.1) and (2.2) over all links.
+// triangle, derivatives by Taylor series, I_r and M_g by theory 2.1 and 2.2 over all links.
 #pragma once
 
 #include <cmath>

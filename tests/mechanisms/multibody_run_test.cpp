@@ -1,4 +1,5 @@
-// multibody_run_test.cpp — the full multibody run against the reduced equation of motion (2.4) in Runge-Kutta steps.
+// multibody_run_test.cpp — the full multibody run against the reduced equation of motion (theory 2.4) in Runge-Kutta
+// steps.
 #include "mechanisms/multibody_run.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ struct CrankState {
   double phi, omega;
 };
 
-// (2.4) with the closed form, 10⁴ classical Runge-Kutta steps a second.
+// theory 2.4 with the closed form, 10⁴ classical Runge-Kutta steps a second.
 CrankState reduced_run(const MultibodyProblem& p, double t_end) {
   const SliderCrankGeometry geometry(p.mechanism);
   const auto rate = [&](double t, CrankState y) -> CrankState {

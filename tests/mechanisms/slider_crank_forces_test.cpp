@@ -89,7 +89,7 @@ TEST(SliderCrankForces, AgreeWithSimbodysOwnReactionsForAnyMechanism) {
   EXPECT_LT(worst, 1e-10);
 }
 
-// M = I_r ε + ½ I_r′ ω² − M_g − F x′                                                             (THEORY 2.4)
+// M = I_r ε + ½ I_r′ ω² − M_g − F x′                                                             (theory 2.4)
 TEST(SliderCrankForces, BalancingTorqueIsThatOfTheReducedMachine) {
   std::mt19937 random(2);
   for (int i = 0; i < 2000; ++i) {

@@ -195,7 +195,7 @@ class IdasSliderCrank final : public OdeSystem {
     d.slider_mass = 1;
     return d;
   }
-  // The spring's and damper's force, and F on slider and rod, on the crank by their powers at q̇ = 1 (THEORY 2.2).
+  // The spring's and damper's force, and F on slider and rod, on the crank by their powers at q̇ = 1 (theory 2.2).
   double applied(double q, double w) const {
     const double a = 0.5, k = 1, c = 1, l0 = 1, force = 1;
     const SliderCrankGeometry g(bodies());

@@ -57,7 +57,7 @@ TEST(SliderCrankRunUp, MotionMatchesTheReferenceOfExudynsCase) {
   EXPECT_LT(test::largest_difference(r, "angle.crank", test::published_series("sc03_exudyn.csv", 1, 2)), 6e-3);
 }
 
-// Equation of work (2.3) with a constant torque: M φ = ½ I_r(φ) ω² at every moment.
+// Equation of work (theory 2.3) with a constant torque: M φ = ½ I_r(φ) ω² at every moment.
 TEST(SliderCrankRunUp, WorkOfTheTorqueIsTheKineticEnergy) {
   const Result r = run(run_up);
   const auto phi = test::series(r, "angle.crank"), omega = test::series(r, "speed.crank");

@@ -159,7 +159,7 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   EXPECT_NEAR(fast.flywheel_ratio, 4, 1e-14);
   EXPECT_NEAR(fast.exact.inertia, slow.exact.inertia, 1e-9 * slow.exact.inertia);
   EXPECT_NEAR(16 * fast.methods[0].flywheel, slow.methods[0].flywheel, 1e-9 * slow.exact.inertia);
-  // (3.1) on the flywheel's shaft: the motor by 1.1, the gearbox with both wheels.
+  // theory 3.1 on the flywheel's shaft: the motor by 1.1, the gearbox with both wheels.
   EXPECT_NEAR(slow.methods[0].flywheel_by_parts, slow.exact.inertia - 1.1 * 16 * 0.1 - (0.5 + 16 * 0.02), 1e-10);
   EXPECT_NEAR(fast.methods[0].flywheel_by_parts, slow.exact.inertia / 16 - 1.1 * 0.1 - (0.5 / 16 + 0.02), 1e-11);
   EXPECT_NEAR(slow.methods[0].flywheel, slow.exact.inertia - 16 * 0.12 - 0.5, 1e-10);

@@ -26,7 +26,7 @@
 namespace kurbel::test {
 
 // What is written with ω is seen as sign · ratio · ω: inertias as J/ratio², stiffness and damping alike, torques as
-// sign · M/ratio.                                                                                  (THEORY 5)
+// sign · M/ratio.                                                                                (theory 5.3)
 struct View {
   double ratio = 1;
   int sign = 1;

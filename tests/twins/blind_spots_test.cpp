@@ -78,7 +78,7 @@ double two_inertias(double phi) {
   return fast_inertia + fast_mass * fast * fast + (slow_inertia + slow_mass * slow * slow) / 9;
 }
 
-// I_r = I₁(φ) + I₂(φ/i)/i²                                                                             (2.1)
+// I_r = I₁(φ) + I₂(φ/i)/i²                                                                      (theory 2.1)
 TEST(BlindSpots, SecondMechanismCountsByTheSquareOfItsRatio) {
   const MachineReduction r = reduce(scene_from(two_cranks + ending("start = { speed = \"20 rad/s\" }")),
                                     {.positions = 11, .to = "fast", .speed = 20.0, .orders = 3});

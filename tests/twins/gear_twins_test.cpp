@@ -1,6 +1,6 @@
 // gear_twins_test.cpp — a machine behind an ideal gear is the machine reduced to the shaft before it: J/i², k/i², c/i²,
-// M/i, iω, iφ (THEORY 5), whichever way it turns; and a mirrored machine does mirrored things. In all that runs, modes,
-// steady cycles and reductions put out.
+// M/i, iω, iφ (theory 5.3), whichever way it turns; and a mirrored machine does mirrored things. In all that runs,
+// modes, steady cycles and reductions put out.
 #include <set>
 
 #include "studies/modes.h"
