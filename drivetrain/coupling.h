@@ -1,5 +1,5 @@
 // coupling.h — elastic coupling or shaft: torsional spring and viscous damper in parallel.
-//     τ = k θ + c θ̇                                                                      (THEORY 5)
+//     τ = k θ + c θ̇                                                                    (theory 5.1)
 // Positive τ drives b and brakes a.
 #pragma once
 

@@ -1,6 +1,6 @@
 // gear_pair.h — a pair of involute wheels on parallel shafts: geometry of the mesh, and what it gives to the drive.
 //
-// THEORY 6; symbols and signs of ISO 21771. An internal pair has z₂ < 0, and so d₂, a, a_w and u = z₂/z₁ < 0. Wheel 1
+// theory 6; symbols and signs of ISO 21771. An internal pair has z₂ < 0, and so d₂, a, a_w and u = z₂/z₁ < 0. Wheel 1
 // drives. Places on the path of contact are distances g from the pitch point C, positive in the direction in which the
 // contact moves: it begins at A on the tip of wheel 2 and ends at E on the tip of wheel 1.
 #pragma once
@@ -77,18 +77,18 @@ struct GearPair {
   double sliding_speed(double g, double omega_1) const;
   // ζ₁ = 1 − ρ₂/(u ρ₁), ζ₂ = 1 − u ρ₁/ρ₂; −∞ where the own flank ends on its base circle.
   std::array<double, 2> specific_sliding(double g) const;
-  // Free angle of a wheel (0 or 1) while its mate is held [rad]; the b of THEORY 5 is that of wheel 1.
+  // Free angle of a wheel (0 or 1) while its mate is held [rad]; the b of theory 5.6 is that of wheel 1.
   double backlash_angle(int i) const;
   // f = ω₁ z₁/2π [Hz].
   double mesh_frequency(double omega_1) const;
 };
 
 // Everything from the data. Shifts not given: without a centre distance they are 0; with one they follow from it
-// (THEORY 6 backwards), the whole rest to the one that is missing, or half to each. Both shifts and a centre distance
+// (theory 6.5 backwards), the whole rest to the one that is missing, or half to each. Both shifts and a centre distance
 // may be given: the backlash then follows. Throws std::invalid_argument in words.
 GearPair solve_gear_pair(const GearPairData& data);
 
-// α_wt from a centre distance, and back (signed distances; THEORY 6): a_w = a cos α_t/cos α_wt.
+// α_wt from a centre distance, and back (signed distances; theory 6.6): a_w = a cos α_t/cos α_wt.
 double working_angle_of(double reference_distance, double transverse_angle, double centre_distance);
 // Σx = (z₁ + z₂)(inv α_wt − inv α_t)/(2 tan α_n).
 double shift_sum_of(const GearPairData& data, double working_angle);
@@ -105,7 +105,7 @@ double radial_assembly_margin(const GearPair& pair);  // wheel 1 can be moved in
 
 // Interference of a wheel (0 or 1): the mate's tip goes further down on the line of action than the involute does, to
 // beyond the point T on the base circle, or below the form circle where fillet or undercut begins. The path of contact
-// leaves the involute there, undercut or not (THEORY 6; ISO 21771: d_Nf < d_Ff).
+// leaves the involute there, undercut or not (theory 6; ISO 21771: d_Nf < d_Ff).
 struct Interference {
   bool beyond_base_circle = false;  // past T
   bool below_form_circle = false;   // |d_reached| < |d_Ff|

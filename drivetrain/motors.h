@@ -1,4 +1,4 @@
-// motors.h — static characteristics M(ω) of electric motors (THEORY 4).
+// motors.h — static characteristics M(ω) of electric motors (theory 4).
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct DcShuntMotor {
 };
 
 // Induction motor after Kloss, written without dividing by the slip:
-//   M = 2 M_b (1 + a s_b) s s_b/(s² + s_b² + 2 a s_b² s),   s = (ω_s − ω)/ω_s              (THEORY 4.1)
+//   M = 2 M_b (1 + a s_b) s s_b/(s² + s_b² + 2 a s_b² s),   s = (ω_s − ω)/ω_s              (theory 4.1)
 // M_b scales with the square of the voltage factor, and with that of the command of an operating sequence; a negative
 // one turns the field round: M = sgn c · c² M(ω sgn c). 0 is off.
 struct InductionMotor {

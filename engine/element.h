@@ -1,7 +1,7 @@
 // element.h — what an element is: a few equations over its local motion. It knows no indices, solvers or files.
 //
 // A **connection** joins two shafts a and b. Twist θ = φ_a − i φ_b; its torque τ acts as −τ on a and +i τ on b
-// (THEORY 5): positive τ drives b and brakes a.
+// (theory 1.2): positive τ drives b and brakes a.
 //   template <class T> T torque(const Twist<T>&) const;      transmitted torque τ [N·m], spring and damper
 //   double spring_torque(double twist) const;                elastic part [N·m]
 //   double twist_at(double torque) const;                    twist that carries this torque at rest [rad]

@@ -1,7 +1,7 @@
 // equations.h — the equations of motion of a compiled model, and the modes that hold between events.
 //
 // State: [ angles φ | twists θ | speeds ω | the elements' own states | quadratures ].
-//   φ̇ = gain ω,   θ̇ = gain_a ω_a − gain_b ω_b,   I(φ) ω̇ = Σ torques − ½ I′ ω²          (THEORY 2.4, 5)
+//   φ̇ = gain ω,   θ̇ = gain_a ω_a − gain_b ω_b,   I(φ) ω̇ = Σ torques − ½ I′ ω²        (theory 2.4, 5.2)
 // While a contact is stuck (a locked clutch, a held shaft) its speeds are tied: one degree of freedom less, and the
 // torque that it transmits is found with the accelerations (constraints.h). Which contacts are stuck is a mode.
 // Twists are states of their own: a twist of 1e-4 rad keeps its digits when the machine has turned 1e6 rad.

@@ -86,7 +86,7 @@ struct CycleRecord {
   double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
   std::vector<double> work;             // per account [J]
   double mean_speed() const { return 0.5 * (omega_max + omega_min); }
-  // (2.6), whichever way it turns
+  // δ (theory 2.6), whichever way it turns
   double delta() const { return (omega_max - omega_min) / std::abs(mean_speed()); }
 };
 

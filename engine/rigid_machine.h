@@ -1,6 +1,6 @@
 // rigid_machine.h — the machine with everything rigid: inertia and torques as functions of its link's angle and speed.
 //
-//     I_r(φ) ε + ½ I_r′ ω² = M(φ, ω) = Σ shares,   M = M_d − M_c (THEORY 2.1, 2.2, 2.4)
+//     I_r(φ) ε + ½ I_r′ ω² = M(φ, ω) = Σ shares,   M = M_d − M_c (theory 2.1, 2.2, 2.4)
 // All is reduced to the model's reduction link (the first mechanism's crank, else the line's first shaft).
 #pragma once
 

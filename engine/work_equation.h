@@ -1,6 +1,6 @@
 // work_equation.h — the rigid machine over its angle instead of time: work first, time by quadrature.
 //
-//     d(½ I_r ω²)/dφ = M(φ, ω),   dt = dφ/ω                                                       (THEORY 2.5)
+//     d(½ I_r ω²)/dφ = M(φ, ω),   dt = dφ/ω                                                       (theory 2.5)
 // Smooth between load edges, which sit at known angles. Where torques depend on the angle alone the first equation is
 // a quadrature of its own, T(φ) = T₀ + ∫M dφ, the same in every cycle: WorkOverAngle. Machines whose torques depend on
 // the speed, too, are integrated by WorkStepper.

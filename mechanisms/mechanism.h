@@ -1,6 +1,6 @@
 // mechanism.h — a mechanism of one degree of freedom as an element: variable inertia, weight and the loads on its
 // output reduced to its crank.
-//     M = −½ I_r′ ω² + M_g(φ) + Σ F x′(φ),   and I_r(φ) adds to the shaft's inertia            (THEORY 2.1, 2.2, 2.4)
+//     M = −½ I_r′ ω² + M_g(φ) + Σ F x′(φ),   and I_r(φ) adds to the shaft's inertia            (theory 2.1, 2.2, 2.4)
 // The output slides (x [m], loads in N) or rocks (x is its angle [rad], loads in N·m).
 #pragma once
 

@@ -6,9 +6,9 @@
 //   |   bearing O              `-B ← slider pin   slider pin    rod on slider       guide       frame on slider
 //   +----------------------------[==]--- x        torque        of the shaft on the crank, positive when it drives
 //                                guide
-// Inertia forces −m a_S and couples −I ε are put on every link, then each is in equilibrium (THEORY 4, first problem).
-// All reactions are linear in ω², ε, gravity, the slider's force and the friction in the joints; `unit_cases` tabulates
-// them so. Friction itself depends on the reactions:
+// Inertia forces −m a_S and couples −I ε are put on every link, then each is in equilibrium (theory 9.6, first
+// problem). All reactions are linear in ω², ε, gravity, the slider's force and the friction in the joints; `unit_cases`
+// tabulates them so. Friction itself depends on the reactions:
 //     revolute:  moment ρ |R| against the relative rotation, ρ = r sin(atan f): R is tangent to the friction circle
 //     guide:     f Σ|N_i| + (k_r/R) Σ|N_i| against the slider's motion; Σ|N_i| = |N| while the reaction stays within
 //                the guide's length L, else both edges bear and Σ|N_i| = 2 |M|/L, M the moment about the guide's middle

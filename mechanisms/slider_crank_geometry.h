@@ -93,7 +93,7 @@ class SliderCrankGeometry {
     return {atan2(p.sin_beta, p.cos_beta), p.beta1, p.beta2};
   }
 
-  // Reduced inertia I_r [kg·m²] (2.1) with I_r′ and I_r″.
+  // Reduced inertia I_r [kg·m²] (theory 2.1) with I_r′ and I_r″.
   template <class T>
   ValueSlopeCurvature<T> inertia(T phi) const {
     const Pose<T> p(d_, phi);
@@ -113,14 +113,14 @@ class SliderCrankGeometry {
                     slide * (p.x2 * p.x2 + p.x1 * p.x3))};
   }
 
-  // I_r and I_r′ alone, which is all that the equation of motion (2.4) needs.
+  // I_r and I_r′ alone, which is all that the equation of motion (theory 2.4) needs.
   template <class T>
   ValueAndSlope<T> inertia_and_slope(T phi) const {
     const ValueSlopeCurvature<T> all = inertia(phi);
     return {all.value, all.slope};
   }
 
-  // Torque of all weights on the crank [N·m] by (2.2), positive when it drives: M_g = −V′, with its slope.
+  // Torque of all weights on the crank [N·m] (theory 2.2), positive when it drives: M_g = −V′, with its slope.
   template <class T>
   ValueAndSlope<T> gravity_torque(T phi) const {
     using std::cos;

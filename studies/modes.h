@@ -2,7 +2,7 @@
 //
 //   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
 // A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
-// first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; THEORY 5)
+// first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// reduce.h — a machine reduced to one link: inertia, torques, harmonics, and the drive's elastic chain (THEORY 2, 5).
+// reduce.h — a machine reduced to one link: inertia, torques, harmonics, and the drive's elastic chain (theory 2, 5).
 #pragma once
 
 #include <map>

@@ -139,7 +139,7 @@ struct InlineSliderCrank {
   double position(double phi) const {
     return r * std::cos(phi) + std::sqrt(l * l - r * r * std::sin(phi) * std::sin(phi));
   }
-  // Reduced inertia (THEORY 2.1) from the velocities at ω = 1.
+  // Reduced inertia (theory 2.1) from the velocities at ω = 1.
   double inertia(double phi) const {
     const double s = std::sin(phi), c = std::cos(phi);
     const double sin_b = r / l * s, cos_b = std::sqrt(1 - sin_b * sin_b);
