@@ -77,7 +77,7 @@ StudyOutput output_of(const BevelPair& b) {
                      {"cone_distance", b.cone_distance()},
                      {"virtual_teeth", {b.virtual_teeth(0), b.virtual_teeth(1)}}};
   const Formula cones{
-      .title = "Pitch cones",
+      .title = "Pitch cones (theory 6.14)",
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
                              b.ratio(), std::cos(b.shaft_angle), b.cone_angle(0) / degree, b.cone_angle(1) / degree)};
@@ -111,7 +111,7 @@ StudyOutput output_of(const WormPair& w, std::optional<double> speed) {
     json["sliding_speed"] = w.sliding_speed(std::abs(*speed));
   }
   const Formula efficiency{
-      .title = "Efficiency in both directions",
+      .title = "Efficiency in both directions (theory 6.15)",
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
       .numbers = fmt::format("γ = {:.4f}°, ρ′ = {:.4f}°:   η = {:.5f},   η′ = {:.5f}", w.lead_angle() / degree,
                              w.friction_angle() / degree, w.efficiency(), w.efficiency_back())};

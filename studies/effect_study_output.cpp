@@ -123,7 +123,7 @@ std::string json_of(const EffectStudy& s) {
 
 // Change against cost: what lies on the left above costs little and matters.
 Plot plane(const EffectStudy& s) {
-  Plot plot{.title = "What each effect changes, and what it costs",
+  Plot plot{.title = "What each effect changes, and what it costs (theory 14.1)",
             .x = {"time with the effect over time without", "×"},
             .y = {"greatest change of a figure without it", "%", true},
             .series = {}};

@@ -408,7 +408,7 @@ void add_torque(Report& report, const Forces& f) {
   const double w = peak->state.omega, slope = g.slider(peak->state.phi).slope,
                weight = g.gravity_torque(peak->state.phi).value, loss = w != 0 ? peak->power.friction / w : 0;
   section.cards.push_back(Formula{
-      .title = fmt::format("At its peak, φ = {:.4g}°", degrees(peak->state.phi)),
+      .title = fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
       .symbols = "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
       .numbers =
           fmt::format("M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
@@ -532,7 +532,7 @@ void add_shaking(Report& report, const Forces& f) {
       table_card("Counterweights beyond what the crank has: what they leave", counterweight_rows(f), 1));
   const double share = f.data.rod_com / f.data.rod_length;
   section.cards.push_back(Formula{
-      .title = "Masses that rotate and that reciprocate",
+      .title = "Masses that rotate and that reciprocate (theory 9.11)",
       .symbols = "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
       .numbers =
           fmt::format("U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
@@ -575,7 +575,7 @@ void add_friction(Report& report, const Forces& f) {
     if (j.radius == 0) return;
     const double f_k = j.friction.kinetic;
     section.cards.push_back(
-        Formula{.title = fmt::format("Friction circle of the {}", name),
+        Formula{.title = fmt::format("Friction circle of the {} (theory 8.4)", name),
                 .symbols = "ρ = r sin(atan f)",
                 .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
                                        1e3 * friction_circle_radius(j.radius, f_k))});

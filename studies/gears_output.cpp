@@ -386,24 +386,24 @@ void add_formulas(ReportSection& section, const GearStage& s) {
               .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", mm * one.transverse_module,
                                      p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
                                      std::cos(p.working_angle), mm * p.centre_distance)});
-  section.cards.push_back(Formula{.title = "Contact ratio",
+  section.cards.push_back(Formula{.title = "Contact ratio (theory 6.9)",
                                   .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
                                   .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", mm * p.end,
                                                          mm * p.start, mm * p.base_pitch, p.contact_ratio)});
   section.cards.push_back(Formula{
-      .title = "Specific sliding at both ends",
+      .title = "Specific sliding at both ends (theory 6.11)",
       .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
       .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}", number(p.specific_sliding(p.start)[0], 5),
                              number(p.specific_sliding(p.start)[1], 5), number(p.specific_sliding(p.end)[0], 5),
                              number(p.specific_sliding(p.end)[1], 5))});
   section.cards.push_back(Formula{
-      .title = "Undercut of wheel 1",
+      .title = "Undercut of wheel 1 (theory 6.4)",
       .symbols = "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
       .numbers = fmt::format("x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}",
                              p.data.rack.straight_depth(), one.teeth, std::pow(std::sin(one.transverse_angle), 2),
                              std::cos(p.data.helix), one.least_shift_generated(), one.generating_shift)});
   section.cards.push_back(Formula{
-      .title = "Mesh stiffness, ISO 6336-1 method B",
+      .title = "Mesh stiffness, ISO 6336-1 method B (theory 6.13)",
       .symbols = "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
       .numbers = fmt::format(
           "c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}", 1e-9 * s.stiffness.single, p.contact_ratio,

@@ -598,7 +598,7 @@ void add_modes(Report& report, const Modes& m) {
   for (std::size_t j = 0; j < m.drive.joints.size(); ++j)
     potential += m.drive.joints[j].stiffness * std::pow(m.drive.twist(j, first.shape), 2);
   const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
-  section.cards.push_back(Formula{.title = "First mode by its energies (Rayleigh)",
+  section.cards.push_back(Formula{.title = "First mode by its energies (Rayleigh, theory 12.4)",
                                   .symbols = "ω² = Σ k θ² / Σ J φ²",
                                   .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz",
                                                          potential, kinetic, first.omega, hertz(first.omega)),
@@ -617,7 +617,7 @@ void add_response(Report& report, const Modes& m) {
     const ParametricZone& z = m.zones.back();
     const double zeta = m.modes[at(z.mode - 1)].ratio;
     campbell.cards.push_back(Formula{
-        .title = "Half width of a zone",
+        .title = "Half width of a zone (theory 12.8)",
         .symbols = "ΔΩ/Ω = √(ε²/16 − ζ²) around Ω = 2 ω/r",
         .numbers = z.variation > 4 * zeta ? fmt::format("√({:.4g}²/16 − {:.4g}²) · {:.5g} 1/min = {:.4g} 1/min",
                                                         z.variation, zeta, rpm(z.centre), rpm(z.centre * z.half_width))

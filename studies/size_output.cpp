@@ -481,7 +481,7 @@ void add_cycle_formulas(ReportSection& section, const Sizing& s) {
               .symbols = s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ",
               .numbers = fmt::format("M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m", d.work, cycle, d.mean_torque())});
   section.cards.push_back(Formula{
-      .title = "Greatest fluctuation of energy",
+      .title = "Greatest fluctuation of energy (theory 3.4)",
       .symbols = "ΔA_max = max ΔT − min ΔT",
       .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
       .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * degrees, d.least.x * degrees)});
@@ -501,7 +501,7 @@ void add_method_formulas(ReportSection& section, const Sizing& s) {
                                      l.intercept(), u.slope, l.slope, s.exact.inertia),
               .note = "Exact for torques of the angle alone."});
   section.cards.push_back(Formula{
-      .title = "Mertsalov",
+      .title = "Mertsalov (theory 3.3)",
       .symbols = "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mean² δ),   ΔT₁ = ΔT − ½ ω_mean² I_em",
       .numbers =
           fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.approximate.most.value,
@@ -509,7 +509,7 @@ void add_method_formulas(ReportSection& section, const Sizing& s) {
       .note = fmt::format("{:+.3g} % against the exact value.", 100 * (s.approximate.inertia / s.exact.inertia - 1))});
   const SizeMethod& neglecting = s.methods[2];
   section.cards.push_back(Formula{
-      .title = "Neglecting I_em",
+      .title = "Neglecting I_em (theory 3.4)",
       .symbols = "I₀ = ΔA_max/(ω_mean² δ)",
       .numbers = fmt::format("I₀ = {:.6g} J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.diagram.fluctuation(),
                              s.mean_speed, s.delta, neglecting.drive_inertia),
@@ -537,7 +537,7 @@ void add_flywheel_formulas(ReportSection& section, const Sizing& s) {
                                      s.gearbox_inertia, exact.flywheel_by_parts)});
   if (s.punch)
     section.cards.push_back(Formula{
-        .title = "Punch-press form",
+        .title = "Punch-press form (theory 3.5)",
         .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mean² δ),   P = E/t_c",
         .numbers = fmt::format("ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W",
                                s.punch->energy, s.punch->working_time, s.punch->cycle_time, s.punch->from_flywheel(),
@@ -557,7 +557,7 @@ void add_dimension_formulas(ReportSection& section, const FlywheelDimensions& d,
                 .symbols = "m = 8 I/D²",
                 .numbers = fmt::format("m = 8 · {:.6g} / {:.5g}² = {:.6g} kg", d.inertia, d.diameter, d.mass)});
     section.cards.push_back(
-        Formula{.title = "Stress at the centre",
+        Formula{.title = "Stress at the centre (theory 3.7)",
                 .symbols = "σ = (3 + ν)/8 · ρ v²",
                 .numbers = fmt::format("σ = (3 + {:g})/8 · {:g} kg/m³ · ({:.5g} m/s)² = {:.4g} MPa", d.material.poisson,
                                        d.material.density, d.rim_speed, d.stress / 1e6)});
@@ -571,7 +571,7 @@ void add_dimension_formulas(ReportSection& section, const FlywheelDimensions& d,
                         d.breadth, d.diameter, d.diameter - 2 * d.thickness, d.rim_share * d.inertia),
         .note = fmt::format("{:.3g} % of the whole; spokes and hub bring the rest.", 100 * d.rim_share)});
     section.cards.push_back(
-        Formula{.title = "Stress of the rim, with bending between the spokes",
+        Formula{.title = "Stress of the rim, with bending between the spokes (theory 3.7)",
                 .symbols = "σ = ρ v_m² (0.75 + 4.935 R_m/(n² h))",
                 .numbers = fmt::format("σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa",
                                        d.stress / 1e6, radius, flywheel_spokes, d.thickness, d.spoked_stress / 1e6),

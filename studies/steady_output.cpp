@@ -429,7 +429,7 @@ void add_formulas(ReportSection& section, const SteadyStudy& s) {
                  *min = c.find("min_speed." + s.link);
     if (!delta || !max || !min) continue;
     section.cards.push_back(
-        Formula{.title = fmt::format("Speed fluctuation of {}, {} model", s.link, c.label),
+        Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
                 .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
                 .numbers = fmt::format("δ = ({:.6g} − {:.6g}) rad/s / {:.6g} rad/s = {}", max->value, min->value,
                                        0.5 * (max->value + min->value), with_error(delta->value, delta->error, "")),

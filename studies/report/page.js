@@ -593,6 +593,17 @@
     };
   }
 
+  // --- what "theory 3.2" means: a list at the foot, and words for those who point at a heading ---------------------------
+  function addTheory(notes) {
+    const list = make('ul', 'theory', null, root);
+    for (const note of notes) make('li', '', note, list);
+    const numberOf = note => note.slice('theory '.length, note.indexOf(':'));
+    for (const heading of root.querySelectorAll('h1, h2, h3, summary, .subtitle')) {
+      const cited = heading.textContent.match(/theory (\d+(\.\d+)?((, | and )\d+(\.\d+)?)*)/);
+      if (cited) heading.title = notes.filter(note => cited[1].split(/, | and /).includes(numberOf(note))).join('\n');
+    }
+  }
+
   // --- the page --------------------------------------------------------------------------------------------------------
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
@@ -618,6 +629,7 @@
       makers[card.kind](card, element);
     }
   }
+  if (report.theory) addTheory(report.theory);
   make('footer', '', report.footer, root);
   requestAnimationFrame(() => setTimeout(drawInTurn, 0, 0));
 

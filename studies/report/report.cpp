@@ -11,6 +11,7 @@
 #include "engine/units.h"
 #include "studies/figure_text.h"
 #include "studies/report/assets.h"
+#include "studies/report/theory.h"
 #include "studies/report/thin.h"
 #include "studies/whole_file.h"
 
@@ -319,6 +320,8 @@ std::string json_of(const Report& report) {
                [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
       });
     });
+    const std::vector<std::string> notes = theory_notes(w.text);  // of all that was said above
+    if (!notes.empty()) w.field("theory", notes);
   });
   return w.text;
 }

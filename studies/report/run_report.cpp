@@ -230,7 +230,7 @@ Table statistics_table(const Results& results) {
 }
 
 Table energy_table(const Results& results) {
-  Table table{.title = "Energy audit [J]", .columns = {""}, .rows = {}};
+  Table table{.title = "Energy audit [J] (theory 1.3)", .columns = {""}, .rows = {}};
   for (const Result* r : results) table.columns.push_back(r->label);
   const auto row = [&](const std::string& name, auto value) {
     std::vector<std::string> cells = {name};
@@ -342,7 +342,7 @@ void add_delta_formula(ReportSection& section, const Results& results) {
       if (delta && delta->at && c.end == *delta->at) cycle = &c;
     if (!cycle) continue;
     section.cards.push_back(
-        Formula{.title = fmt::format("Speed fluctuation, {} model", r->label),
+        Formula{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
                 .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
                 .numbers = fmt::format("δ = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", cycle->omega_max,
                                        cycle->omega_min, cycle->mean_speed(), sure(*delta)),
@@ -437,7 +437,7 @@ std::vector<Plot> motion_plots(const Results& results) {
 }
 
 Table figures_table(const Result& r, bool folded) {
-  Table table{.title = fmt::format("All figures, {} model", r.label),
+  Table table{.title = fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
               .columns = {"figure", "value", "error", "unit", "at [s]"},
               .rows = {},
               .folded = folded};
@@ -521,7 +521,7 @@ Report report_of(const Comparison& c) {
     const Figure *a = c.a.find("peak_torque." + joint), *b = c.b.find("peak_torque." + joint);
     if (!a || !b || !row.b) continue;
     figures.cards.push_back(
-        Formula{.title = fmt::format("Torque amplification in {}", joint),
+        Formula{.title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
                 .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
                 .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
                                        figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),
