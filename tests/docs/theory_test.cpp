@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/report/report.h"
 #include "studies/report/theory.h"
 
 namespace kurbel {
@@ -305,6 +306,16 @@ TEST(Theory, CitationsOfAReportAreListedInOrderWithPageAndFile) {
   EXPECT_EQ(notes[2], word + "3.2: Flywheel, equation (3.2) in docs/theory/03-flywheel.md");
   EXPECT_EQ(theory_notes("by " + word + "6 alone").at(0), word + "6: Gear pairs, docs/theory/06-gear-pairs.md");
   EXPECT_TRUE(theory_notes("no theory at all").empty());
+}
+
+TEST(Theory, ReportsListWhatTheyCite) {
+  const std::string word = "theory ";
+  Report report{.title = "Press"};
+  report.add("Size").cards.push_back(Formula{.title = "Wittenbauer (" + word + "3.2)", .symbols = "", .numbers = ""});
+  EXPECT_NE(
+      html_of(report).find("\"theory\":[\"" + word + "3.2: Flywheel, equation (3.2) in docs/theory/03-flywheel.md\"]"),
+      std::string::npos);
+  EXPECT_EQ(html_of(Report{.title = "Press"}).find("\"theory\":"), std::string::npos);
 }
 
 }  // namespace kurbel
