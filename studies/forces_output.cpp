@@ -421,7 +421,7 @@ void add_torque(Report& report, const Forces& f) {
 }
 
 void add_reactions(Report& report, const Forces& f) {
-  ReportSection& section = report.add("Reactions in the joints");
+  ReportSection& section = report.add("Reactions in the joints (theory 9.6)");
   section.cards.push_back(both(f, "Load of the main bearing", "reaction", "N",
                                [](const CyclePosition& p) { return p.forces.main_bearing.magnitude(); }));
   section.cards.push_back(both(f, "Load of the crank pin", "reaction", "N",

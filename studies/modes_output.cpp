@@ -587,7 +587,7 @@ Plot waterfall_plot(const Modes& m, const TorqueHistory& h) {
 }
 
 void add_modes(Report& report, const Modes& m) {
-  ReportSection& section = report.add("Modes");
+  ReportSection& section = report.add("Modes (theory 12.2, 12.3)");
   section.cards.push_back(table_card("Natural frequencies, damping, energies", mode_rows(m), 1));
   if (m.modes.empty()) return;
   section.cards.push_back(shape_plot(m));
@@ -608,7 +608,7 @@ void add_modes(Report& report, const Modes& m) {
 
 void add_response(Report& report, const Modes& m) {
   if (!is_forced(m)) return;
-  ReportSection& campbell = report.add("Critical speeds");
+  ReportSection& campbell = report.add("Critical speeds (theory 12.6)");
   campbell.cards.push_back(campbell_plot(m));
   if (!m.critical.empty())
     campbell.cards.push_back(table_card("Strongest critical speeds", critical_rows(m, critical_shown), 0));
@@ -625,7 +625,7 @@ void add_response(Report& report, const Modes& m) {
                                                         z.variation, zeta, rpm(z.centre)),
         .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."});
   }
-  ReportSection& forced = report.add("Forced response");
+  ReportSection& forced = report.add("Forced response (theory 12.7)");
   forced.cards.push_back(
       table_card(fmt::format("At {:.5g} 1/min of {}", rpm(std::abs(m.drive.at.speed)), m.link), response_rows(m), 1));
   if (!m.here.joints.empty() && m.excitations.harmonics > 0 && !m.excitations.by_order.empty())
@@ -662,7 +662,7 @@ Report report_of(const Modes& m, const std::string& conclusion) {
       report.figures.push_back({"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5});
   }
   if (!m.verdicts.empty())
-    report.add("Limits").cards.push_back(table_card("What the components may bear", verdict_rows(m), 3));
+    report.add("Limits (theory 12.9)").cards.push_back(table_card("What the components may bear", verdict_rows(m), 3));
   add_modes(report, m);
   add_response(report, m);
   add_history(report, m);

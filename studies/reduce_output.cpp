@@ -445,7 +445,7 @@ Report report_of(const MachineReduction& r) {
   for (Plot& plot : motion_plots(r)) section.cards.push_back(std::move(plot));
   section.cards.push_back(positions_table(r));
   add_formulas(section, r);
-  ReportSection& drive = report.add("The drive as an elastic chain");
+  ReportSection& drive = report.add("The drive as an elastic chain (theory 5.3)");
   if (!r.chain.springs.empty()) drive.cards.push_back(chain_plot(r));
   drive.cards.push_back(chain_table(r));
   if (!r.spectra.empty()) {

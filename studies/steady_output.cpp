@@ -445,7 +445,7 @@ Report report_of(const SteadyStudy& s) {
   const bool any = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
   add_key_figures(report, s);
   if (any) add_plots(report, s);
-  ReportSection& operation = report.add("Operating points");
+  ReportSection& operation = report.add("Operating points (theory 4.15)");
   if (s.diagram) operation.cards.push_back(diagram_plot(s));
   operation.cards.push_back(Text{.title = "", .body = joined(words_of_diagram(s))});
   if (s.start && s.start->t.size() > 1) operation.cards.push_back(start_plot(s));
@@ -453,7 +453,7 @@ Report report_of(const SteadyStudy& s) {
   if (const auto words = words_of_start(s); !words.empty())
     operation.cards.push_back(Text{.title = "", .body = joined(words)});
   if (any) {
-    ReportSection& stability = report.add("Stability");
+    ReportSection& stability = report.add("Stability (theory 11.4)");
     stability.cards.push_back(multiplier_plot(s));
     for (const SteadyCycle& c : s.cycles)
       if (c.found) stability.cards.push_back(multiplier_table(c));
