@@ -44,7 +44,7 @@ int modes(const ModesArguments& arguments) {
   options.log = make_log(arguments.study.verbose);
   Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
   if (arguments.effects.empty() && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  const Modes found = find_modes(scene, effects, options);
+  const ModesStudy found = find_modes(scene, effects, options);
   return present(output_of(found), arguments.study);
 }
 

@@ -2,23 +2,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "engine/checkpoint.h"
 #include "engine/model.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "studies/known_accuracy.h"
 #include "studies/run_output.h"
+#include "studies/whole_file.h"
 
 namespace kurbel::app {
 namespace {
 
+constexpr std::uintmax_t most_state_bytes = 256u << 20;
+
 struct RunArguments {
   StudyOptions study;
-  std::string effects, against, method, until, setting;
+  std::string effects, against, method, until, setting, from_state, save_state;
   std::optional<double> accuracy;
   bool no_error = false, explain = false;
 };
@@ -77,6 +84,18 @@ std::string label_of(const Model& model) {
   return springs || further_coordinates(model) > 0 ? "elastic" : "rigid";
 }
 
+std::string text_of_state(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw std::invalid_argument(fmt::format(
+        "--from-state {}: no such file; kurbel run SCENE --until TIME --save-state {} writes one", file, file));
+  if (std::filesystem::file_size(file) > most_state_bytes)
+    throw std::invalid_argument(
+        fmt::format("--from-state {}: larger than any state ({} MB)", file, most_state_bytes >> 20));
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
   const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
@@ -89,7 +108,21 @@ int run(const RunArguments& arguments) {
   Progress progress(arguments.study.quiet);
   SimulateOptions options = options_of(arguments, progress);
   use_setting(arguments.setting, scene, effects, options);
-  const Result result = simulate(model, label_of(*model), options);
+  if (!arguments.save_state.empty()) {
+    if (const std::string why = why_no_file_at(arguments.save_state); !why.empty())
+      throw std::invalid_argument(fmt::format("--save-state: {}", why));
+    options.keep_state = true;
+  }
+  if (!arguments.from_state.empty()) options.go_on_from = text_of_state(arguments.from_state);
+  if (scene.run.model != "reduced" && (options.keep_state || !options.go_on_from.empty()))
+    throw std::invalid_argument("--from-state and --save-state belong to the reduced model; set model = \"reduced\"");
+  Result result;
+  try {
+    result = simulate(model, label_of(*model), options);
+  } catch (const UnfitCheckpoint& unfit) {
+    throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
+  }
+  if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
   return present(output_of(result), arguments.study);
 }
 
@@ -129,6 +162,11 @@ void add_run_commands(CLI::App& app, int& code) {
       "--setting", run_arguments->setting,
       "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
       "the cheapest that was exact enough");
+  run_command->add_option("--save-state", run_arguments->save_state,
+                          "writes the state at the end into this file, for --from-state");
+  run_command->add_option(
+      "--from-state", run_arguments->from_state,
+      "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
   const auto [compare_command, compare_arguments] =
       add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
   compare_command->add_option("--against", compare_arguments->against, "effects of the first model (default: none)");

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -92,7 +93,15 @@ class ElementPool {
 
   // Joint friction and the like: torques at the accelerations alpha per shaft; the equations find both together.
   virtual bool reacts() const { return false; }
-  virtual void add_reactions(const Instant&, const double* /*alpha*/, Reactions&) const {}
+  // Where that takes a search, what it found may be kept from one alpha to the next at the same instant: memory of
+  // whoever computes, one per pool. begin(): another instant.
+  class Memory {
+   public:
+    virtual ~Memory() = default;
+    virtual void begin() = 0;
+  };
+  virtual std::unique_ptr<Memory> make_memory() const { return nullptr; }
+  virtual void add_reactions(const Instant&, const double* /*alpha*/, Reactions&, Memory*) const {}
 
   // Further degrees of freedom, coupled to a shaft by inertia: add() gives the shaft what is left of inertia and torque
   // when they follow freely, and their own rates come from the acceleration that the shaft then has (per shaft).

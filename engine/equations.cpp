@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <utility>
 
@@ -51,11 +50,11 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   }
   inertia_ = constant_inertia_;
   const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size(), nodes = m.network.nodes.size();
-  direction_.assign(shafts, 1);
-  mode_.assign(m.mode_slots, 0);
-  active_.assign(elements, 1);
-  prescribed_piece_.assign(m.network.prescribed.size(), 0);
-  turns_.assign(m.angles.size(), 0);
+  modes_.direction.assign(shafts, 1);
+  modes_.piece.assign(m.mode_slots, 0);
+  modes_.active.assign(elements, 1);
+  modes_.prescribed_piece.assign(m.network.prescribed.size(), 0);
+  modes_.turns.assign(m.angles.size(), 0);
   speed_.assign(shafts, 0);
   torque_.assign(shafts, 0);
   alpha_.assign(shafts, 0);
@@ -64,7 +63,7 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   spring_torque_.assign(m.elastic.size(), 0);
   element_torque_.assign(elements, 0);
   for (const auto& pool : model_->pools)
-    if (pool->reacts()) reacting_.push_back(pool.get());
+    if (pool->reacts()) reacting_.push_back(pool.get()), reaction_memory_.push_back(pool->make_memory());
   if (!reacting_.empty()) {
     for (auto* per_shaft : {&reaction_alpha_, &reaction_torque_, &reaction_slope_})
       per_shaft->assign(model_->shafts.size(), 0);
@@ -84,10 +83,14 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
   shaft_angle_.assign(shafts, 0);
   own_rate_.assign(m.own_states.size(), 0);
+  Sums& sums = snapshot_.sums;
+  sums.torque = torque_.data(), sums.inertia = inertia_.data();
+  sums.connection_torque = connection_torque_.data(), sums.spring_torque = spring_torque_.data();
+  sums.element_torque = element_torque_.data(), sums.element_inertia = element_inertia_.data();
   list_rigid_trees();
   list_elastic_tree();
   list_contacts();
-  command_.assign(m.commands.size(), {});
+  modes_.command.assign(m.commands.size(), {});
   command_value_.assign(m.commands.size(), 1);
   if (!m.scene.sequence.steps.empty()) ++guard_count_;
 }
@@ -148,28 +151,36 @@ void Equations::list_rigid_trees() {
 
 double Equations::prescribed_speed(std::size_t shaft, double t) const {
   const int p = model_->shafts[shaft].prescribed;
-  return model_->network.prescribed[at(p)].value(t, prescribed_piece_[at(p)]);
+  return model_->network.prescribed[at(p)].value(t, modes_.prescribed_piece[at(p)]);
 }
 
 double Equations::prescribed_acceleration(std::size_t shaft, double t) const {
   const int p = model_->shafts[shaft].prescribed;
-  return model_->network.prescribed[at(p)].slope(t, prescribed_piece_[at(p)]);
+  return model_->network.prescribed[at(p)].slope(t, modes_.prescribed_piece[at(p)]);
 }
 
 // Everything that changes at known times.
 void Equations::set_timed_modes(double t) {
-  for (const auto& pool : model_->pools) pool->set_timed_modes(t, mode_.data(), active_.data());
-  for (std::size_t c = 0; c < command_.size(); ++c) {
+  for (const auto& pool : model_->pools) pool->set_timed_modes(t, modes_.piece.data(), modes_.active.data());
+  for (std::size_t c = 0; c < modes_.command.size(); ++c) {
     for (const int e : model_->commands[c].switched)
-      if (command_[c].value + command_[c].rate * (t - command_[c].from) <= 0.5) active_[at(e)] = 0;
-    if (command_[c].value == 0 && command_[c].rate == 0)
-      for (const int e : model_->commands[c].opened) active_[at(e)] = 0;
+      if (modes_.command[c].at(t) <= 0.5) modes_.active[at(e)] = 0;
+    if (modes_.command[c].value == 0 && modes_.command[c].rate == 0)
+      for (const int e : model_->commands[c].opened) modes_.active[at(e)] = 0;
   }
-  for (std::size_t p = 0; p < prescribed_piece_.size(); ++p)
-    prescribed_piece_[p] = model_->network.prescribed[p].piece(t);
+  for (std::size_t p = 0; p < modes_.prescribed_piece.size(); ++p)
+    modes_.prescribed_piece[p] = model_->network.prescribed[p].piece(t);
 }
 
 Instant Equations::instant(double t, std::span<const double> y) {
+  Instant now;
+  look_at(t, y, now);
+  return now;
+}
+
+// Word by word: a copy reads by pairs what was just stored so, and the processor waits for that (a sixth of the whole
+// right-hand side of a small machine).
+void Equations::look_at(double t, std::span<const double> y, Instant& now) {
   const Model& m = *model_;
   const double* speed = y.data() + speed_index(0);
   if (m.free_shafts < m.shafts.size()) {
@@ -177,18 +188,17 @@ Instant Equations::instant(double t, std::span<const double> y) {
     for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = prescribed_speed(s, t);
     speed = speed_.data();
   }
-  for (std::size_t c = 0; c < command_.size(); ++c)
-    command_value_[c] = command_[c].value + command_[c].rate * (t - command_[c].from);
-  return {t,
-          y.data(),
-          y.data() + twists_begin(),
-          speed,
-          mode_.data(),
-          direction_.data(),
-          active_.data(),
-          slip_.data(),
-          command_value_.data(),
-          y.data() + own_begin()};
+  for (std::size_t c = 0; c < modes_.command.size(); ++c) command_value_[c] = modes_.command[c].at(t);
+  now.t = t;
+  now.angle = y.data();
+  now.twist = y.data() + twists_begin();
+  now.speed = speed;
+  now.mode = modes_.piece.data();
+  now.direction = modes_.direction.data();
+  now.active = modes_.active.data();
+  now.slip = modes_.slip.data();
+  now.command = command_value_.data();
+  now.own = y.data() + own_begin();
 }
 
 // Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
@@ -198,18 +208,10 @@ void Equations::evaluate(double t, std::span<const double> y, double* twist_rate
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
-  // Made in place: a copy reads by pairs what was just stored word by word, and the processor waits for that (a sixth
-  // of the whole right-hand side of a small machine).
-  ::new (&snapshot_.now) Instant(instant(t, y));
-  ::new (&snapshot_.sums) Sums{torque_.data(),
-                               inertia_.data(),
-                               twist_rate,
-                               connection_torque_.data(),
-                               spring_torque_.data(),
-                               element_torque_.data(),
-                               element_inertia_.data(),
-                               work_rate,
-                               own_rate ? own_rate : own_rate_.data()};
+  look_at(t, y, snapshot_.now);
+  snapshot_.sums.twist_rate = twist_rate;
+  snapshot_.sums.work_rate = work_rate;
+  snapshot_.sums.own_rate = own_rate ? own_rate : own_rate_.data();
   for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
   if (contacts_.empty() && m.relations.empty() && reacting_.empty()) {
     for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
@@ -251,8 +253,11 @@ void Equations::settle_reactions(double t, double* alpha, double* work_rate) {
     std::fill(reaction_slope_.begin(), reaction_slope_.end(), 0.0);
     std::fill(reaction_element_.begin(), reaction_element_.end(), 0.0);
     Reactions sums{reaction_torque_.data(), reaction_slope_.data(), reaction_element_.data(), work};
-    for (const ElementPool* pool : reacting_) pool->add_reactions(snapshot_.now, reaction_alpha_.data(), sums);
+    for (std::size_t p = 0; p < reacting_.size(); ++p)
+      reacting_[p]->add_reactions(snapshot_.now, reaction_alpha_.data(), sums, reaction_memory_[p].get());
   };
+  for (const auto& memory : reaction_memory_)
+    if (memory) memory->begin();
   std::vector<double>& torque = reaction_effective_torque_;
   std::vector<double>& inertia = reaction_effective_inertia_;
   constexpr int most_steps = 50;
@@ -343,7 +348,7 @@ void Equations::find_joint_torques(const double* alpha) {
   bool holds_known = false;
   for (std::size_t c = 0; c < directional_.size(); ++c) {
     const int s = directional_[c];
-    if (direction_[at(s)] != 0) continue;
+    if (modes_.direction[at(s)] != 0) continue;
     if (!std::exchange(holds_known, true)) find_holds();
     const double rest = -contact_torque_[c];
     const double capacity = rest > 0 ? shaft_hold_[at(s)].high : shaft_hold_[at(s)].low;
@@ -448,7 +453,7 @@ void Equations::jacobian(double t, std::span<const double> y, std::span<double> 
   for (std::size_t i = 0; i < stored; ++i) {
     const int s = layout.row_shaft[i];
     if (s >= 0 && !coupled_[at(s)])
-      values[i] *= m.shafts[at(s)].directional && direction_[at(s)] == 0
+      values[i] *= m.shafts[at(s)].directional && modes_.direction[at(s)] == 0
                        ? 0.0
                        : 1 / (inertia_[at(s)] + (reacting_.empty() ? 0.0 : reaction_slope_[at(s)]));
   }
@@ -491,28 +496,28 @@ std::string Equations::state_name(std::size_t state) const {
 // Angles
 
 bool Equations::needs_wrap(std::span<const double> y) const {
-  for (std::size_t i = 0; i < turns_.size(); ++i)
+  for (std::size_t i = 0; i < modes_.turns.size(); ++i)
     if (std::abs(y[i]) > 4 * two_turns) return true;
   return false;
 }
 
 bool Equations::wrap(std::span<double> y) {
   bool changed = false;
-  for (std::size_t i = 0; i < turns_.size(); ++i) {
+  for (std::size_t i = 0; i < modes_.turns.size(); ++i) {
     // What is left of 4π itself, which is a little more than its double, would be less than nothing: it stays whole.
-    double k = std::floor(y[i] / two_turns) - first_two_turns_;
+    double k = std::floor(y[i] / two_turns) - modes_.first_two_turns;
     const auto rest = [&] { return std::fma(-k, two_turns, y[i]) - k * two_turns_rest; };
-    if (k > 0 && rest() < first_two_turns_ * two_turns) --k;
+    if (k > 0 && rest() < modes_.first_two_turns * two_turns) --k;
     if (k == 0) continue;
     y[i] = rest();
-    turns_[i] += k;
+    modes_.turns[i] += k;
     changed = true;
   }
   return changed;
 }
 
 double Equations::angle_with_turns(std::size_t tracked, std::span<const double> y) const {
-  return static_cast<double>(static_cast<long double>(turns_[tracked]) * 4 * std::numbers::pi_v<long double> +
+  return static_cast<double>(static_cast<long double>(modes_.turns[tracked]) * 4 * std::numbers::pi_v<long double> +
                              y[tracked]);
 }
 

@@ -16,6 +16,7 @@
 #include "engine/constraints.h"
 #include "engine/jam.h"
 #include "engine/model.h"
+#include "engine/state.h"
 #include "engine/stepper.h"
 
 namespace kurbel {
@@ -37,14 +38,13 @@ struct Contact {
   std::vector<ShaftGain> torque;  // what one unit of its torque λ, which opposes v > 0, does to the shafts
   double speed_scale = 1, torque_scale = 1;
   std::string name;
-  bool regularised = false;  // its events found no rest: λ follows v smoothly instead
-  int carries = 0;           // sign of the λ that it was last seen to carry where rows repeat; 0: either way
 };
 
 class Equations final : public OdeSystem {
  public:
   // With an audit the work of every account and the squares of the torques are integrated along.
   Equations(std::shared_ptr<const Model> model, bool audit);
+  Equations(Equations&&) = default;
 
   // OdeSystem
   std::size_t size() const override { return states_ + quadratures_; }
@@ -55,6 +55,7 @@ class Equations final : public OdeSystem {
   const Model& model() const { return *model_; }
   std::shared_ptr<const Model> shared_model() const { return model_; }
   bool audit() const { return quadratures_ > 0; }
+  std::size_t integral_count() const { return quadratures_; }  // of the audit, behind the states in y
   // Scales of all states: speeds by rated speed, twists by rated torque over stiffness, angles by 1 rad.
   ErrorControl error_control(double tolerance) const;
   std::string state_name(std::size_t state) const;
@@ -76,6 +77,11 @@ class Equations final : public OdeSystem {
   // The pieces of laws that hold in this state; senses of motion stay.
   void modes_at(double t, std::span<const double> y);
 
+  // --- the modes, which with (t, y) are the whole state ---
+  const Modes& modes() const { return modes_; }
+  // From now on it computes with these. Without allocating where they are of this machine, as they must be.
+  void bind(const Modes& modes);
+
   // --- events ---
   std::size_t guard_count() const { return guard_count_; }
   void guards(double t, std::span<const double> y, std::span<double> g);
@@ -83,7 +89,7 @@ class Equations final : public OdeSystem {
   void fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log);
   double next_edge(double t) const;
   void pass_edge(double t, std::span<double> y, std::vector<Event>& log);
-  bool at_standstill(std::size_t shaft) const { return direction_[shaft] == 0; }
+  bool at_standstill(std::size_t shaft) const { return modes_.direction[shaft] == 0; }
   // Gives whatever owns these guards a law without events, for good. What changed, in words; empty: nothing can.
   std::string regularise(const std::vector<std::size_t>& guards);
   std::string guard_owner(std::size_t guard) const;
@@ -100,7 +106,7 @@ class Equations final : public OdeSystem {
 
   // --- angles ---
   // Angles are kept from 4π · first on (usually 0): a run that confirms another one looks up every law elsewhere.
-  void keep_angles_from(int first) { first_two_turns_ = first; }
+  void keep_angles_from(double first) { modes_.first_two_turns = first; }
   // Takes whole multiples of two turns out of the angles; true if any changed.
   bool wrap(std::span<double> y);
   bool needs_wrap(std::span<const double> y) const;
@@ -141,6 +147,7 @@ class Equations final : public OdeSystem {
   };
   std::size_t twists_begin() const { return model_->angle_count(); }
   Instant instant(double t, std::span<const double> y);
+  void look_at(double t, std::span<const double> y, Instant& now);
   double prescribed_speed(std::size_t shaft, double t) const;
   double prescribed_acceleration(std::size_t shaft, double t) const;
   void set_timed_modes(double t);
@@ -161,11 +168,19 @@ class Equations final : public OdeSystem {
   void list_elastic_tree();
   // contacts (equations_contacts.cpp)
   void list_contacts();
-  int& sense(std::size_t contact);
-  int sense(std::size_t contact) const { return const_cast<Equations*>(this)->sense(contact); }
+  template <class SomeModes>
+  static auto& sense_in(SomeModes& modes, const Contact& contact) {
+    const auto index = static_cast<std::size_t>(contact.index);
+    if (contact.kind == Contact::Kind::frame) return modes.direction[index];
+    return contact.kind == Contact::Kind::connection ? modes.slip[index] : modes.loss_direction[index];
+  }
+  int& sense(std::size_t contact) { return sense_in(modes_, contacts_[contact]); }
+  int sense(std::size_t contact) const { return sense_in(modes_, contacts_[contact]); }
   double slip_speed(const Contact& contact, const Instant& now) const;
   void tie_stuck_contacts();
-  double capacity(const Contact& contact, const Hold& hold) const;
+  double capacity(std::size_t contact) const;
+  void find_capacities();
+  bool makes_a_row(std::size_t contact) const;
   bool follow_what_is_carried();
   void add_known_contact_torques();
   void find_accelerations(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
@@ -173,6 +188,7 @@ class Equations final : public OdeSystem {
   const std::string& name_of_row(std::size_t row) const;
   int relation_that_locks() const;
   void publish_contacts(double* work_rate);
+  void look_at_losses(double t, std::span<const double> y);
   void find_holds();
   Hold limits(std::size_t contact) const;
   double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
@@ -222,13 +238,7 @@ class Equations final : public OdeSystem {
   std::vector<ElasticStep> elastic_steps_;
   std::vector<std::size_t> root_angles_;  // tracked angles that the others follow from, one per elastic tree
 
-  // modes, fixed between events
-  std::vector<int> mode_, direction_, prescribed_piece_;
-  std::vector<char> active_;
-  std::vector<double> turns_;  // per tracked angle, in units of two turns
-  double first_two_turns_ = 0;
-  std::vector<int> slip_;  // per elastic joint: sense of slip, 0 = stuck; 1 where there is no contact
-  std::vector<int> loss_direction_, loss_sign_;  // per relation: sense of sliding, sign of λ
+  Modes modes_;  // hold between events
 
   std::vector<Contact> contacts_;  // shafts against the frame first
   Constraints constraints_;
@@ -238,19 +248,13 @@ class Equations final : public OdeSystem {
   std::vector<char> still_;                   // per shaft: tied to the frame
   std::vector<char> coupled_;                 // per shaft: its row mixes with others
   bool tied_ = false;                         // constraints beyond single shafts at standstill
+  bool smooth_ = false;                       // some contact is regularised
   std::vector<double> contact_torque_, relation_torque_, multiplier_, all_alpha_;
   std::vector<double> relation_loss_;
   std::vector<double> free_torque_;  // on the shafts, without what contacts and relations transmit
   std::vector<Hold> slip_hold_;
 
-  // operating sequence
-  struct Command {
-    double value = 1, rate = 0, from = 0, until = -1e300, to = 1;  // value + rate (t − from) until then
-  };
-  std::vector<Command> command_;
   std::vector<double> command_value_;
-  std::size_t next_step_ = 0;
-  double armed_time_ = 1e300, armed_angle_ = 0, last_step_time_ = 0;
 
   // working arrays
   std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_, own_rate_;
@@ -258,6 +262,7 @@ class Equations final : public OdeSystem {
   std::vector<Hold> shaft_hold_, element_hold_;
   // torques that depend on the accelerations; empty where no element reacts
   std::vector<const ElementPool*> reacting_;
+  std::vector<std::unique_ptr<ElementPool::Memory>> reaction_memory_;
   std::vector<double> reaction_alpha_, reaction_torque_, reaction_slope_, reaction_element_;
   std::vector<double> reaction_effective_torque_, reaction_effective_inertia_, reaction_next_;
   // further degrees of freedom of elements; empty where there are none

@@ -97,9 +97,12 @@ void Equations::list_contacts() {
                          .name = relation.component});
   }
   guard_count_ += 2 * contacts_.size() + lossy_.size();
-  slip_.assign(m.elastic.size(), 1);
-  loss_direction_.assign(m.relations.size(), 1);
-  loss_sign_.assign(m.relations.size(), 1);
+  modes_.regularised.assign(contacts_.size(), 0);
+  modes_.carries.assign(contacts_.size(), 0);
+  modes_.capacity.assign(contacts_.size(), 0);
+  modes_.slip.assign(m.elastic.size(), 1);
+  modes_.loss_direction.assign(m.relations.size(), 1);
+  modes_.loss_sign.assign(m.relations.size(), 1);
   relation_torque_.assign(m.relations.size(), 0);
   relation_loss_.assign(m.relations.size(), 0);
   contact_torque_.assign(contacts_.size(), 0);
@@ -112,19 +115,6 @@ void Equations::list_contacts() {
     for (const int s : group.shafts) coupled_[at(s)] = 1;
   constraints_ = Constraints(m.free_shafts);
   tie_stuck_contacts();
-}
-
-int& Equations::sense(std::size_t contact) {
-  const Contact& c = contacts_[contact];
-  switch (c.kind) {
-    case Contact::Kind::frame:
-      return direction_[at(c.index)];
-    case Contact::Kind::connection:
-      return slip_[at(c.index)];
-    case Contact::Kind::loss:
-      break;
-  }
-  return loss_direction_[at(c.index)];
 }
 
 double Equations::slip_speed(const Contact& contact, const Instant& now) const {
@@ -145,11 +135,21 @@ double Equations::effective_inertia(const Contact& contact) {
 }
 
 // Measure of its share where rows repeat: what it can hold the way it carries.
-double Equations::capacity(const Contact& contact, const Hold& hold) const {
-  const double most = contact.carries > 0   ? hold.high
-                      : contact.carries < 0 ? -hold.low
-                                            : std::min(hold.high, -hold.low);
-  return std::clamp(most, least_capacity * contact.torque_scale, most_capacity * contact.torque_scale);
+double Equations::capacity(std::size_t contact) const {
+  const Contact& c = contacts_[contact];
+  const Hold hold = limits(contact);
+  const int carries = modes_.carries[contact];
+  const double most = carries > 0 ? hold.high : carries < 0 ? -hold.low : std::min(hold.high, -hold.low);
+  return std::clamp(most, least_capacity * c.torque_scale, most_capacity * c.torque_scale);
+}
+
+// Of what is stuck, by the holds at the state looked at last.
+void Equations::find_capacities() {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) modes_.capacity[c] = makes_a_row(c) ? capacity(c) : 0;
+}
+
+bool Equations::makes_a_row(std::size_t contact) const {
+  return sense(contact) == 0 && !modes_.regularised[contact] && !is_prescribed(contacts_[contact]);
 }
 
 // A one-way clutch holds its drag one way, and whatever comes the other. True: one carries another way than it was tied
@@ -158,27 +158,28 @@ bool Equations::follow_what_is_carried() {
   if (!tied_ || !constraints_.repeats()) return false;
   bool changed = false;
   for (const std::size_t c : row_contact_) {
-    Contact& contact = contacts_[c];
     const double carried = contact_torque_[c];
-    if (std::abs(carried) <= nothing * contact.torque_scale) continue;
-    const Hold hold = limits(c);
-    const double before = capacity(contact, hold);
-    contact.carries = carried > 0 ? 1 : -1;
-    changed = changed || capacity(contact, hold) != before;
+    if (std::abs(carried) <= nothing * contacts_[c].torque_scale) continue;
+    modes_.carries[c] = carried > 0 ? 1 : -1;
+    changed = changed || capacity(c) != modes_.capacity[c];
   }
   return changed;
 }
 
-// The constraint rows of the present modes, and the shafts that they tie to the frame; shares by the holds as they were
-// found last.
+void Equations::bind(const Modes& modes) {
+  modes_ = modes;
+  tie_stuck_contacts();
+}
+
+// The constraint rows of the present modes, and the shafts that they tie to the frame.
 void Equations::tie_stuck_contacts() {
   const Model& m = *model_;
   std::vector<ConstraintRow> rows;
   for (std::size_t r = 0; r < m.relations.size(); ++r) {
     const ShaftRelation& relation = m.relations[r];
     ConstraintRow row{relation.motion, minus(relation.motion), most_capacity * m.torque_scale};
-    if (!relation.loss.empty() && loss_direction_[r] != 0) {
-      const GearLoss::Line& line = relation.in_motion.line(loss_direction_[r], loss_sign_[r]);
+    if (!relation.loss.empty() && modes_.loss_direction[r] != 0) {
+      const GearLoss::Line& line = relation.in_motion.line(modes_.loss_direction[r], modes_.loss_sign[r]);
       for (const ShaftGain& g : relation.loss) row.torque.push_back({g.shaft, line.slope * g.gain});
     }
     rows.push_back(std::move(row));
@@ -186,10 +187,11 @@ void Equations::tie_stuck_contacts() {
   row_contact_.clear();
   tied_ = !rows.empty();
   std::fill(still_.begin(), still_.end(), 0);
+  smooth_ = std::count(modes_.regularised.begin(), modes_.regularised.end(), 1) > 0;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (!makes_a_row(c)) continue;
     const Contact& contact = contacts_[c];
-    if (sense(c) != 0 || contact.regularised || is_prescribed(contact)) continue;
-    rows.push_back({contact.motion, contact.torque, capacity(contact, limits(c))});
+    rows.push_back({contact.motion, contact.torque, modes_.capacity[c]});
     row_contact_.push_back(c);
     tied_ = tied_ || contact.kind != Contact::Kind::frame;
   }
@@ -214,12 +216,14 @@ void Equations::tie_stuck_contacts() {
 void Equations::add_known_contact_torques() {
   const Model& m = *model_;
   for (const int r : lossy_)
-    if (loss_direction_[at(r)] != 0) {
+    if (modes_.loss_direction[at(r)] != 0) {
       const GearLoss& loss = m.relations[at(r)].in_motion;
-      add_over(m.relations[at(r)].loss, loss.line(loss_direction_[at(r)], loss_sign_[at(r)]).offset, torque_);
+      add_over(m.relations[at(r)].loss, loss.line(modes_.loss_direction[at(r)], modes_.loss_sign[at(r)]).offset,
+               torque_);
     }
+  if (smooth_) find_holds();
   for (std::size_t c = 0; c < contacts_.size(); ++c)
-    if (contacts_[c].regularised) {
+    if (modes_.regularised[c]) {
       contact_torque_[c] = regularised_torque(c, snapshot_.now);
       add_over(contacts_[c].torque, contact_torque_[c], torque_);
     }
@@ -293,16 +297,16 @@ void Equations::publish_contacts(double* work_rate) {
   const Model& m = *model_;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
-    if (contact.kind == Contact::Kind::connection && (contact.regularised || sense(c) == 0)) {
+    if (contact.kind == Contact::Kind::connection && (modes_.regularised[c] || sense(c) == 0)) {
       connection_torque_[at(contact.index)] = contact_torque_[c];
-      if (!contact.regularised) {
+      if (!modes_.regularised[c]) {
         add_over(contact.torque, contact_torque_[c], torque_);
       } else {
         const double rate = slip_speed(contact, snapshot_.now);
         snapshot_.sums.twist_rate[contact.index] = rate;
         if (work_rate) work_rate[m.elastic[at(contact.index)].loss_account] -= contact_torque_[c] * rate;
       }
-    } else if (contact.kind == Contact::Kind::frame && contact.regularised && work_rate) {
+    } else if (contact.kind == Contact::Kind::frame && modes_.regularised[c] && work_rate) {
       // The work of a regularised standstill goes to the first element that holds there.
       for (std::size_t e = 0; e < m.network.elements.size(); ++e)
         if (m.shaft_of_node[at(m.network.elements[e].node)] == contact.index &&
@@ -316,14 +320,14 @@ void Equations::publish_contacts(double* work_rate) {
     const ShaftRelation& relation = m.relations[r];
     add_over(relation.motion, -relation_torque_[r], torque_);
     if (relation.loss.empty()) continue;
-    if (loss_direction_[r] != 0) {
-      const GearLoss::Line& line = relation.in_motion.line(loss_direction_[r], loss_sign_[r]);
+    if (modes_.loss_direction[r] != 0) {
+      const GearLoss::Line& line = relation.in_motion.line(modes_.loss_direction[r], modes_.loss_sign[r]);
       relation_loss_[r] = line.slope * relation_torque_[r] + line.offset;
       add_over(relation.loss, line.slope * relation_torque_[r], torque_);  // the offset is in already
     } else {
       const std::size_t c = contact_of_loss_[r];
       relation_loss_[r] = contact_torque_[c];
-      if (!contacts_[c].regularised) add_over(relation.loss, relation_loss_[r], torque_);
+      if (!modes_.regularised[c]) add_over(relation.loss, relation_loss_[r], torque_);
     }
     if (work_rate)
       work_rate[relation.loss_account] -= relation_loss_[r] * sum_over(relation.sliding, snapshot_.now.speed);
@@ -359,7 +363,7 @@ Hold Equations::limits(std::size_t contact) const {
 
 // Positive while the flank that the mode says is the one that carries.
 double Equations::flank_margin(std::size_t relation) const {
-  const int direction = loss_direction_[relation], sign = loss_sign_[relation];
+  const int direction = modes_.loss_direction[relation], sign = modes_.loss_sign[relation];
   const GearLoss& loss = model_->relations[relation].in_motion;
   const GearLoss::Line& line = loss.line(direction, sign);
   const double passed = relation_torque_[relation] - (line.slope * relation_torque_[relation] + line.offset);
@@ -383,14 +387,16 @@ double Equations::regularised_torque(std::size_t contact, const Instant& now, do
 // Where the present modes of these contacts fit least, and what would be better there. Evaluates the model.
 Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, const std::vector<std::size_t>& among,
                                           double* total) {
-  for (const auto& pool : model_->pools) pool->follow_directions(instant(t, y), mode_.data());
+  for (const auto& pool : model_->pools) pool->follow_directions(instant(t, y), modes_.piece.data());
   snapshot_.now = instant(t, y);
   find_holds();
+  find_capacities();
   tie_stuck_contacts();
   try {
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     find_holds();
     if (follow_what_is_carried()) {
+      find_capacities();
       tie_stuck_contacts();
       evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     }
@@ -429,10 +435,10 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
     if (size > worst.size) worst = {size, which, better};
   };
   if (const int r = relation_that_locks(); r >= 0)  // no torques go with these modes
-    consider(HUGE_VAL, contacts_.size() + at(r), -loss_sign_[at(r)]);
+    consider(HUGE_VAL, contacts_.size() + at(r), -modes_.loss_sign[at(r)]);
   for (const std::size_t c : among) {
     const Contact& contact = contacts_[c];
-    if (contact.regularised) continue;
+    if (modes_.regularised[c]) continue;
     const int now = sense(c);
     if (now == 0) {
       const Hold hold = limits(c);
@@ -446,8 +452,8 @@ Equations::Misfit Equations::worst_misfit(double t, std::span<const double> y, c
     }
   }
   for (const int r : lossy_) {
-    if (loss_direction_[at(r)] == 0) continue;
-    consider(-flank_margin(at(r)) - nothing, contacts_.size() + at(r), -loss_sign_[at(r)]);
+    if (modes_.loss_direction[at(r)] == 0) continue;
+    consider(-flank_margin(at(r)) - nothing, contacts_.size() + at(r), -modes_.loss_sign[at(r)]);
   }
   return worst;
 }
@@ -457,6 +463,7 @@ void Equations::tie_speeds(double t, std::span<double> y) {
   const Model& m = *model_;
   snapshot_.now = instant(t, y);
   find_holds();
+  find_capacities();
   tie_stuck_contacts();
   evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);  // for the inertias
   std::vector<double> speed(snapshot_.now.speed, snapshot_.now.speed + m.shafts.size());
@@ -482,7 +489,7 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
   for (std::size_t c = 0; c < contacts_.size(); ++c) before[c] = sense(c);
   std::set<std::size_t> open;
   for (std::size_t c = 0; c < contacts_.size(); ++c)
-    if (sense(c) == 0 && !contacts_[c].regularised && !is_prescribed(contacts_[c])) open.insert(c);
+    if (sense(c) == 0 && !modes_.regularised[c] && !is_prescribed(contacts_[c])) open.insert(c);
   for (const std::size_t c : stopped) open.insert(c), sense(c) = 0;
   std::vector<std::size_t> always(stopped.begin(), stopped.end());
   for (const auto& [c, direction] : forced) open.insert(c), always.push_back(c), sense(c) = direction;
@@ -490,6 +497,7 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
   if (among.empty() && lossy_.empty()) {
     snapshot_.now = instant(t, y);
     find_holds();
+    find_capacities();
     return tie_stuck_contacts();
   }
   if (!stopped.empty()) tie_speeds(t, y);
@@ -504,12 +512,12 @@ void Equations::settle_contacts(double t, std::span<double> y, const std::vector
     }
     std::vector<int> modes;
     for (const std::size_t c : among) modes.push_back(sense(c));
-    modes.insert(modes.end(), loss_sign_.begin(), loss_sign_.end());
+    modes.insert(modes.end(), modes_.loss_sign.begin(), modes_.loss_sign.end());
     if (!seen.insert(modes).second) break;  // it goes in circles
     if (misfit.contact < contacts_.size())
       sense(misfit.contact) = misfit.better;
     else
-      loss_sign_[misfit.contact - contacts_.size()] = misfit.better;
+      modes_.loss_sign[misfit.contact - contacts_.size()] = misfit.better;
   }
   if (!fits) fits = try_all_modes(t, y, among, {});
   if (fits) release_otherwise(t, y, among, forced);
@@ -540,7 +548,7 @@ bool Equations::try_all_modes(double t, std::span<const double> y, const std::ve
       set /= 3;
     }
     for (const int r : lossy_) {
-      loss_sign_[at(r)] = set % 2 == 0 ? 1 : -1;
+      modes_.loss_sign[at(r)] = set % 2 == 0 ? 1 : -1;
       set /= 2;
     }
   };
@@ -567,11 +575,11 @@ bool Equations::release_otherwise(double t, std::span<const double> y, const std
   if (fixed.empty()) return false;
   std::vector<int> senses;
   for (const std::size_t c : among) senses.push_back(sense(c));
-  const std::vector<int> signs = loss_sign_;
+  const std::vector<int> signs = modes_.loss_sign;
   for (const auto& [c, direction] : forced) sense(c) = direction;
   if (try_all_modes(t, y, among, fixed)) return true;
   for (std::size_t k = 0; k < among.size(); ++k) sense(among[k]) = senses[k];
-  loss_sign_ = signs;
+  modes_.loss_sign = signs;
   worst_misfit(t, y, among);
   return false;
 }
@@ -646,7 +654,7 @@ bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::s
   const Model& m = *model_;
   std::vector<std::size_t> stopped;
   const auto stop = [&](std::size_t c) {
-    if (sense(c) != 0 && !contacts_[c].regularised && !is_prescribed(contacts_[c])) stopped.push_back(c);
+    if (sense(c) != 0 && !modes_.regularised[c] && !is_prescribed(contacts_[c])) stopped.push_back(c);
   };
   for (const std::size_t guard : guards) {
     if (guard < contact_guards_begin()) continue;
@@ -672,7 +680,7 @@ bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::s
   for (const std::size_t c : stopped)
     log.push_back({t, contacts_[c].name, "jams: no acceleration satisfies its friction; it stops at once"});
   settle_contacts(t, y, stopped, {}, &log);
-  for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), modes_.piece.data());
   return true;
 }
 
@@ -704,7 +712,7 @@ std::vector<std::string> Equations::held(double t, std::span<const double> y) {
   find_holds();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = contacts_[c];
-    if (sense(c) != 0 || contact.regularised || is_prescribed(contact) || contact.kind == Contact::Kind::connection)
+    if (sense(c) != 0 || modes_.regularised[c] || is_prescribed(contact) || contact.kind == Contact::Kind::connection)
       continue;
     const Hold hold = limits(c);
     const double acts = contact_torque_[c];
@@ -725,7 +733,7 @@ std::vector<std::string> Equations::held(double t, std::span<const double> y) {
 void Equations::contact_guards(double t, std::span<const double> y, double* g) {
   const Instant now = instant(t, y);
   bool stuck = !lossy_.empty();
-  for (std::size_t c = 0; c < contacts_.size() && !stuck; ++c) stuck = sense(c) == 0 && !contacts_[c].regularised;
+  for (std::size_t c = 0; c < contacts_.size() && !stuck; ++c) stuck = sense(c) == 0 && !modes_.regularised[c];
   if (stuck) {
     evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
     find_holds();
@@ -735,7 +743,7 @@ void Equations::contact_guards(double t, std::span<const double> y, double* g) {
     double* const own = g + 2 * c;
     own[0] = own[1] = 1;
     const int direction = sense(c);
-    if (contact.regularised) {
+    if (modes_.regularised[c]) {
       own[0] = creep_ends - std::abs(slip_speed(contact, now)) / contact.speed_scale;
     } else if (direction != 0) {
       own[0] = direction * slip_speed(contact, now) / contact.speed_scale;
@@ -748,7 +756,7 @@ void Equations::contact_guards(double t, std::span<const double> y, double* g) {
     }
   }
   double* sign = g + 2 * contacts_.size();
-  for (const int r : lossy_) *sign++ = loss_direction_[at(r)] == 0 ? 1 : flank_margin(at(r));
+  for (const int r : lossy_) *sign++ = modes_.loss_direction[at(r)] == 0 ? 1 : flank_margin(at(r));
 }
 
 // Rows of tied shafts: ∂α = W ∂(M − I α), W = mobility. Comes before the division by the inertia, which these rows
@@ -764,7 +772,7 @@ void Equations::mix_coupled_rows(std::span<double> values) {
     return nullptr;
   };
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    if (!contacts_[c].regularised) continue;
+    if (!modes_.regularised[c]) continue;
     double slope = 0;
     regularised_torque(c, snapshot_.now, &slope);
     for (const ShaftGain& to : contacts_[c].torque)
@@ -811,8 +819,8 @@ std::string Equations::guard_owner(std::size_t guard) const {
   std::size_t p = model_->pools.size() - 1;
   while (guard_begin_[p] > guard) --p;
   Instant modes;
-  modes.mode = mode_.data();
-  modes.direction = direction_.data();
+  modes.mode = modes_.piece.data();
+  modes.direction = modes_.direction.data();
   return model_->pools[p]->label(static_cast<int>(guard - guard_begin_[p]), modes).component;
 }
 
@@ -823,15 +831,16 @@ std::string Equations::regularise(const std::vector<std::size_t>& guards) {
     if (guard >= first) {
       const std::size_t local = guard - first;
       if (local >= 2 * contacts_.size()) continue;
-      Contact& contact = contacts_[local / 2];
+      const Contact& contact = contacts_[local / 2];
       if (contact.kind == Contact::Kind::loss || is_prescribed(contact)) continue;
-      contact.regularised = true;
+      modes_.regularised[local / 2] = true;
+      modes_.capacity[local / 2] = 0;
       sense(local / 2) = 0;
       changed.insert(fmt::format("{} (creeps with up to {:.2g} of its speed scale)", contact.name, creep));
     } else {
       std::size_t p = model_->pools.size() - 1;
       while (guard_begin_[p] > guard) --p;
-      if (model_->pools[p]->regularise(static_cast<int>(guard - guard_begin_[p]), mode_.data()))
+      if (model_->pools[p]->regularise(static_cast<int>(guard - guard_begin_[p]), modes_.piece.data()))
         changed.insert(guard_owner(guard));
     }
   }

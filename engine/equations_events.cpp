@@ -20,6 +20,7 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
 
 void Equations::fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log) {
   const Model& m = *model_;
+  look_at_losses(t, y);
   const std::size_t contacts_begin = contact_guards_begin();
   std::vector<std::size_t> stopped;
   std::vector<std::pair<std::size_t, int>> released;
@@ -29,10 +30,10 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
       if (local >= 2 * contacts_.size() + lossy_.size()) {
         take_steps(t, y, &log);
       } else if (local >= 2 * contacts_.size()) {
-        int& sign = loss_sign_[static_cast<std::size_t>(lossy_[local - 2 * contacts_.size()])];
+        int& sign = modes_.loss_sign[static_cast<std::size_t>(lossy_[local - 2 * contacts_.size()])];
         sign = -sign;
-      } else if (contacts_[contact].regularised) {
-        contacts_[contact].regularised = false;
+      } else if (modes_.regularised[contact]) {
+        modes_.regularised[contact] = false;
         released.emplace_back(contact, slip_speed(contacts_[contact], instant(t, y)) > 0 ? 1 : -1);
       } else if (is_prescribed(contacts_[contact])) {
         const double v = slip_speed(contacts_[contact], instant(t, y));
@@ -49,7 +50,7 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
     while (guard_begin_[p] > guard) --p;
     const int local = static_cast<int>(guard - guard_begin_[p]);
     const std::string before = m.pools[p]->label(local, instant(t, y)).what;
-    m.pools[p]->fire(instant(t, y), local, mode_.data());
+    m.pools[p]->fire(instant(t, y), local, modes_.piece.data());
     const GuardLabel label = m.pools[p]->label(local, instant(t, y));
     // Edges over the angle are told as such; elsewhere a label names the mode.
     const bool edge = m.pools[p]->guards_are_of_angle();
@@ -57,28 +58,39 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
       log.push_back({t, label.component, label.what, edge ? "" : before});
   }
   settle_contacts(t, y, stopped, released, &log);
-  for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->follow_directions(instant(t, y), modes_.piece.data());
 }
 
 double Equations::next_edge(double t) const {
   double next = std::numeric_limits<double>::infinity();
   for (const auto& pool : model_->pools) next = std::min(next, pool->next_edge(t));
   for (const PrescribedSpeed& given : model_->network.prescribed) next = std::min(next, given.next_edge(t));
-  for (const Command& command : command_)
+  for (const Command& command : modes_.command)
     if (command.rate != 0) next = std::min(next, command.until);
-  return std::min(next, armed_time_);
+  return std::min(next, modes_.armed_time);
+}
+
+// What gears lose by their present torques is asked for by what comes next; nothing may hang on who asked last.
+void Equations::look_at_losses(double t, std::span<const double> y) {
+  if (lossy_.empty()) return;
+  try {
+    evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  } catch (const Jam&) {  // which is why these modes change
+  }
 }
 
 void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log) {
-  const std::vector<char> before = active_;
-  for (Command& command : command_)
+  look_at_losses(t, y);
+  const std::vector<char> before = modes_.active;
+  for (Command& command : modes_.command)
     if (command.rate != 0 && command.until <= t) command = {.value = command.to, .to = command.to};
   set_timed_modes(t);
-  for (std::size_t e = 0; e < active_.size(); ++e)
-    if (active_[e] != before[e])
-      log.push_back({t, model_->network.elements[e].component, active_[e] ? "on" : "off", before[e] ? "on" : "off"});
+  for (std::size_t e = 0; e < modes_.active.size(); ++e)
+    if (modes_.active[e] != before[e])
+      log.push_back(
+          {t, model_->network.elements[e].component, modes_.active[e] ? "on" : "off", before[e] ? "on" : "off"});
   tell_switched(t, y, before);
-  if (armed_time_ <= t) take_steps(t, y, &log);
+  if (modes_.armed_time <= t) take_steps(t, y, &log);
   settle_contacts(t, y, {}, {}, &log);
 }
 

@@ -106,10 +106,11 @@ std::vector<double> Equations::shaft_angles_by_twist(std::size_t elastic) const 
 // All modes anew for a state; turns are counted from here.
 void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   const Model& m = *model_;
-  std::fill(turns_.begin(), turns_.end(), 0.0);
-  std::fill(mode_.begin(), mode_.end(), 0);  // a law that lost its events in an earlier run has them again
+  std::fill(modes_.turns.begin(), modes_.turns.end(), 0.0);
+  std::fill(modes_.piece.begin(), modes_.piece.end(),
+            0);  // a law that lost its events in an earlier run has them again
   // Where several sets of modes fit, the search for one must not begin at what an earlier run ended with.
-  std::fill(loss_sign_.begin(), loss_sign_.end(), 1);
+  std::fill(modes_.loss_sign.begin(), modes_.loss_sign.end(), 1);
   std::fill(relation_torque_.begin(), relation_torque_.end(), 0);
   std::fill(relation_loss_.begin(), relation_loss_.end(), 0);
   std::fill(contact_torque_.begin(), contact_torque_.end(), 0);
@@ -121,10 +122,11 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const double v = slip_speed(contacts_[c], now);
     sense(c) = std::abs(v) <= at_rest * contacts_[c].speed_scale ? 0 : v > 0 ? 1 : -1;
-    contacts_[c].regularised = false;
+    modes_.regularised[c] = false;
+    modes_.carries[c] = 0;
     if (sense(c) == 0 && !is_prescribed(contacts_[c])) still.push_back(c);
   }
-  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), modes_.piece.data());
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   if (equilibrium) balance_twists(y, t);
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
@@ -135,7 +137,7 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   }
   settle_contacts(t, y, still, {}, nullptr);
   refuse_impossible_slip(t, y);
-  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), modes_.piece.data());
 }
 
 // A contact that can only ever hold in the sense in which it slips: the sides would have to hit each other.
@@ -192,27 +194,28 @@ std::vector<double> Equations::modes_from_scratch(double t, double reduction_ang
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * reduction_angle;
   for (std::size_t s = 0; s < m.free_shafts; ++s)
     y[speed_index(static_cast<int>(s))] = reduction_speed * m.node_ratio[at(m.shafts[s].reference)];
-  std::fill(turns_.begin(), turns_.end(), 0.0);
+  std::fill(modes_.turns.begin(), modes_.turns.end(), 0.0);
   wrap(y);
   set_timed_modes(t);
   const auto speed = [&](int s) { return reduction_speed * m.node_ratio[at(m.shafts[at(s)].reference)]; };
-  for (const int s : directional_) direction_[at(s)] = speed(s) > 0 ? 1 : speed(s) < 0 ? -1 : 0;
-  for (std::size_t i = 0; i < m.elastic.size(); ++i) slip_[i] = m.elastic[i].slips ? 0 : 1;  // clutches locked
+  for (const int s : directional_) modes_.direction[at(s)] = speed(s) > 0 ? 1 : speed(s) < 0 ? -1 : 0;
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) modes_.slip[i] = m.elastic[i].slips ? 0 : 1;  // clutches locked
   for (const int r : lossy_) {
     double sliding = 0;
     for (const ShaftGain& g : m.relations[at(r)].sliding) sliding += g.gain * speed(g.shaft);
-    loss_direction_[at(r)] = sliding >= 0 ? 1 : -1;
+    modes_.loss_direction[at(r)] = sliding >= 0 ? 1 : -1;
   }
-  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : m.pools) pool->first_modes(instant(t, y), modes_.piece.data());
   for (const auto& pool : m.pools) pool->first_states(instant(t, y), y.data() + own_begin());
   snapshot_.now = instant(t, y);
   find_holds();
+  find_capacities();
   tie_stuck_contacts();
   return y;
 }
 
 void Equations::modes_at(double t, std::span<const double> y) {
-  for (const auto& pool : model_->pools) pool->first_modes(instant(t, y), mode_.data());
+  for (const auto& pool : model_->pools) pool->first_modes(instant(t, y), modes_.piece.data());
 }
 
 // Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.

@@ -105,13 +105,15 @@ void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
 }
 
 void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  begin_ = t;
   record(t, equations.snapshot(t, y));
 }
 
 void TrajectoryRecorder::step(StepView& view) {
   while (time_.size() < at(rows_)) {
-    const double next =
-        time_.size() + 1 == at(rows_) ? until_ : until_ * static_cast<double>(time_.size()) / (rows_ - 1);
+    const double next = time_.size() + 1 == at(rows_)
+                            ? until_
+                            : begin_ + (until_ - begin_) * static_cast<double>(time_.size()) / (rows_ - 1);
     if (next > view.t()) return;
     record(next, view.snapshot(next));
   }

@@ -31,7 +31,7 @@ class TrajectoryRecorder final : public Observer {
  private:
   void record(double t, const Snapshot& snapshot);
   std::vector<Channel> channels_;
-  double until_;
+  double begin_ = 0, until_;
   int rows_;
   std::vector<double> time_, values_;
 };

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -51,7 +50,7 @@ constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
 // Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
 // ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
 // Counted in steps, not in seconds, so that a run repeats bit for bit.
-constexpr int held_steps_before_trial = 200;
+const int held_steps_before_trial = LoopMemory{}.held_needed;
 constexpr int trial_warm_up = 30, trial_length = 60;
 constexpr double implicit_step_cost = 3;
 
@@ -98,6 +97,8 @@ class Loop {
     std::string& reason = out_.statistics.reason;
     if (options_.method != "auto") {
       reason = "asked for";
+      if (method_ == Method::work_equation && (options_.checkpoint || options_.to_go_on))
+        refuse_method("it goes over the angle, and keeps no state to go on from");
       if (method_ == Method::work_equation)
         if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty()) refuse_method(why);
       if (method_ == Method::fehlberg_87)
@@ -135,7 +136,8 @@ class Loop {
   // Where inertia or torques vary with the angle, over more than a few turns.
   bool work_equation_pays() const {
     const Model& m = equations_.model();
-    if (options_.from || options_.stop || options_.extension || options_.elsewhere) return false;
+    if (options_.from || options_.checkpoint || options_.to_go_on) return false;
+    if (options_.stop || options_.extension || options_.elsewhere) return false;
     if (!m.elastic.empty() || m.free_shafts != 1) return false;
     if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
     if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
@@ -143,11 +145,36 @@ class Loop {
   }
 
   void start() {
+    if (options_.checkpoint) return go_on(*options_.checkpoint);
     const double t = options_.from ? options_.from->t : 0;
     const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
     out_.limits.begin(system_.size(), guard_.size());
     make(method_, t, y);
     for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
+  }
+
+  void go_on(const Checkpoint& checkpoint) {
+    const double first_two_turns = equations_.modes().first_two_turns;
+    equations_.bind(checkpoint.state.modes);
+    equations_.keep_angles_from(first_two_turns);
+    std::vector<double> y = checkpoint.state.y;
+    y.insert(y.end(), checkpoint.integrals.begin(), checkpoint.integrals.end());
+    y.resize(system_.size());
+    equations_.wrap(y);  // angles may be kept elsewhere now
+    memory_ = checkpoint.loop;
+    if (options_.method == "auto" && memory_.implicit) method_ = implicit_;
+    out_.limits.begin(system_.size(), guard_.size());
+    make(method_, checkpoint.state.t, y);
+    for (Observer* observer : observers_) observer->begin(checkpoint.state.t, stepper_->y(), equations_);
+  }
+
+  Checkpoint checkpoint() const {
+    Checkpoint here{{out_.t, out_.state, equations_.modes()}, {}, memory_};
+    const std::size_t states = equations_.size() - (equations_.audit() ? equations_.integral_count() : 0);
+    here.integrals.assign(out_.state.begin() + static_cast<std::ptrdiff_t>(states), out_.state.end());
+    here.state.y.resize(states);
+    here.loop.implicit = options_.method == "auto" && before_jam_.value_or(method_) == implicit_;
+    return here;
   }
 
   void make(Method method, double t, std::span<const double> y) {
@@ -209,7 +236,7 @@ class Loop {
   // One step with all that happens at its end. False: the run ends here.
   bool advance() {
     look_at_time();
-    const double until = shortened_ > 0 ? std::min(limit(), stepper_->t() + shortened_) : limit();
+    const double until = memory_.shortened > 0 ? std::min(limit(), stepper_->t() + memory_.shortened) : limit();
     try {
       stepper_->step(until);
     } catch (const StepFailure& failure) {
@@ -219,12 +246,12 @@ class Loop {
     }
     if (equations_.jam()) equations_.forget_jam();  // a trial step was too long, no more
     const StepLimit limited_by = stepper_->limited_by();
-    last_step_ = stepper_->t() - stepper_->t_previous();
+    memory_.last_step = stepper_->t() - stepper_->t_previous();
     find_guards(stepper_->t(), stepper_->y(), guard_);
     std::vector<std::size_t> fired = locate_event();
     if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
     if (fired.empty()) {
-      shortened_ = 0;
+      memory_.shortened = 0;
       out_.limits.count(limited_by, stepper_->at_edge() ? StepLimits::Bound::edge : bound_);
     } else {
       out_.limits.count_event(fired.front());
@@ -474,12 +501,14 @@ class Loop {
     const double time = at_begin ? stepper_->t_previous() : t;
     const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
     std::vector<double> y(source.begin(), source.end());
-    events_here_ = time - last_event_ <= 1e-13 * std::max(1.0, std::abs(time)) ? events_here_ + 1 : 0;
-    last_event_ = time;
+    memory_.events_here =
+        time - memory_.last_event <= 1e-13 * std::max(1.0, std::abs(time)) ? memory_.events_here + 1 : 0;
+    memory_.last_event = time;
     ++out_.statistics.events;
     // A motion that ends as soon as it began may be one that a coarse step goes over: it is tried again, shorter.
-    if (at_begin && events_here_ >= 2) shortened_ = std::max(0.1 * last_step_, 1e-12 * std::max(1.0, std::abs(time)));
-    if (events_here_ == events_of_a_jam && !options_.extension) {
+    if (at_begin && memory_.events_here >= 2)
+      memory_.shortened = std::max(0.1 * memory_.last_step, 1e-12 * std::max(1.0, std::abs(time)));
+    if (memory_.events_here == events_of_a_jam && !options_.extension) {
       const std::size_t known = out_.events.size();
       if (equations_.stop_jam(time, y, fired, out_.events)) {
         note_angle(known, y);
@@ -488,7 +517,7 @@ class Loop {
         return true;
       }
     }
-    if (events_here_ > most_events_at_once) {
+    if (memory_.events_here > most_events_at_once) {
       const std::string owner = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : "";
       broken_ = {
           .kind = Breakdown::Kind::restless,
@@ -528,10 +557,10 @@ class Loop {
   bool stop_by_jam() {
     const double t = stepper_->t();
     std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
-    jams_here_ = t - last_jam_ <= 1e-13 * std::max(1.0, std::abs(t)) ? jams_here_ + 1 : 0;
-    last_jam_ = t;
+    memory_.jams_here = t - memory_.last_jam <= 1e-13 * std::max(1.0, std::abs(t)) ? memory_.jams_here + 1 : 0;
+    memory_.last_jam = t;
     const std::size_t known = out_.events.size();
-    if (options_.extension || jams_here_ > events_of_a_jam) return false;
+    if (options_.extension || memory_.jams_here > events_of_a_jam) return false;
     if (!equations_.stop_jam(t, y, {}, out_.events)) return false;
     equations_.forget_jam();
     ++out_.statistics.events;
@@ -555,24 +584,24 @@ class Loop {
   }
 
   bool is_restless(double time, const std::vector<std::size_t>& fired) {
-    recent_.push_back({time, fired});
-    if (recent_.size() <= restless_events) return false;
-    recent_.pop_front();
-    return (time - recent_.front().time) * equations_.model().speed_scale < restless_angle;
+    memory_.recent.push_back({time, fired});
+    if (memory_.recent.size() <= restless_events) return false;
+    memory_.recent.pop_front();
+    return (time - memory_.recent.front().time) * equations_.model().speed_scale < restless_angle;
   }
 
   // The guards that fired most often in the restless stretch lose their events, those that fire now among them.
   void calm(double time, std::vector<std::size_t>& fired) {
     constexpr int most_for_one = static_cast<int>(restless_events / 10);
     std::map<std::size_t, int> times;
-    for (const Recent& event : recent_)
+    for (const LoopMemory::Recent& event : memory_.recent)
       for (const std::size_t guard : event.fired)
         if (guard < equations_.guard_count()) ++times[guard];
     std::vector<std::size_t> restless;
     for (const auto& [guard, count] : times)
       if (count > most_for_one) restless.push_back(guard);
-    const double span = time - recent_.front().time;
-    recent_.clear();
+    const double span = time - memory_.recent.front().time;
+    memory_.recent.clear();
     const std::string what = equations_.regularise(restless);
     if (what.empty()) return;
     out_.events.push_back({time, what,
@@ -591,7 +620,7 @@ class Loop {
     const double t = stepper_->t();
     if (method_ == explicit_) {
       held_ = stepper_->held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
-      if (held_ < held_needed_ || left < 5 * held_steps_before_trial * h) return;
+      if (held_ < memory_.held_needed || left < 5 * held_steps_before_trial * h) return;
       explicit_step_ = h;
       implicit_steps_ = held_ = 0;
       change_method(implicit_,
@@ -605,7 +634,7 @@ class Loop {
     trial_begin_ = t;
     implicit_steps_ = trial_warm_up;
     if (mean >= implicit_step_cost * explicit_step_) return;
-    held_needed_ *= 4;
+    memory_.held_needed *= 4;
     change_method(explicit_,
                   fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s",
                               mean, explicit_step_));
@@ -614,7 +643,7 @@ class Loop {
   // Implicit steps that were only tried give way to explicit ones, for good, where they fail. False: none were tried.
   bool leave_implicit(const std::string& why) {
     if (options_.method != "auto" || method_ != implicit_) return false;
-    held_needed_ = std::numeric_limits<int>::max();
+    memory_.held_needed = std::numeric_limits<int>::max();
     change_method(explicit_, fmt::format("implicit steps failed: {}", why));
     return true;
   }
@@ -641,11 +670,12 @@ class Loop {
     if (over.interrupted())
       broken_ = {.t = t, .why = over.what()};
     else
-      broken_ = {.kind = Breakdown::Kind::budget,
-                 .t = t,
-                 .why = fmt::format(
-                     "{}{}. Raise `budget`, loosen `accuracy`, or switch an effect off", over.what(),
-                     last_step_ > 0 ? fmt::format(" (steps of {:.3g} s at the end)", last_step_) : " before any step")};
+      broken_ = {
+          .kind = Breakdown::Kind::budget,
+          .t = t,
+          .why = fmt::format("{}{}. Raise `budget`, loosen `accuracy`, or switch an effect off", over.what(),
+                             memory_.last_step > 0 ? fmt::format(" (steps of {:.3g} s at the end)", memory_.last_step)
+                                                   : " before any step")};
   }
 
   void add_statistics() {
@@ -665,6 +695,7 @@ class Loop {
       out_.t = stepper_->t();
       out_.state.assign(stepper_->y().begin(), stepper_->y().end());
     }
+    if (out_.complete && !options_.extension && method_ != Method::work_equation) out_.checkpoint = checkpoint();
     if (out_.complete && !options_.extension) out_.held = equations_.held(out_.t, out_.state);
     out_.statistics.cpu_seconds = processor_time() - begin_;
     if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
@@ -684,19 +715,13 @@ class Loop {
   std::vector<double> guard_, guard_before_, guard_slope_, guard_slope_before_, probe_, work_, state_;
   bool slopes_known_ = false;  // guard_slope_before_ is that of the step's begin
   bool may_dip_;               // some guard may fall below zero and rise again within a step
-  double begin_ = 0, edge_ = 0, last_event_ = -1;
-  int events_here_ = 0, held_ = 0, held_needed_ = held_steps_before_trial, implicit_steps_ = 0, changes_ = 0;
-  double explicit_step_ = 0, trial_begin_ = 0, last_step_ = 0;
-  struct Recent {
-    double time;
-    std::vector<std::size_t> fired;
-  };
-  std::deque<Recent> recent_;
+  LoopMemory memory_;
+  double begin_ = 0, edge_ = 0;
+  int held_ = 0, implicit_steps_ = 0, changes_ = 0;
+  double explicit_step_ = 0, trial_begin_ = 0;
   std::optional<Method> before_jam_;  // explicit steps go to the jam; this method goes on
-  int steps_to_jam_ = 0, jams_here_ = 0;
-  double last_jam_ = -1;
+  int steps_to_jam_ = 0;
   bool at_begin_ = false;
-  double shortened_ = 0;  // at most this step next; 0: any
   std::int64_t checks_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +16,31 @@
 namespace kurbel {
 
 class WorkTables;
+
+// What the loop remembers from one event to the next.
+struct LoopMemory {
+  struct Recent {
+    double time = 0;
+    std::vector<std::size_t> fired;
+    bool operator==(const Recent&) const = default;
+  };
+  bool implicit = false;                  // "auto" was at its implicit method
+  double last_event = -1, last_jam = -1;  // [s]
+  int events_here = 0, jams_here = 0;     // at one instant
+  double shortened = 0, last_step = 0;    // [s]
+  std::deque<Recent> recent;              // events, where they may find no rest
+  int held_needed = 200;                  // explicit steps that stability holds before implicit ones are tried
+  bool operator==(const LoopMemory&) const = default;
+};
+
+// Where a run can go on, here or in another process: the state, what the audit has integrated so far, and the loop's
+// memory. Whoever goes on starts the stepper anew, so that all who do take the same steps, to the last bit.
+struct Checkpoint {
+  State state;
+  std::vector<double> integrals;  // as the equations order them; empty without an audit
+  LoopMemory loop;
+  bool operator==(const Checkpoint&) const = default;
+};
 
 // A state to begin at; the equations' modes must belong to it.
 struct RunStart {
@@ -41,6 +67,8 @@ struct RunOptions {
   std::shared_ptr<WorkTables> work_tables = nullptr;  // of the model, where runs share them; null: made when needed
   // Begins here rather than where the scene says.
   std::optional<RunStart> from = {};
+  const Checkpoint* checkpoint = nullptr;  // or goes on there
+  bool to_go_on = false;                   // its end must be one to go on from: "auto" takes no method over the angle
   // Ends where this falls through zero (of order one), located exactly; it must not begin at zero.
   std::function<double(double t, std::span<const double> y)> stop = {};
   RunExtension* extension = nullptr;
@@ -105,6 +133,7 @@ struct RunOutcome {
   std::vector<std::string> held;         // what stands at the end: by whom, and what is missing to move on
   RunStatistics statistics;
   StepLimits limits;
+  Checkpoint checkpoint;  // at the end, of a run that is complete
 };
 
 // Never throws for a run that fails on its way: the outcome says so and keeps what was computed.

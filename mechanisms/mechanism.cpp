@@ -293,23 +293,39 @@ CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const
           p.at.direction(now)};
 }
 
-SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state) {
+struct MechanismPool::FrictionMemory final : ElementPool::Memory {
+  std::vector<SliderCrankStatics::Memory> of;  // per mechanism
+  void begin() override {
+    for (SliderCrankStatics::Memory& memory : of) memory.forget();
+  }
+};
+
+std::unique_ptr<ElementPool::Memory> MechanismPool::make_memory() const {
+  auto memory = std::make_unique<FrictionMemory>();
+  memory->of.resize(placed_.size());
+  return memory;
+}
+
+SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state,
+                                                                  SliderCrankStatics::Memory* memory) {
   // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
   if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.slider_force))
     throw Jam("slider-crank: no finite motion to find its joints' friction by", p.at.shaft);
   try {
-    return p.mechanism.joints->friction_torque(state);
+    return memory ? p.mechanism.joints->friction_torque(state, *memory) : p.mechanism.joints->friction_torque(state);
   } catch (Jam& jam) {
     jam.shaft = p.at.shaft;
     throw;
   }
 }
 
-void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums) const {
-  for (const Placed& p : placed_) {
+void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const {
+  auto* const friction = static_cast<FrictionMemory*>(memory);
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
     if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
     const CrankState state = crank_state(p, now, alpha);
-    const auto [torque, slope] = friction_torque(p, state);
+    const auto [torque, slope] = friction_torque(p, state, friction ? &friction->of[k] : nullptr);
     sums.torque[p.at.shaft] -= p.at.gain * torque;
     sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
     sums.element_torque[p.at.id] -= torque;
@@ -326,7 +342,7 @@ void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, c
   const auto torque = [&](double phi, double omega) {
     CrankState s = here;
     s.phi = phi, s.omega = omega, s.slider_force = load_force(p, now, phi, omega);
-    return friction_torque(p, s).torque;
+    return friction_torque(p, s, nullptr).torque;
   };
   constexpr double step = 1e-6;
   const double speed_step = step * std::max(1.0, std::abs(here.omega));

@@ -102,7 +102,8 @@ class MechanismPool final : public ElementPool {
   void register_jacobian(JacobianPattern& pattern) override;
   void add_jacobian(const Instant& now, const double* alpha, double* slots) const override;
   bool reacts() const override { return reacts_; }
-  void add_reactions(const Instant& now, const double* alpha, Reactions& sums) const override;
+  std::unique_ptr<Memory> make_memory() const override;
+  void add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const override;
   int guard_count() const override { return guards_; }
   bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
   void guards(const Instant& now, double* g) const override;
@@ -136,7 +137,9 @@ class MechanismPool final : public ElementPool {
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   double load_force(const Placed& p, const Instant& now) const;
   double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
-  static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state);
+  struct FrictionMemory;
+  static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state,
+                                                            SliderCrankStatics::Memory* memory);
   CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
   void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
   Hold load_hold(const Placed& p, const Instant& now) const;

@@ -1,15 +1,20 @@
 // reduced_mechanism.cpp — tabulates the reduced functions of a mechanism and keeps the tables that were made.
 #include "mechanisms/reduced_mechanism.h"
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <map>
 #include <mutex>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "engine/deadline.h"
 #include "mechanisms/closed_forms.h"
 
 namespace kurbel {
@@ -62,6 +67,57 @@ CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_
   return key;
 }
 
+// Tables that were asked for lately. Each is made once, without a lock: who asks for another one does not wait.
+class TableCache {
+ public:
+  using Table = std::shared_ptr<const ReducedMechanism>;
+
+  template <class Make>
+  Table get(const CacheKey& key, const Make& make) {
+    std::unique_lock lock(mutex_);
+    for (; in_work_.count(key); Deadline::check()) done_.wait_for(lock, std::chrono::milliseconds(20));
+    if (const auto found = entries_.find(key); found != entries_.end()) {
+      found->second.asked = ++asked_;
+      return found->second.table;
+    }
+    in_work_.insert(key);
+    lock.unlock();
+    Table table;
+    try {
+      table = make();
+    } catch (...) {  // whoever waited tries it, too
+      finish(key, nullptr);
+      throw;
+    }
+    finish(key, table);
+    return table;
+  }
+
+ private:
+  struct Entry {
+    Table table;
+    std::uint64_t asked;
+  };
+
+  void finish(const CacheKey& key, Table table) {
+    const std::scoped_lock lock(mutex_);
+    in_work_.erase(key);
+    if (table) {
+      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; };
+      if (entries_.size() >= capacity) entries_.erase(std::min_element(entries_.begin(), entries_.end(), longest_ago));
+      entries_[key] = {std::move(table), ++asked_};
+    }
+    done_.notify_all();
+  }
+
+  static constexpr std::size_t capacity = 256;  // a table is 20 kB … 1 MB
+  std::mutex mutex_;
+  std::condition_variable done_;
+  std::map<CacheKey, Entry> entries_;
+  std::set<CacheKey> in_work_;
+  std::uint64_t asked_ = 0;
+};
+
 std::atomic<bool> rough_tables{false};
 constexpr double rough_tolerance = 1e-3;
 constexpr std::size_t rough_pieces = 16;
@@ -87,18 +143,13 @@ ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,
                                                          std::size_t max_pieces, Extraction extraction) {
   if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::second;
-  static std::mutex mutex;
-  static std::map<CacheKey, std::shared_ptr<const ReducedMechanism>> cache;
-  constexpr std::size_t capacity = 256;  // a table is 20 kB … 1 MB
   const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
   for (const double value : key)
     if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key
-
-  const std::scoped_lock lock(mutex);
-  if (const auto found = cache.find(key); found != cache.end()) return found->second;
-  if (cache.size() == capacity) cache.clear();
-  return cache[key] =
-             std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces, extraction));
+  static TableCache cache;
+  return cache.get(key, [&] {
+    return std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces, extraction));
+  });
 }
 
 }  // namespace kurbel

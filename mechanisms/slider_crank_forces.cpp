@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -154,8 +153,6 @@ double SliderCrankForces::friction_loss() const {
 
 SliderCrankStatics::SliderCrankStatics(const SliderCrankData& data, const SliderCrankJoints& joints)
     : data_(data), joints_(joints), geometry_(data) {
-  static std::atomic<std::uint64_t> made = 0;
-  identity_ = ++made;
   validate(joints);
 }
 
@@ -471,29 +468,37 @@ SliderCrankStatics::FrictionTorque SliderCrankStatics::torque_of(const Table& un
   return {row.dot(solution.q), row.dot(dq)};
 }
 
-// The last position and speed asked about on this thread, and what was found there.
-struct SliderCrankStatics::Remembered {
-  std::uint64_t identity = 0;
+// The position and speed asked about last, and what was found there.
+struct SliderCrankStatics::Memory::Content {
   CrankState state;
   Table unit;
   Law law;
-  bool solved = false;
+  bool any = false, solved = false;
   Solution solution;
   FrictionTorque torque;
 
-  bool is_of(std::uint64_t asked, const CrankState& s) const {
-    return identity == asked && state.phi == s.phi && state.omega == s.omega && state.direction == s.direction &&
+  bool is_of(const CrankState& s) const {
+    return any && state.phi == s.phi && state.omega == s.omega && state.direction == s.direction &&
            state.at_rest == s.at_rest;
   }
 };
+SliderCrankStatics::Memory::Memory() : content_(std::make_unique<Content>()) {}
+SliderCrankStatics::Memory::~Memory() = default;
+SliderCrankStatics::Memory::Memory(Memory&&) noexcept = default;
+void SliderCrankStatics::Memory::forget() { content_->any = false; }
 
 SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state) const {
-  static thread_local Remembered last;
-  if (!last.is_of(identity_, state)) {
-    last.identity = identity_;
+  const Table unit = unit_cases(state.phi);
+  return torque_of(unit, solve_friction(unit, load_column(unit, state), law_at(state), state.phi));
+}
+
+SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state, Memory& memory) const {
+  Memory::Content& last = *memory.content_;
+  if (!last.is_of(state)) {
     last.unit = unit_cases(state.phi);
     last.law = law_at(state);
     last.solved = false;
+    last.any = true;
   } else if (last.solved && last.state.alpha == state.alpha && last.state.slider_force == state.slider_force) {
     return last.torque;
   }
@@ -502,8 +507,7 @@ SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const Cra
   last.solved = false;  // until it is: a jam throws
   last.solution = solve_friction(last.unit, load_column(last.unit, state), last.law, state.phi, near);
   last.solved = true;
-  last.torque = torque_of(last.unit, last.solution);
-  return last.torque;
+  return last.torque = torque_of(last.unit, last.solution);
 }
 
 double SliderCrankStatics::acceleration(CrankState state, double torque, double shaft_inertia) const {

@@ -17,7 +17,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
+#include <memory>
 #include <string>
 
 #include "mechanisms/friction.h"
@@ -140,11 +140,25 @@ class SliderCrankStatics {
   double acceleration(CrankState state, double torque, double shaft_inertia = 0) const;
 
   // What friction adds to the balancing torque, with its derivative by ε; its power is lost. Throws as solve does.
-  // Asked again at the same position and speed, as Newton's method on ε does, it goes on from its last solution.
   struct FrictionTorque {
     double torque = 0, slope = 0;  // [N·m], [kg·m²]
   };
   FrictionTorque friction_torque(const CrankState& state) const;
+  // Asked again and again at one position and speed, as Newton's method on ε does, it goes on from its last solution.
+  // Who asks at another one, or wants an answer that does not hang on what was asked before, begins with a new memory.
+  class Memory {
+   public:
+    Memory();
+    ~Memory();
+    Memory(Memory&&) noexcept;
+    void forget();
+
+   private:
+    friend class SliderCrankStatics;
+    struct Content;
+    std::unique_ptr<Content> content_;
+  };
+  FrictionTorque friction_torque(const CrankState& state, Memory& memory) const;
 
   // Torques within which the mechanism rests under a slider force: low … high; static coefficients. −∞ or +∞ where it
   // locks itself against that direction.
@@ -163,7 +177,6 @@ class SliderCrankStatics {
  private:
   struct Law;  // coefficients and directions at one state
   struct Solution;
-  struct Remembered;
   Law law_at(const CrankState& state) const;
   Column load_column(const Table& unit, const CrankState& state) const;
   FrictionTorque torque_of(const Table& unit, const Solution& solution) const;
@@ -175,7 +188,6 @@ class SliderCrankStatics {
   SliderCrankData data_;
   SliderCrankJoints joints_;
   SliderCrankGeometry geometry_;
-  std::uint64_t identity_;  // of these data, for what friction_torque remembers
 };
 
 }  // namespace kurbel

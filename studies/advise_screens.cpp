@@ -49,7 +49,7 @@ EnergyBase energy_base(const Result& r) {
 }
 
 // The drive with every elastic element flexible and nothing else; none where it cannot be linearised.
-std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
+std::optional<ModesStudy> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
   Effects effects;
   for (const EffectUnit& unit : units)
     if (unit.name.starts_with(elasticity)) effects.elastic.push_back(unit.name.substr(elasticity.size()));
@@ -65,7 +65,7 @@ std::optional<Modes> frequency_domain(const Scene& scene, const std::vector<Effe
 
 class Screening {
  public:
-  Screening(const Result& full, const std::optional<Modes>& modes, double within)
+  Screening(const Result& full, const std::optional<ModesStudy>& modes, double within)
       : full_(full), modes_(modes), within_(within), base_(energy_base(full)) {
     if (modes_) find_quasi_static();
   }
@@ -235,7 +235,7 @@ class Screening {
   }
 
   const Result& full_;
-  const std::optional<Modes>& modes_;
+  const std::optional<ModesStudy>& modes_;
   double within_;
   EnergyBase base_;
   SpeedResponse quasi_static_;
@@ -245,7 +245,7 @@ class Screening {
 
 std::vector<std::vector<Screen>> screens_of(const Scene& scene, const std::vector<EffectUnit>& units,
                                             const Result& full, double within) {
-  const std::optional<Modes> modes = frequency_domain(scene, units);
+  const std::optional<ModesStudy> modes = frequency_domain(scene, units);
   Screening screening(full, modes, within);
   std::vector<std::vector<Screen>> screens;
   for (const EffectUnit& unit : units) screens.push_back(screening.of(unit));

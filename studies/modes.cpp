@@ -50,7 +50,7 @@ class Study {
     return effects;
   }
 
-  Modes result() {
+  ModesStudy result() {
     check_options();
     find_operating_point();
     say("modes", 0);
@@ -419,7 +419,7 @@ class Study {
   Effects effects_;
   std::vector<char> means_judge_;  // per joint without limits: its mean torque bounds its swing
   std::shared_ptr<const Model> model_;
-  Modes found_;
+  ModesStudy found_;
 };
 
 // Enough samples for twice the highest mode shown, within reason.
@@ -542,7 +542,7 @@ double parametric_half_width(double variation, double damping_ratio) {
   return rest > 0 ? std::sqrt(rest) : 0;
 }
 
-Modes find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {
+ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {
   if (scene.run.model == "multibody")
     throw std::invalid_argument("modes belong to the reduced model; set model = \"reduced\" in [run]");
   const Deadline deadline(scene.run.budget, options.interrupted);

@@ -93,7 +93,7 @@ struct TorqueHistory {
   std::string diagnosis;
 };
 
-struct Modes {
+struct ModesStudy {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
   UndampedModes undamped;
@@ -118,7 +118,7 @@ struct Modes {
 
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
 // senseless; std::runtime_error where modes cannot be found.
-Modes find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
+ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
 
 // Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
 double parametric_half_width(double variation, double damping_ratio);

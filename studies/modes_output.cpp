@@ -34,7 +34,7 @@ std::string torque_text(double value) {
 }
 
 // Worst barred range: the one that exceeds its limit most.
-const BarredRange* worst_of(const Modes& m) {
+const BarredRange* worst_of(const ModesStudy& m) {
   const BarredRange* worst = nullptr;
   for (const BarredRange& b : m.barred)
     if (!worst || b.peak / b.limit > worst->peak / worst->limit) worst = &b;
@@ -48,9 +48,9 @@ std::size_t joint_with_largest_swing(const SpeedResponse& s) {
   return best;
 }
 
-bool is_forced(const Modes& m) { return !m.excitations.by_order.empty() || !m.excitations.by_frequency.empty(); }
+bool is_forced(const ModesStudy& m) { return !m.excitations.by_order.empty() || !m.excitations.by_frequency.empty(); }
 
-std::string conclusion_of(const Modes& m) {
+std::string conclusion_of(const ModesStudy& m) {
   std::string text;
   if (m.modes.empty()) {
     text = "The drive has no mode with twist.";
@@ -92,7 +92,7 @@ std::string largest_shares(const std::vector<double>& share, const std::vector<s
   return text;
 }
 
-Rows mode_rows(const Modes& m) {
+Rows mode_rows(const ModesStudy& m) {
   Rows rows = {{"mode", "f [Hz]", "f damped [Hz]", "ζ", "twist energy in", "kinetic energy in"}};
   for (const Mode& mode : m.modes)
     rows.push_back({std::to_string(mode.number), number(hertz(mode.omega), 8),
@@ -103,7 +103,7 @@ Rows mode_rows(const Modes& m) {
   return rows;
 }
 
-Rows response_rows(const Modes& m) {
+Rows response_rows(const ModesStudy& m) {
   Rows rows = {{"joint", "mean [N·m]", "peak of swing [N·m]", "Σ of amplitudes", "RMS", "strongest order",
                 "its amplitude", "dissipated [W]"}};
   for (std::size_t j = 0; j < m.here.joints.size() && j < 40; ++j) {
@@ -115,7 +115,7 @@ Rows response_rows(const Modes& m) {
   return rows;
 }
 
-std::vector<CriticalSpeed> strongest_critical(const Modes& m, std::size_t count) {
+std::vector<CriticalSpeed> strongest_critical(const ModesStudy& m, std::size_t count) {
   std::vector<CriticalSpeed> list = m.critical;
   std::stable_sort(list.begin(), list.end(),
                    [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.amplitude > b.amplitude; });
@@ -124,7 +124,7 @@ std::vector<CriticalSpeed> strongest_critical(const Modes& m, std::size_t count)
   return list;
 }
 
-Rows critical_rows(const Modes& m, std::size_t count) {
+Rows critical_rows(const ModesStudy& m, std::size_t count) {
   Rows rows = {{"speed [1/min]", "mode", "order", "amplitude of that order [N·m]", "in"}};
   for (const CriticalSpeed& c : strongest_critical(m, count))
     rows.push_back({number(rpm(c.speed), 6), std::to_string(c.mode), number(c.order, 4), number(c.amplitude, 5),
@@ -132,7 +132,7 @@ Rows critical_rows(const Modes& m, std::size_t count) {
   return rows;
 }
 
-Rows barred_rows(const Modes& m) {
+Rows barred_rows(const ModesStudy& m) {
   Rows rows = {{"joint", "barred because of", "from [1/min]", "to [1/min]", "largest [N·m]", "limit there [N·m]"}};
   for (const BarredRange& b : m.barred)
     rows.push_back({m.joint_names[b.joint], b.reason, number(rpm(b.from), 5), number(rpm(b.to), 5), number(b.peak, 5),
@@ -140,7 +140,7 @@ Rows barred_rows(const Modes& m) {
   return rows;
 }
 
-Rows zone_rows(const Modes& m) {
+Rows zone_rows(const ModesStudy& m) {
   Rows rows = {{"mode", "order of the inertia", "around [1/min]", "variation ε", "half width [1/min]", "state"}};
   for (const ParametricZone& z : m.zones)
     rows.push_back({std::to_string(z.mode), number(m.excitations.order(z.harmonic), 4), number(rpm(z.centre), 6),
@@ -149,7 +149,7 @@ Rows zone_rows(const Modes& m) {
   return rows;
 }
 
-Rows verdict_rows(const Modes& m) {
+Rows verdict_rows(const ModesStudy& m) {
   Rows rows = {{"component", "requirement", "note", "value", "limit", "use"}};
   for (const Verdict& v : m.verdicts) {
     const ReadableUnit unit = readable_unit(v.limit, v.unit);
@@ -179,18 +179,18 @@ Rows rainflow_rows(const TorqueHistory& h) {
   return rows;
 }
 
-std::string point_text(const Modes& m) {
+std::string point_text(const ModesStudy& m) {
   return fmt::format("linearised at {:.6g} 1/min of {}; {}", rpm(m.drive.at.speed), m.link, m.drive.mode_set);
 }
 
-std::string method_text(const Modes& m) {
+std::string method_text(const ModesStudy& m) {
   return fmt::format("{}, {} coordinate{}; residual {:.1e}; {} motion{} without twist; counted up to the last mode: {}",
                      m.undamped.basis ? fmt::format("shift and invert, {} vectors", m.undamped.basis) : "dense solver",
                      m.drive.size(), m.drive.size() == 1 ? "" : "s", m.undamped.residual, m.undamped.rigid,
                      m.undamped.rigid == 1 ? "" : "s", m.undamped.counted_below);
 }
 
-std::string table_of(const Modes& m, const std::string& conclusion) {
+std::string table_of(const ModesStudy& m, const std::string& conclusion) {
   std::string text =
       conclusion + "\n\n  " + point_text(m) + "\n\n" + aligned(mode_rows(m), 0) + "  " + method_text(m) + "\n";
   if (is_forced(m)) text += "\nforced response at that speed\n" + aligned(response_rows(m), 1);
@@ -215,7 +215,7 @@ std::string table_of(const Modes& m, const std::string& conclusion) {
 
 Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(); }
 
-std::string json_of(const Modes& m, const std::string& conclusion) {
+std::string json_of(const ModesStudy& m, const std::string& conclusion) {
   Json j = {{"title", m.title}, {"scene", m.scene_file}, {"complete", m.complete}};
   if (!m.complete) j["diagnosis"] = m.diagnosis;
   j["conclusion"] = conclusion;
@@ -296,7 +296,7 @@ std::string json_of(const Modes& m, const std::string& conclusion) {
   return json_text(j);
 }
 
-std::string shapes_csv(const Modes& m) {
+std::string shapes_csv(const ModesStudy& m) {
   std::string text = "shaft,ratio,inertia [kg*m2]";
   for (const Mode& mode : m.modes) text += fmt::format(",mode {} at {:.8g} Hz", mode.number, hertz(mode.omega));
   text += "\n";
@@ -309,7 +309,7 @@ std::string shapes_csv(const Modes& m) {
   return text;
 }
 
-std::string response_csv(const Modes& m) {
+std::string response_csv(const ModesStudy& m) {
   std::string text = "speed [rad/s]";
   for (const std::string& name : m.joint_names) text += fmt::format(",mean {0} [N*m],peak {0} [N*m]", name);
   text += "\n";
@@ -331,7 +331,7 @@ Table table_card(const std::string& title, Rows rows, std::size_t text_columns, 
 }
 
 // Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
-Plot shape_plot(const Modes& m) {
+Plot shape_plot(const ModesStudy& m) {
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
             .x = {"shaft", ""},
             .y = {"relative amplitude", ""},
@@ -357,7 +357,7 @@ Plot shape_plot(const Modes& m) {
   return plot;
 }
 
-Plot energy_plot(const Modes& m, bool kinetic) {
+Plot energy_plot(const ModesStudy& m, bool kinetic) {
   Plot plot{.title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
             .x = {kinetic ? "shaft" : "elastic element", ""},
             .y = {"share of the energy", "%"},
@@ -379,7 +379,7 @@ Plot energy_plot(const Modes& m, bool kinetic) {
 }
 
 // Harmonics with the largest torque at the operating point; those that lead to the strongest critical speeds first.
-std::vector<std::size_t> orders_shown(const Modes& m) {
+std::vector<std::size_t> orders_shown(const ModesStudy& m) {
   std::vector<std::size_t> shown;
   const auto show = [&](std::size_t r) {
     if (shown.size() < lines_shown && std::find(shown.begin(), shown.end(), r) == shown.end()) shown.push_back(r);
@@ -395,7 +395,7 @@ std::vector<std::size_t> orders_shown(const Modes& m) {
   return shown;
 }
 
-Plot campbell_plot(const Modes& m) {
+Plot campbell_plot(const ModesStudy& m) {
   Plot plot{.title = "Campbell diagram: where excitation orders meet the modes",
             .x = {"speed of " + m.link, "1/min"},
             .y = {"frequency", "Hz"},
@@ -451,7 +451,7 @@ Plot campbell_plot(const Modes& m) {
   return plot;
 }
 
-Plot sweep_plot(const Modes& m, std::size_t j) {
+Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   Plot plot{.title = fmt::format("Swinging torque in {} over the speed", m.joint_names[j]),
             .x = {"speed of " + m.link, "1/min"},
             .y = {"torque", ""},
@@ -491,7 +491,7 @@ Plot sweep_plot(const Modes& m, std::size_t j) {
   return plot;
 }
 
-Plot order_plot(const Modes& m) {
+Plot order_plot(const ModesStudy& m) {
   const std::size_t j = joint_with_largest_swing(m.here);
   Plot plot{.title = fmt::format("Orders of the torque in {} at {:.5g} 1/min", m.joint_names[j],
                                  rpm(std::abs(m.drive.at.speed))),
@@ -508,14 +508,14 @@ Plot order_plot(const Modes& m) {
   return plot;
 }
 
-void mark_modes(const Modes& m, Plot& plot, double factor, double end) {
+void mark_modes(const ModesStudy& m, Plot& plot, double factor, double end) {
   for (const Mode& mode : m.modes)
     if (factor * hertz(mode.omega) <= end)
       plot.marks.push_back({factor * hertz(mode.omega), fmt::format("mode {}", mode.number)});
 }
 
 // Up to a little above the highest mode that still shows.
-double end_of_spectrum(const Modes& m, const AmplitudeSpectrum& s) {
+double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
   double largest = 0, end = 0;
   for (const double a : s.amplitude) largest = std::max(largest, a);
   for (std::size_t i = 0; i < s.frequency.size(); ++i)
@@ -524,7 +524,7 @@ double end_of_spectrum(const Modes& m, const AmplitudeSpectrum& s) {
   return std::min(1.1 * end, s.frequency.back());
 }
 
-Plot spectrum_plot(const Modes& m, const TorqueHistory& h) {
+Plot spectrum_plot(const ModesStudy& m, const TorqueHistory& h) {
   Plot plot{.title = fmt::format("Spectrum of the simulated {}, modes marked", h.channel),
             .x = {"frequency", "Hz"},
             .y = {"amplitude", "N·m"},
@@ -541,7 +541,7 @@ Plot spectrum_plot(const Modes& m, const TorqueHistory& h) {
   return plot;
 }
 
-Plot history_orders_plot(const Modes& m, const TorqueHistory& h) {
+Plot history_orders_plot(const ModesStudy& m, const TorqueHistory& h) {
   Plot plot{.title = fmt::format("Order analysis of the simulated {}", h.channel),
             .x = {"order of the turn of " + m.link, ""},
             .y = {"amplitude", "N·m"},
@@ -557,7 +557,7 @@ Plot history_orders_plot(const Modes& m, const TorqueHistory& h) {
 }
 
 // Lines one above the other, each set off by the speed at which its window was taken.
-Plot waterfall_plot(const Modes& m, const TorqueHistory& h) {
+Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
   Plot plot{.title = fmt::format("Waterfall of {}: spectra along the run, modes marked", h.channel),
             .x = {"frequency", "Hz"},
             .y = {"speed of " + m.link + "; height of a line: amplitude", "1/min"},
@@ -586,7 +586,7 @@ Plot waterfall_plot(const Modes& m, const TorqueHistory& h) {
   return plot;
 }
 
-void add_modes(Report& report, const Modes& m) {
+void add_modes(Report& report, const ModesStudy& m) {
   ReportSection& section = report.add("Modes (theory 12.2, 12.3)");
   section.cards.push_back(table_card("Natural frequencies, damping, energies", mode_rows(m), 1));
   if (m.modes.empty()) return;
@@ -606,7 +606,7 @@ void add_modes(Report& report, const Modes& m) {
   section.cards.push_back(Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }
 
-void add_response(Report& report, const Modes& m) {
+void add_response(Report& report, const ModesStudy& m) {
   if (!is_forced(m)) return;
   ReportSection& campbell = report.add("Critical speeds (theory 12.6)");
   campbell.cards.push_back(campbell_plot(m));
@@ -635,7 +635,7 @@ void add_response(Report& report, const Modes& m) {
   if (!m.barred.empty()) forced.cards.push_back(table_card("Barred speed ranges", barred_rows(m), 2));
 }
 
-void add_history(Report& report, const Modes& m) {
+void add_history(Report& report, const ModesStudy& m) {
   if (!m.history || m.history->lines.empty()) return;
   ReportSection& section = report.add("Simulated torque");
   section.cards.push_back(waterfall_plot(m, *m.history));
@@ -644,7 +644,7 @@ void add_history(Report& report, const Modes& m) {
   section.cards.push_back(table_card("Rainflow count (ASTM E1049)", rainflow_rows(*m.history), 0));
 }
 
-Report report_of(const Modes& m, const std::string& conclusion) {
+Report report_of(const ModesStudy& m, const std::string& conclusion) {
   Report report{.title = fmt::format("{}: modes and critical speeds", m.title.empty() ? m.scene_file : m.title),
                 .subtitle = point_text(m),
                 .conclusion = conclusion};
@@ -678,7 +678,7 @@ Report report_of(const Modes& m, const std::string& conclusion) {
 
 }  // namespace
 
-StudyOutput output_of(const Modes& m) {
+StudyOutput output_of(const ModesStudy& m) {
   StudyOutput output;
   output.conclusion = conclusion_of(m);
   output.table = table_of(m, output.conclusion);

@@ -7,6 +7,6 @@
 namespace kurbel {
 
 // The report refers to the study, which must outlive it.
-StudyOutput output_of(const Modes& modes);
+StudyOutput output_of(const ModesStudy& modes);
 
 }  // namespace kurbel

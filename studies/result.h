@@ -62,6 +62,8 @@ struct Result {
   std::string explanation;  // what was merged, and why
   double until = 0, accuracy = 0;
   double measured_accuracy = 0;  // largest error over its scale; 0 with errors not measured
+  std::string checkpoint;  // text of the state at the end, to go on from; where it was asked for
+  double begins_at = 0;    // [s]: later than 0 where a run goes on from another one's end
   bool accuracy_confirmed = false, errors_measured = false;
   bool confirmation_asked = false;  // not with --no-error: then nothing was to be confirmed
   double tolerance = 0;

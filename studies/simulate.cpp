@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/checkpoint.h"
 #include "engine/work_equation.h"
 #include "mechanisms/deforming_mechanism.h"
 #include "mechanisms/mechanism.h"
@@ -40,6 +41,7 @@ class Simulation {
     if (options.method) settings_.method = *options.method;
     if (options.budget) settings_.budget = std::min(settings_.budget, *options.budget);
     result_.label = label;
+    if (!options.go_on_from.empty()) take_checkpoint(options.go_on_from);
     result_.confirmation_asked = options.measure_error;
   }
 
@@ -49,7 +51,7 @@ class Simulation {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
                     model_->effects.describe(), settings_.until));
-    note_balanced_start();
+    if (!checkpoint_) note_balanced_start();
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
     tolerance_ = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
     fine_ = one_run(tolerance_);
@@ -63,6 +65,18 @@ class Simulation {
   }
 
  private:
+  // What follows is judged on its own: figures, works and peaks begin here.
+  void take_checkpoint(const std::string& text) {
+    checkpoint_ = checkpoint_from(text, equations_);
+    checkpoint_->integrals.clear();
+    result_.begins_at = checkpoint_->state.t;
+    if (settings_.until <= checkpoint_->state.t)
+      throw UnfitCheckpoint(fmt::format("is of {:.9g} s, and the run ends at {:.9g} s; let it run on with --until",
+                                        checkpoint_->state.t, settings_.until));
+    result_.notes.push_back(
+        fmt::format("goes on from a state at {:.9g} s: figures are of what follows it", checkpoint_->state.t));
+  }
+
   void log(const std::string& text) const {
     if (options_.log) options_.log(text);
   }
@@ -233,6 +247,8 @@ class Simulation {
                        .interrupted = options_.interrupted,
                        .progress = {},
                        .work_tables = work_tables(),
+                       .checkpoint = checkpoint_ ? &*checkpoint_ : nullptr,
+                       .to_go_on = options_.keep_state,
                        .accuracy = settings_.accuracy,
                        .elsewhere = elsewhere};
     if (options_.progress)
@@ -328,6 +344,7 @@ class Simulation {
     result_.model = model_;
     fill_energy(*run.energy);
     if (!run.last_state.empty()) fill_final(run);
+    if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
     note_regularised(run.outcome.regularised);
@@ -406,6 +423,7 @@ class Simulation {
   RunSettings settings_;
   Equations equations_;
   std::optional<Equations> equations_elsewhere_;
+  std::optional<Checkpoint> checkpoint_;  // where it goes on from
   std::shared_ptr<WorkTables> work_tables_;
   double tolerance_ = 0, elsewhere_tolerance_ = 0;        // of fine_ and elsewhere_
   std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses

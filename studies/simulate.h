@@ -20,6 +20,8 @@ struct SimulateOptions {
   std::function<void(const std::string&)> log = {};  // what was compiled, chosen, run
   std::optional<double> first_tolerance = {};        // the ladder begins there; default: accuracy/10
   std::string chosen_because = {};                   // for people: who says so
+  std::string go_on_from = {};        // text of a checkpoint (engine/checkpoint.h): figures are of what follows it
+  bool keep_state = false;            // the result's checkpoint is wanted: no method over the angle
   std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's
 };
 

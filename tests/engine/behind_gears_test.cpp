@@ -222,7 +222,7 @@ TEST(BehindGears, DampingRatioOfAMeshBelongsToBothShaftsThroughItsRatio) {
                  "mesh = { kind = \"gear mesh\", teeth = [20, 50], stiffness = \"900 N*m/rad\", "
                  "damping_ratio = 0.07 }\neffects = { elasticity = true }\nrun = { until = \"1 s\", start = "
                  "{ speed = \"1 rad/s\" } }\n");
-  const Modes modes = find_modes(scene, scene.effects, {});
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
   ASSERT_EQ(modes.modes.size(), 1u);
   EXPECT_NEAR(modes.modes[0].omega, std::sqrt(900 * (1 / 0.2 + 2.5 * 2.5 / 3)), 1e-7);
   EXPECT_NEAR(modes.modes[0].ratio, 0.07, 1e-9);
@@ -242,7 +242,7 @@ TEST(BehindGears, ModesAreSoughtAtTheStartSpeedOfAGearedShaft) {
   std::complex<double> swinging;
   for (const std::complex<double>& lambda : Eigen::Vector3cd(a.eigenvalues()))
     if (lambda.imag() > 0) swinging = lambda;
-  const Modes modes = find_modes(scene, scene.effects, {});
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
   ASSERT_EQ(modes.modes.size(), 1u);
   EXPECT_NEAR(modes.modes[0].ratio, -swinging.real() / std::abs(swinging), 1e-9);
 }

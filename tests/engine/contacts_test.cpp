@@ -278,7 +278,7 @@ TEST(Contacts, JacobianEqualsDifferencesInEveryMode) {
   const ErrorControl control = equations.error_control(1);
   for (const auto& [clutch, brake] :
        {std::pair(1.0, 1.0), std::pair(0.0, 1.0), std::pair(0.0, 0.0), std::pair(1.0, 0.0)}) {
-    // Modes are set by speeds: equal speeds tie, rest holds.
+    // ModesStudy are set by speeds: equal speeds tie, rest holds.
     const std::size_t w = equations.speed_index(0);
     std::vector<double> speed = {30, 30, clutch ? 30 - 7 : 30.0, brake ? 20 : 0.0};
     std::vector<double> twist = {0.02, 0, 0.004};

@@ -55,7 +55,7 @@ TEST(LinearDrive, MeshBehindAHeldWheelHasItsStiffnessByTheSquareOfItsRatio) {
       "mesh = { kind = \"gear mesh\", teeth = [20, 50], stiffness = \"900 N*m/rad\", "
       "damping = \"2 N*m*s/rad\" }\n" +
       elastic);
-  const Modes modes = find_modes(scene, scene.effects, {});
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
   ASSERT_EQ(modes.modes.size(), 1u);
   EXPECT_NEAR(modes.modes[0].omega, std::sqrt(900 * 2.5 * 2.5 / 3), 1e-8);
   EXPECT_NEAR(modes.modes[0].ratio, 2 * 2.5 * 2.5 / (2 * std::sqrt(900 * 2.5 * 2.5 * 3)), 1e-9);

@@ -363,7 +363,7 @@ TEST(Modes, OfAMechanismBehindAGearCountItsMeanInertia) {
     fast += crank_inertia(phi) / n;
     slow += (0.9 + 60 * std::pow(slope_of_travel(phi), 2)) / n;
   }
-  const Modes modes = find_modes(scene, scene.effects, {});
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
   ASSERT_EQ(modes.modes.size(), 1u);
   EXPECT_NEAR(modes.modes[0].omega, std::sqrt(5000 * (1 / 0.4 + 1 / (fast + slow / (2.5 * 2.5)))), 1e-6);
 }

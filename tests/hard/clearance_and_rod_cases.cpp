@@ -70,7 +70,7 @@ HardCase high_mode(int modes, double damping_ratio) {
                           modes, damping_ratio),
               0.004);
   return {.family = family,
-          .name = fmt::format("RodIn{}Modes{}", modes, damping_ratio > 0 ? "" : "Undamped"),
+          .name = fmt::format("RodIn{}ModesStudy{}", modes, damping_ratio > 0 ? "" : "Undamped"),
           .parameter = fmt::format("{} modes of bending, ζ = {:g}", modes, damping_ratio),
           .scene = scene,
           .truths = {as_converged(scene)}};

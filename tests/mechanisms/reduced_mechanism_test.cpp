@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/mechanisms/mechanism_examples.h"
 
@@ -127,6 +129,31 @@ TEST(ReducedMechanism, EqualDataShareOneTable) {
   EXPECT_NE(reduce_mechanism(d), first);
   d.slider_mass = -1;
   EXPECT_THROW(reduce_mechanism(d), std::invalid_argument);
+}
+
+// Threads that ask for the same tables share them, those that ask for others do not wait for each other, and a failure
+// reaches everyone who asked.
+TEST(ReducedMechanism, ThreadsAskForTablesAllAtOnce) {
+  constexpr int threads = 6;
+  std::vector<std::shared_ptr<const ReducedMechanism>> made(threads);
+  std::atomic<int> refused = 0;
+  std::vector<std::thread> team;
+  for (int k = 0; k < threads; ++k)
+    team.emplace_back([&, k] {
+      SliderCrankData data = reference_mechanism();
+      data.radius *= 1.0001 + 1e-4 * (k % 2);
+      made[static_cast<std::size_t>(k)] = reduce_mechanism(data);
+      data.rod_length = 0.5 * data.radius;
+      try {
+        reduce_mechanism(data);
+      } catch (const std::exception&) {
+        ++refused;
+      }
+    });
+  for (std::thread& one : team) one.join();
+  for (int k = 2; k < threads; ++k) EXPECT_EQ(made[static_cast<std::size_t>(k)], made[static_cast<std::size_t>(k % 2)]);
+  EXPECT_NE(made[0], made[1]);
+  EXPECT_EQ(refused, threads);
 }
 
 TEST(ReducedMechanism, WrongBranchReachesTheCaller) {

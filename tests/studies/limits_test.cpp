@@ -59,7 +59,7 @@ accuracy = 1e-6
                      sense * speed);
 }
 
-Modes modes_of(const std::string& text, const ModesOptions& options = {}) {
+ModesStudy modes_of(const std::string& text, const ModesOptions& options = {}) {
   const Scene scene = test::scene_from(text);
   return find_modes(scene, scene.effects, options);
 }
@@ -71,7 +71,7 @@ double amplitude_of(double torque, double omega, double on = near_inertia) {
   return torque * on / sum * std::abs(spring / (spring - omega * omega * near_inertia * far_inertia / sum));
 }
 
-const Verdict& verdict_on(const Modes& m, const std::string& what) {
+const Verdict& verdict_on(const ModesStudy& m, const std::string& what) {
   for (const Verdict& v : m.verdicts)
     if (v.requirement.starts_with(what)) return v;
   throw std::runtime_error("no verdict on " + what);
@@ -80,11 +80,11 @@ const Verdict& verdict_on(const Modes& m, const std::string& what) {
 // DIN 740: S_f = √(f/10 Hz) above 10 Hz, of a swing by the order as of one by a frequency of its own.
 TEST(Limits, SwingsAboveTenHertzCountWithTheRootOfTheirFrequency) {
   const std::string limits = "vibratory_torque = \"30 N*m\"";
-  const Modes by_order = modes_of(two_masses(1, limits));
+  const ModesStudy by_order = modes_of(two_masses(1, limits));
   const double f = speed / (2 * pi);  // 15.9 Hz
   EXPECT_NEAR(verdict_on(by_order, "vibratory").value, std::sqrt(f / 10) * amplitude_of(swing, speed), 2e-5);
   for (const double hertz : {4.0, 40.0}) {
-    const Modes m =
+    const ModesStudy m =
         modes_of(two_masses(1, limits, fmt::format("amplitude = \"300 N*m\"\nfrequency = \"{} Hz\"", hertz)));
     const double swings = amplitude_of(300, 2 * pi * hertz, far_inertia) + amplitude_of(swing, speed);
     const Verdict& verdict = verdict_on(m, "vibratory");
@@ -95,7 +95,7 @@ TEST(Limits, SwingsAboveTenHertzCountWithTheRootOfTheirFrequency) {
 
 TEST(Limits, VerdictHoldsUpToItsLimitAndNotBeyond) {
   for (const double limit : {39.99, 40.01}) {
-    const Modes m = modes_of(two_masses(1, fmt::format("nominal_torque = \"{} N*m\"", limit)));
+    const ModesStudy m = modes_of(two_masses(1, fmt::format("nominal_torque = \"{} N*m\"", limit)));
     EXPECT_EQ(verdict_on(m, "nominal").holds(), limit > 40) << limit;
   }
 }
@@ -104,8 +104,8 @@ TEST(Limits, VerdictHoldsUpToItsLimitAndNotBeyond) {
 TEST(Limits, MachineThatTurnsBackwardsHasTheVerdictsOfTheOneThatTurnsForwards) {
   const std::string limits = "nominal_torque = \"30 N*m\"\nmaximum_torque = \"45 N*m\"\napplication_factor = 1.25\n";
   const ModesOptions simulated{.torque = "k1"};
-  const Modes forwards = modes_of(two_masses(1, limits), simulated),
-              backwards = modes_of(two_masses(-1, limits), simulated);
+  const ModesStudy forwards = modes_of(two_masses(1, limits), simulated),
+                   backwards = modes_of(two_masses(-1, limits), simulated);
   ASSERT_EQ(forwards.verdicts.size(), 3u);
   ASSERT_EQ(backwards.verdicts.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k)
@@ -121,7 +121,7 @@ TEST(Limits, MachineThatTurnsBackwardsHasTheVerdictsOfTheOneThatTurnsForwards) {
 
 // The resonance at 80 rad/s is passed on the way to 100 rad/s; a barred range ends where the torque is at its limit.
 TEST(Limits, ResonancesBelowTheOperatingSpeedArePassedAndBarredUpToTheLimit) {
-  const Modes m = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""));
+  const ModesStudy m = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""));
   double passing = 0;
   for (const SpeedResponse& s : m.sweep)
     if (s.speed <= speed) passing = std::max(passing, drive + amplitude_of(swing, s.speed));
@@ -132,7 +132,7 @@ TEST(Limits, ResonancesBelowTheOperatingSpeedArePassedAndBarredUpToTheLimit) {
     EXPECT_NEAR(drive + amplitude_of(swing, edge), 45, 0.02) << edge;
   EXPECT_NEAR(m.barred[0].peak, passing, 1e-4 * passing);
   // and one above it is not
-  Modes slow = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""), {.speed = 40.0, .fastest = 120});
+  ModesStudy slow = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""), {.speed = 40.0, .fastest = 120});
   EXPECT_LT(verdict_on(slow, "maximum").value, drive + amplitude_of(swing, 41));
 }
 

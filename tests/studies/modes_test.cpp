@@ -281,7 +281,7 @@ TEST(ForcedResponse, LongSimulationSettlesToIt) {
 // two per cent of the steady cycle that the simulation settles to.
 TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
   Scene scene = test::scene_file("scenes/crank_press.toml");
-  const Modes m = find_modes(scene, scene.effects, {.orders = 80});
+  const ModesStudy m = find_modes(scene, scene.effects, {.orders = 80});
   scene.run.samples = 50001;
   const Result run = test::run(scene, false);
   const std::vector<double> tau = test::series(run, "torque.main_coupling");
@@ -299,8 +299,8 @@ TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
 // --- critical speeds and zones ---
 
 TEST(CriticalSpeeds, AreFrequenciesOverOrders) {
-  const Modes m = find_modes(test::scene_from(crank_on_a_shaft), Effects{.all_elastic = true, .elastic = {}},
-                             {.slowest = 10, .fastest = 150});
+  const ModesStudy m = find_modes(test::scene_from(crank_on_a_shaft), Effects{.all_elastic = true, .elastic = {}},
+                                  {.slowest = 10, .fastest = 150});
   ASSERT_FALSE(m.critical.empty());
   for (const CriticalSpeed& c : m.critical)
     EXPECT_NEAR(c.speed * c.order, m.modes[static_cast<std::size_t>(c.mode - 1)].omega, 1e-10 * c.speed);
@@ -363,8 +363,8 @@ TEST(ParametricZone, EdgeOfTheTongueIsTheFirstOrderOne) {
 
 // ε₂ of the crank with a long rod: v² · ½ m r².
 TEST(ParametricZone, VariationIsTheHarmonicOfTheInertiaInTheMode) {
-  const Modes m = find_modes(test::scene_from(crank_on_a_shaft), Effects{.all_elastic = true, .elastic = {}},
-                             {.slowest = 10, .fastest = 500});
+  const ModesStudy m = find_modes(test::scene_from(crank_on_a_shaft), Effects{.all_elastic = true, .elastic = {}},
+                                  {.slowest = 10, .fastest = 500});
   const double v = m.modes[0].shape[1], expected = v * v * 0.5 * 2 * 0.01;
   const auto zone =
       std::find_if(m.zones.begin(), m.zones.end(), [](const ParametricZone& z) { return z.harmonic == 2; });
@@ -381,7 +381,7 @@ TEST(Limits, VerdictsAreThoseOfDin740ByHand) {
       "dissipated_power = \"100 W\"\napplication_factor = 1.5\n";
   Scene scene =
       test::scene_from(test::with(shaken, "damping = \"20 N*m*s/rad\"\n", "damping = \"20 N*m*s/rad\"\n" + limits));
-  const Modes m = find_modes(scene, scene.effects, {});
+  const ModesStudy m = find_modes(scene, scene.effects, {});
   ASSERT_EQ(m.verdicts.size(), 4u);
   const JointResponse& joint = m.here.joints[0];
   EXPECT_NEAR(m.verdicts[0].value, 1.5 * std::abs(joint.mean), 1e-12);
@@ -402,7 +402,7 @@ brake = { kind = "load", damping = "30 N*m*s/rad", inertia = "1 kg*m2" }
 effects = { elasticity = true }
 run = { start = { speed = "10 rad/s" } }
 )");
-  const Modes m = find_modes(scene, scene.effects, {});
+  const ModesStudy m = find_modes(scene, scene.effects, {});
   ASSERT_EQ(m.verdicts.size(), 1u);
   const double modulus = pi / 16 * (std::pow(0.04, 4) - std::pow(0.02, 4)) / 0.04;
   EXPECT_NEAR(m.verdicts[0].value, 300 / modulus, 1e-6 * m.verdicts[0].value);
@@ -413,7 +413,7 @@ run = { start = { speed = "10 rad/s" } }
 
 TEST(ModesStudy, EngineReportsCrankshaftModesOrdersAndCriticalSpeeds) {
   const Scene scene = test::scene_file("scenes/four_cylinder_engine.toml");
-  const Modes m = find_modes(scene, scene.effects, {.count = 6});
+  const ModesStudy m = find_modes(scene, scene.effects, {.count = 6});
   ASSERT_EQ(m.modes.size(), 6u);
   EXPECT_EQ(m.undamped.rigid, 1);
   EXPECT_EQ(m.excitations.fundamental, 0.5);
@@ -430,7 +430,7 @@ TEST(ModesStudy, EngineReportsCrankshaftModesOrdersAndCriticalSpeeds) {
 TEST(ModesStudy, PressGivesAReportWithASimulatedTorque) {
   Scene scene = test::scene_file("scenes/crank_press.toml");
   scene.run.until = 2;
-  const Modes m = find_modes(scene, scene.effects, {.count = 3, .torque = "main_coupling"});
+  const ModesStudy m = find_modes(scene, scene.effects, {.count = 3, .torque = "main_coupling"});
   ASSERT_TRUE(m.history.has_value());
   EXPECT_EQ(m.modes.size(), 2u);
   // The start rings in the first mode: the spectrum of the run-up has its highest line beside it.

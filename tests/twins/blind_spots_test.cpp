@@ -46,7 +46,7 @@ TEST(BlindSpots, DampingRatioBelongsToTheInertiaReducedThroughTheGear) {
       scene_from("line = [\"a\", \"c\", \"gear\", \"b\"]" + inertia("a", own) + inertia("b", 3) + gear_2_5 +
                  "[c]\nkind = \"coupling\"\nstiffness = \"900 N*m/rad\"\ndamping_ratio = 0.07\n" +
                  ending("until = \"1 s\"\nstart = { speed = \"1 rad/s\" }"));
-  const Modes modes = find_modes(scene, scene.effects, {});
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
   ASSERT_EQ(modes.modes.size(), 1u);
   EXPECT_NEAR(modes.modes[0].omega, std::sqrt(stiffness * (1 / own + 1 / behind)), 1e-7);
   EXPECT_NEAR(modes.modes[0].ratio, 0.07, 1e-9);
@@ -408,7 +408,7 @@ acts = "always"
 )",
                                                frequency) +
                                    ending("until = \"1 s\"\nstart = { speed = \"-30 rad/s\" }"));
-    const Modes modes = find_modes(scene, scene.effects, {});
+    const ModesStudy modes = find_modes(scene, scene.effects, {});
     const double reduced = j1 * j2 / (j1 + j2);
     const std::complex<double> spring(k, w * c);
     const double swing = std::abs(spring * (amplitude / j1) / (spring / reduced - w * w));

@@ -43,7 +43,7 @@ TEST_P(Twins, MirroredMachineRunsMirrored) { mirrored(scene(), expect_same_runs)
 
 // --- modes -----------------------------------------------------------------------------------------------------------
 
-std::map<std::string, std::size_t> own_joints(const Modes& m) {
+std::map<std::string, std::size_t> own_joints(const ModesStudy& m) {
   std::map<std::string, std::size_t> joints;
   for (std::size_t k = 0; k < m.joint_names.size(); ++k) joints[m.joint_names[k]] = k;
   return joints;
@@ -55,7 +55,7 @@ void expect_near(double a, double b, const std::string& what, double scale = 0) 
     ADD_FAILURE() << fmt::format("{}: {:.10g}, but {:.10g}", what, a, b);
 }
 
-void expect_same_shapes(const Modes& a, const Modes& b) {
+void expect_same_shapes(const ModesStudy& a, const ModesStudy& b) {
   ASSERT_EQ(a.modes.size(), b.modes.size());
   ASSERT_EQ(a.damped.size(), b.damped.size());
   const auto in_a = own_joints(a), in_b = own_joints(b);
@@ -79,7 +79,7 @@ void expect_same_shapes(const Modes& a, const Modes& b) {
     expect_near(a.damped[k].lambda.real(), b.damped[k].lambda.real(), "decay", std::abs(b.damped[k].lambda));
 }
 
-void expect_same_response(const Modes& a, const Modes& b, const TwinMap& map) {
+void expect_same_response(const ModesStudy& a, const ModesStudy& b, const TwinMap& map) {
   const auto in_a = own_joints(a), in_b = own_joints(b);
   double largest = 1e-9;
   for (const JointResponse& r : b.here.joints) largest = std::max(largest, std::abs(r.mean) + r.rms);
@@ -112,7 +112,7 @@ void expect_same_response(const Modes& a, const Modes& b, const TwinMap& map) {
   }
 }
 
-void expect_same_verdicts(const Modes& a, const Modes& b, const TwinMap& map) {
+void expect_same_verdicts(const ModesStudy& a, const ModesStudy& b, const TwinMap& map) {
   ASSERT_EQ(a.verdicts.size(), b.verdicts.size());
   for (std::size_t k = 0; k < a.verdicts.size(); ++k) {
     const Verdict &x = a.verdicts[k], &y = b.verdicts[k];
@@ -132,7 +132,7 @@ void expect_same_verdicts(const Modes& a, const Modes& b, const TwinMap& map) {
 }
 
 // Nothing where the scene has no modes, of which both must say so.
-std::optional<Modes> modes_of(const std::string& text, std::string& why) {
+std::optional<ModesStudy> modes_of(const std::string& text, std::string& why) {
   const Scene scene = scene_from(text);
   try {
     return find_modes(scene, scene.effects, {});
@@ -143,7 +143,7 @@ std::optional<Modes> modes_of(const std::string& text, std::string& why) {
 }
 void expect_same_modes(const std::string& first, const std::string& second, const TwinMap& map) {
   std::string why_a, why_b;
-  const std::optional<Modes> a = modes_of(first, why_a), b = modes_of(second, why_b);
+  const std::optional<ModesStudy> a = modes_of(first, why_a), b = modes_of(second, why_b);
   ASSERT_EQ(a.has_value(), b.has_value()) << why_a << why_b;
   if (!a) return;
   ASSERT_EQ(a->joint_names.size(), b->joint_names.size());
