@@ -19,7 +19,7 @@ namespace {
 
 using namespace kurbel;
 
-struct State {
+struct Moment {
   double t;
   std::vector<double> y;
 };
@@ -27,11 +27,11 @@ struct State {
 }  // namespace
 
 extern "C" __attribute__((noinline)) double kurbel_counted_evaluations(Equations& equations,
-                                                                       const std::vector<State>& states,
+                                                                       const std::vector<Moment>& states,
                                                                        std::vector<double>& rate,
                                                                        std::vector<double>& values) {
   double sum = 0;
-  for (const State& s : states) {
+  for (const Moment& s : states) {
     equations.flow(s.t, s.y, rate);
     equations.jacobian(s.t, s.y, values);
     sum += rate.front();
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
       if (effect == flag.name) effects.*(flag.flag) = false;
     if (argv[3] == std::string("without")) test::erase_effect(scene, effect);
     Equations equations(compile(scene, effects), false);
-    std::vector<State> states;
+    std::vector<Moment> states;
     std::vector<double> y = equations.start(0);
     for (int i = 0; i < 50; ++i) {  // around the start, in its modes
       states.push_back({0, y});

@@ -63,8 +63,8 @@ class EngineTorque {
   T torque(const ShaftState<T>& x) const {
     T sum(0.0);
     const std::size_t n = fires_at_.size();
-    for (std::size_t k = 0; k < n; ++k)
-      sum = sum + of_cylinder(piece_[static_cast<std::size_t>(x.mode) * n + k], x.angle - fires_at_[k]);
+    const std::size_t row = std::min(static_cast<std::size_t>(x.mode) * n, piece_.size() - n);
+    for (std::size_t k = 0; k < n; ++k) sum = sum + of_cylinder(piece_[row + k], x.angle - fires_at_[k]);
     return sum;
   }
   bool uses_time() const { return false; }

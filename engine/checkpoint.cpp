@@ -47,10 +47,15 @@ void check(const Checkpoint& c, const Equations& equations) {
   const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.turns) &&
                      m.next_step <= equations.model().scene.sequence.steps.size();
+  const auto pieces = [](const std::vector<int>& list) {
+    constexpr int most = 10'000'000;  // of a table's rows
+    return std::all_of(list.begin(), list.end(), [](int v) { return v >= -most && v <= most; });
+  };
   const auto senses = [](const std::vector<int>& list) {
     return std::all_of(list.begin(), list.end(), [](int v) { return v >= -1 && v <= 1; });
   };
-  if (!sound || !senses(m.direction) || !senses(m.slip) || !senses(m.loss_direction) || !senses(m.loss_sign))
+  if (!sound || !pieces(m.piece) || !pieces(m.prescribed_piece) || !senses(m.direction) || !senses(m.slip) ||
+      !senses(m.loss_direction) || !senses(m.loss_sign))
     throw UnfitCheckpoint("holds values that no run leaves behind");
 }
 

@@ -34,7 +34,8 @@ double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance
 
 }  // namespace
 
-Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(std::move(model)) {
+Equations::Equations(std::shared_ptr<const Model> model, bool audit)
+    : model_(std::move(model)), sequence_(*model_), joint_torques_(*model_) {
   const Model& m = *model_;
   states_ = m.state_count();
   if (audit) quadratures_ = m.accounts.size() + 2 * m.torque_joints.size();
@@ -75,9 +76,7 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
     if (pool->follows()) following_.push_back(pool.get());
   if (!following_.empty()) followed_alpha_.assign(shafts, 0);
   element_inertia_.assign(elements, 0);
-  balance_.assign(nodes, 0);
   node_angle_.assign(nodes, 0);
-  joint_torque_.assign(m.network.joints.size(), 0);
   shaft_hold_.assign(shafts, {});
   element_hold_.assign(elements, {});
   work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
@@ -87,12 +86,11 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit) : model_(st
   sums.torque = torque_.data(), sums.inertia = inertia_.data();
   sums.connection_torque = connection_torque_.data(), sums.spring_torque = spring_torque_.data();
   sums.element_torque = element_torque_.data(), sums.element_inertia = element_inertia_.data();
-  list_rigid_trees();
   list_elastic_tree();
   list_contacts();
   modes_.command.assign(m.commands.size(), {});
   command_value_.assign(m.commands.size(), 1);
-  if (!m.scene.sequence.steps.empty()) ++guard_count_;
+  if (sequence_.any()) ++guard_count_;
 }
 
 // The elastic joints in an order that leads outwards from the reduction link, and from one shaft of each further tree
@@ -121,32 +119,6 @@ void Equations::list_elastic_tree() {
         elastic_steps_.push_back({j, forward});
       }
   }
-}
-
-// The rigid joints within each merged shaft, leaves first, seen from its reference node.
-void Equations::list_rigid_trees() {
-  const Network& net = model_->network;
-  std::vector<std::vector<int>> joints_at(net.nodes.size());
-  for (std::size_t j = 0; j < net.joints.size(); ++j) {
-    if (net.joints[j].elastic) continue;
-    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
-    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
-  }
-  std::vector<char> seen(net.nodes.size(), 0);
-  for (const Shaft& shaft : model_->shafts) {
-    std::vector<int> queue = {shaft.reference};
-    seen[at(shaft.reference)] = 1;
-    for (std::size_t next = 0; next < queue.size(); ++next)
-      for (const int j : joints_at[at(queue[next])]) {
-        const Network::Joint& joint = net.joints[at(j)];
-        const int other = joint.a == queue[next] ? joint.b : joint.a;
-        if (seen[at(other)]) continue;
-        seen[at(other)] = 1;
-        rigid_steps_.push_back({j, other, queue[next], other == joint.b});
-        queue.push_back(other);
-      }
-  }
-  std::reverse(rigid_steps_.begin(), rigid_steps_.end());
 }
 
 double Equations::prescribed_speed(std::size_t shaft, double t) const {
@@ -320,79 +292,19 @@ void Equations::flow(double t, std::span<const double> y, std::span<double> ydot
   }
 }
 
-// d'Alembert from the leaves of each merged shaft to its root: what a node needs beyond its own torques comes through
-// the joint towards the root.
+// At standstill the opposing elements hold what is left of the shaft's torques.
 void Equations::find_joint_torques(const double* alpha) {
-  const Model& m = *model_;
-  const Network& net = m.network;
-  for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    balance_[n] = net.nodes[n].inertia * m.gain_of_node[n] * alpha[m.shaft_of_node[n]];
-  for (std::size_t e = 0; e < net.elements.size(); ++e) {
-    const std::size_t n = at(net.elements[e].node);
-    balance_[n] += element_inertia_[e] * m.gain_of_node[n] * alpha[m.shaft_of_node[n]] - element_torque_[e];
-  }
-  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
-    const Network::Joint& joint = net.joints[at(m.elastic[i].joint)];
-    joint_torque_[at(m.elastic[i].joint)] = connection_torque_[i];
-    balance_[at(joint.a)] += connection_torque_[i];
-    balance_[at(joint.b)] -= joint.ratio * connection_torque_[i];
-  }
-  for (std::size_t r = 0; r < m.relations.size(); ++r) {
-    const Network::Relation& relation = net.relations[at(m.relations[r].relation)];
-    const double taken = relation_torque_[r], lost = relation_loss_[r];
-    for (int k = 0; k < relation.members(); ++k) balance_[at(relation.node[at(k)])] += relation.gain[at(k)] * taken;
-    balance_[at(relation.node[1])] -= relation.gain[1] * lost;
-    if (relation.members() == 3) balance_[at(relation.node[2])] -= (1 + relation.gain[2]) * lost;
-  }
-  // At standstill the opposing elements hold the rest, in proportion to what each can hold.
-  bool holds_known = false;
-  for (std::size_t c = 0; c < directional_.size(); ++c) {
-    const int s = directional_[c];
-    if (modes_.direction[at(s)] != 0) continue;
-    if (!std::exchange(holds_known, true)) find_holds();
-    const double rest = -contact_torque_[c];
-    const double capacity = rest > 0 ? shaft_hold_[at(s)].high : shaft_hold_[at(s)].low;
-    if (capacity == 0) continue;
-    for (std::size_t e = 0; e < net.elements.size(); ++e) {
-      const std::size_t n = at(net.elements[e].node);
-      if (m.shaft_of_node[n] != s) continue;
-      const bool upwards = (rest > 0) == (m.gain_of_node[n] > 0);  // on the element's own shaft
-      const double share = rest / capacity * (upwards ? element_hold_[e].high : element_hold_[e].low);
-      balance_[n] -= share;
-    }
-  }
-  for (const RigidStep& step : rigid_steps_) {
-    const double ratio = net.joints[at(step.joint)].ratio, need = balance_[at(step.child)];
-    if (step.child_is_b) {
-      joint_torque_[at(step.joint)] = need / ratio;
-      balance_[at(step.parent)] += need / ratio;
-    } else {
-      joint_torque_[at(step.joint)] = -need;
-      balance_[at(step.parent)] += ratio * need;
-    }
-  }
-  bear_reactions();
-}
-
-// Gears that became joints of two shafts still push on the third, which stands: their torque flows on to the frame.
-void Equations::bear_reactions() {
-  const Model& m = *model_;
-  for (const GearTorque& torque : m.gear_torques) {
-    if (m.shafts[at(m.shaft_of_node[at(torque.node)])].prescribed < 0) continue;
-    double need = 0;
-    for (const GearTorque::Term& term : torque.terms)
-      if (term.joint >= 0) need -= term.taken * joint_torque_[at(term.joint)];
-    if (need == 0) continue;
-    int node = torque.node;
-    for (const RigidStep& step : rigid_steps_) {  // leaves first: the way to the root is in order
-      if (step.child != node) continue;
-      const double ratio = m.network.joints[at(step.joint)].ratio;
-      joint_torque_[at(step.joint)] += step.child_is_b ? need / ratio : -need;
-      need = step.child_is_b ? need / ratio : ratio * need;
-      node = step.parent;
-    }
-    balance_[at(node)] += need;
-  }
+  held_shafts_.clear();
+  for (std::size_t c = 0; c < directional_.size(); ++c)
+    if (modes_.direction[at(directional_[c])] == 0) held_shafts_.push_back({directional_[c], -contact_torque_[c]});
+  if (!held_shafts_.empty()) find_holds();
+  joint_torques_.find({.alpha = alpha,
+                       .element_torque = element_torque_.data(),
+                       .element_inertia = element_inertia_.data(),
+                       .connection_torque = connection_torque_.data(),
+                       .relation_torque = relation_torque_.data(),
+                       .relation_loss = relation_loss_.data()},
+                      held_shafts_, shaft_hold_.data(), element_hold_.data());
 }
 
 // Work of prescribed motions (their reaction is known only now) and the squares of the torques.
@@ -403,11 +315,11 @@ void Equations::write_quadratures(double* rate) {
     if (m.network.nodes[n].prescribed < 0) continue;
     --account;
     const std::size_t s = at(m.shaft_of_node[n]);
-    rate[account] = balance_[n] * m.gain_of_node[n] * snapshot_.now.speed[s];
+    rate[account] = joint_torques_.balance()[n] * m.gain_of_node[n] * snapshot_.now.speed[s];
   }
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i) {
     const TorqueJoint& joint = m.torque_joints[i];
-    const double tau = joint_torque_[at(joint.joint)];
+    const double tau = joint_torques_.torque()[at(joint.joint)];
     const double spring = joint.elastic >= 0 ? spring_torque_[at(joint.elastic)] : tau;
     rate[m.accounts.size() + 2 * i] = tau * tau;
     rate[m.accounts.size() + 2 * i + 1] = spring * spring;
@@ -516,9 +428,13 @@ bool Equations::wrap(std::span<double> y) {
   return changed;
 }
 
-double Equations::angle_with_turns(std::size_t tracked, std::span<const double> y) const {
-  return static_cast<double>(static_cast<long double>(modes_.turns[tracked]) * 4 * std::numbers::pi_v<long double> +
+double angle_with_turns(const Modes& modes, std::size_t tracked, std::span<const double> y) {
+  return static_cast<double>(static_cast<long double>(modes.turns[tracked]) * 4 * std::numbers::pi_v<long double> +
                              y[tracked]);
+}
+
+double Equations::angle_with_turns(std::size_t tracked, std::span<const double> y) const {
+  return kurbel::angle_with_turns(modes_, tracked, y);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -536,7 +452,7 @@ const Snapshot& Equations::snapshot(double t, std::span<const double> y) {
   for (std::size_t n = 0; n < node_angle_.size(); ++n)
     node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
   snapshot_.alpha = alpha_.data();
-  snapshot_.joint_torque = joint_torque_.data();
+  snapshot_.joint_torque = joint_torques_.torque().data();
   snapshot_.relation_torque = relation_torque_.data();
   snapshot_.relation_loss = relation_loss_.data();
   snapshot_.node_angle = node_angle_.data();

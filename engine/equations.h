@@ -14,19 +14,15 @@
 #include <vector>
 
 #include "engine/constraints.h"
+#include "engine/event.h"
 #include "engine/jam.h"
+#include "engine/joint_torques.h"
 #include "engine/model.h"
+#include "engine/operating_sequence.h"
 #include "engine/state.h"
 #include "engine/stepper.h"
 
 namespace kurbel {
-
-struct Event {
-  double t = 0;
-  std::string component, what;
-  std::string from = {};  // the mode before, where it has a name
-  double angle = 0;       // of the reduction link then, turns counted [rad]
-};
 
 // Two sides that stick together or slip: a shaft against the frame with all that brakes it, the sides of a clutch, a
 // gear against its own losses.
@@ -137,10 +133,6 @@ class Equations final : public OdeSystem {
   std::size_t twist_index(int elastic) const { return twists_begin() + static_cast<std::size_t>(elastic); }
 
  private:
-  struct RigidStep {  // one joint of the tree within a merged shaft, leaves first
-    int joint, child, parent;
-    bool child_is_b;
-  };
   struct ElasticStep {  // an elastic joint, walked outwards from the reduction link
     int elastic;
     bool forward;
@@ -152,7 +144,7 @@ class Equations final : public OdeSystem {
   double prescribed_acceleration(std::size_t shaft, double t) const;
   void set_timed_modes(double t);
   std::size_t contact_guards_begin() const {
-    return guard_count_ - 2 * contacts_.size() - lossy_.size() - (model_->scene.sequence.steps.empty() ? 0 : 1);
+    return guard_count_ - 2 * contacts_.size() - lossy_.size() - (sequence_.any() ? 1 : 0);
   }
   std::size_t own_begin() const { return twists_begin() + model_->twist_count() + model_->free_shafts; }
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
@@ -162,9 +154,7 @@ class Equations final : public OdeSystem {
   void refuse_impossible_slip(double t, std::span<const double> y);
   void members_follow(std::span<double> y, std::vector<char> given, double t);
   void find_joint_torques(const double* alpha);
-  void bear_reactions();
   void write_quadratures(double* rate);
-  void list_rigid_trees();
   void list_elastic_tree();
   // contacts (equations_contacts.cpp)
   void list_contacts();
@@ -216,11 +206,7 @@ class Equations final : public OdeSystem {
   bool is_prescribed(const Contact& contact) const;
   double effective_inertia(const Contact& contact);
   void mix_coupled_rows(std::span<double> values);
-  // the operating sequence (equations_sequence.cpp)
-  void begin_sequence(double t, std::span<double> y, std::vector<Event>* log);
-  void arm_step(double t, std::span<const double> y);
   void take_steps(double t, std::span<double> y, std::vector<Event>* log);
-  double sequence_guard(std::span<const double> y) const;
   void tell_switched(double t, std::span<double> y, const std::vector<char>& before);
 
   void settle_modes(double t, std::span<double> y, bool equilibrium);
@@ -234,7 +220,6 @@ class Equations final : public OdeSystem {
   std::vector<int> directional_;          // shafts that carry elements opposing motion
   std::vector<double> constant_inertia_, inverse_inertia_, inertia_;
   std::vector<int> variable_;
-  std::vector<RigidStep> rigid_steps_;
   std::vector<ElasticStep> elastic_steps_;
   std::vector<std::size_t> root_angles_;  // tracked angles that the others follow from, one per elastic tree
 
@@ -258,7 +243,7 @@ class Equations final : public OdeSystem {
 
   // working arrays
   std::vector<double> speed_, torque_, twist_rate_, alpha_, connection_torque_, spring_torque_, own_rate_;
-  std::vector<double> element_torque_, element_inertia_, balance_, joint_torque_, node_angle_, work_rate_, shaft_angle_;
+  std::vector<double> element_torque_, element_inertia_, node_angle_, work_rate_, shaft_angle_;
   std::vector<Hold> shaft_hold_, element_hold_;
   // torques that depend on the accelerations; empty where no element reacts
   std::vector<const ElementPool*> reacting_;
@@ -268,6 +253,9 @@ class Equations final : public OdeSystem {
   // further degrees of freedom of elements; empty where there are none
   std::vector<const ElementPool*> following_;
   std::vector<double> followed_alpha_;
+  OperatingSequence sequence_;
+  JointTorques joint_torques_;
+  std::vector<JointTorques::Held> held_shafts_;
   Snapshot snapshot_{};
   std::optional<Jam> jam_;
 

@@ -15,7 +15,7 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
   if (!contacts_.empty()) contact_guards(t, y, g.data() + contact_guards_begin());
-  if (!m.scene.sequence.steps.empty()) g[guard_count_ - 1] = sequence_guard(y);
+  if (sequence_.any()) g[guard_count_ - 1] = sequence_.guard(modes_, y, now.speed);
 }
 
 void Equations::fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, std::vector<Event>& log) {
@@ -65,9 +65,7 @@ double Equations::next_edge(double t) const {
   double next = std::numeric_limits<double>::infinity();
   for (const auto& pool : model_->pools) next = std::min(next, pool->next_edge(t));
   for (const PrescribedSpeed& given : model_->network.prescribed) next = std::min(next, given.next_edge(t));
-  for (const Command& command : modes_.command)
-    if (command.rate != 0) next = std::min(next, command.until);
-  return std::min(next, modes_.armed_time);
+  return std::min(next, sequence_.next_edge(modes_));
 }
 
 // What gears lose by their present torques is asked for by what comes next; nothing may hang on who asked last.
@@ -82,8 +80,7 @@ void Equations::look_at_losses(double t, std::span<const double> y) {
 void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log) {
   look_at_losses(t, y);
   const std::vector<char> before = modes_.active;
-  for (Command& command : modes_.command)
-    if (command.rate != 0 && command.until <= t) command = {.value = command.to, .to = command.to};
+  sequence_.end_ramps(modes_, t);
   set_timed_modes(t);
   for (std::size_t e = 0; e < modes_.active.size(); ++e)
     if (modes_.active[e] != before[e])
@@ -92,6 +89,19 @@ void Equations::pass_edge(double t, std::span<double> y, std::vector<Event>& log
   tell_switched(t, y, before);
   if (modes_.armed_time <= t) take_steps(t, y, &log);
   settle_contacts(t, y, {}, {}, &log);
+}
+
+// What was told changes what is on, and a circuit that opens or closes changes its currents at once.
+void Equations::take_steps(double t, std::span<double> y, std::vector<Event>* log) {
+  const std::vector<char> before = modes_.active;
+  sequence_.take(modes_, t, y, log);
+  set_timed_modes(t);
+  tell_switched(t, y, before);
+}
+
+void Equations::tell_switched(double t, std::span<double> y, const std::vector<char>& before) {
+  if (modes_.active == before) return;
+  for (const auto& pool : model_->pools) pool->switched(instant(t, y), before.data(), y.data() + own_begin());
 }
 
 }  // namespace kurbel

@@ -115,7 +115,7 @@ void Equations::settle_modes(double t, std::span<double> y, bool equilibrium) {
   std::fill(relation_loss_.begin(), relation_loss_.end(), 0);
   std::fill(contact_torque_.begin(), contact_torque_.end(), 0);
   wrap(y);
-  begin_sequence(t, y, nullptr);
+  if (sequence_.begin(modes_, t, y)) take_steps(t, y, nullptr);
   set_timed_modes(t);
   std::vector<std::size_t> still;
   const Instant now = instant(t, y);
@@ -304,10 +304,14 @@ std::vector<double> Equations::balanced_joints(std::vector<double> need) const {
     links_at[at(links[j].a)].push_back(static_cast<int>(j));
     links_at[at(links[j].b)].push_back(static_cast<int>(j));
   }
+  struct Step {  // leaves last
+    int link, child, parent;
+    bool child_is_b;
+  };
   std::vector<double> torque(links.size(), 0.0);
   std::vector<char> seen(net.nodes.size(), 0);
   const auto sum_to = [&](int root) {
-    std::vector<RigidStep> steps;
+    std::vector<Step> steps;
     std::vector<int> queue = {root};
     seen[at(root)] = 1;
     for (std::size_t next = 0; next < queue.size(); ++next)
@@ -319,8 +323,8 @@ std::vector<double> Equations::balanced_joints(std::vector<double> need) const {
         queue.push_back(other);
       }
     for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-      const double ratio = links[at(step->joint)].ratio, wanted = need[at(step->child)];
-      torque[at(step->joint)] = step->child_is_b ? wanted / ratio : -wanted;
+      const double ratio = links[at(step->link)].ratio, wanted = need[at(step->child)];
+      torque[at(step->link)] = step->child_is_b ? wanted / ratio : -wanted;
       need[at(step->parent)] += step->child_is_b ? wanted / ratio : ratio * wanted;
     }
   };

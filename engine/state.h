@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace kurbel {
@@ -48,5 +49,8 @@ struct State {
   Modes modes;
   bool operator==(const State&) const = default;
 };
+
+// Of a tracked angle, all turns counted [rad].
+double angle_with_turns(const Modes& modes, std::size_t tracked, std::span<const double> y);
 
 }  // namespace kurbel

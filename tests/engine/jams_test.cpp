@@ -10,6 +10,7 @@
 #include "engine/equations.h"
 #include "engine/model.h"
 #include "engine/run.h"
+#include "tests/published/published.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
@@ -130,6 +131,31 @@ TEST(Jams, ASliderWithClearanceRestsOnTheSheetUntilTheCrankComesAfterIt) {
       EXPECT_LT(test::figure(r, "min_speed.press"), -0.1);
     }
   }
+}
+
+// A second load, which depends on the place alone, keeps its pieces while the slider creeps on the sheet: what it does
+// is the difference of its potential, whatever came between. Travel counts from the lower dead centre, 470 mm out.
+TEST(Jams, WhileASliderCreepsALoadOfThePlaceAloneKeepsItsPotential) {
+  std::string text =
+      with(blocked_press(200, "", "\"main_coupling\"", false, 90, 2.5), "accuracy = 1e-5", "accuracy = 1e-4");
+  const std::size_t from = text.find("load = { kind = \"press\""), end = text.find('\n', from);
+  const std::string press = text.substr(from + 7, text.find('}', from) - from - 6);
+  text.replace(from, end - from,
+               "clearance = { kind = \"crank pin\", gap = \"0.2 mm\", stiffness = \"500 kN/mm\", exponent = 1.5, "
+               "restitution = 0.5, restitution_speed = \"0.2 m/s\", friction = 0.05, radius = \"140 mm\" }\n"
+               "load = [ " +
+                   press +
+                   ", { kind = \"table\", force = { over = \"travel\", unit = [\"mm\", \"kN\"], "
+                   "points = [[0, 2], [40, 3], [80, 9], [99, 11], [100, 30]] } } ]");
+  const Result r = test::run(text, false);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_TRUE(has_note(r, "press: its events found no rest"));
+  const auto potential = [](double mm) { return 3 * (mm - 40) + 0.075 * (mm - 40) * (mm - 40); };  // [J], 40 … 80 mm
+  const std::vector<double> position = test::series(r, "position.press");
+  const double first = 1e3 * (0.47 - position.front()), last = 1e3 * (0.47 - position.back());
+  ASSERT_GT(std::min(first, last), 40);
+  ASSERT_LT(std::max(first, last), 80);
+  EXPECT_NEAR(test::figure(r, "work.useful"), -2 * 200e3 * 2.85e-3 + potential(last) - potential(first), 0.5);
 }
 
 // Backwards until 0.2 s: 40 − λ = 0.01 ε, 0.4 λ + 2.4 = 0.036 ε (on the input), λ = 35.4 N·m, ε = 460 rad/s². Then the
