@@ -7,7 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "studies/accuracy_output.h"
+#include "studies/accuracy/accuracy_output.h"
 
 namespace kurbel::app {
 namespace {

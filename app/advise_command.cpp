@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
-#include "studies/advise_output.h"
-#include "studies/whole_file.h"
+#include "studies/advise/advise_output.h"
+#include "studies/files/whole_file.h"
 
 namespace kurbel::app {
 namespace {

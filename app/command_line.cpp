@@ -11,13 +11,14 @@
 #include <stdexcept>
 
 #include "app/terminal.h"
-#include "engine/data_files.h"
-#include "engine/printable.h"
-#include "engine/section_reader.h"
-#include "engine/units.h"
-#include "studies/kinds.h"
-#include "studies/result_set.h"
-#include "studies/spawn.h"
+#include "engine/scene/data_files.h"
+#include "engine/scene/printable.h"
+#include "engine/scene/section_reader.h"
+#include "engine/scene/units.h"
+#include "studies/files/result_set.h"
+#include "studies/files/spawn.h"
+#include "studies/report/write_output.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/scene.h"
-#include "studies/output.h"
-#include "studies/simulate.h"
+#include "engine/scene/scene.h"
+#include "studies/findings/output.h"
+#include "studies/run/simulate.h"
 
 namespace kurbel::app {
 

@@ -5,7 +5,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "studies/effect_study_output.h"
+#include "studies/effects/effect_study_output.h"
 
 namespace kurbel::app {
 namespace {

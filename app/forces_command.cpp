@@ -7,7 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "studies/forces_output.h"
+#include "studies/forces/forces_output.h"
 
 namespace kurbel::app {
 namespace {

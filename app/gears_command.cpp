@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
-#include "studies/bevel_worm.h"
-#include "studies/gears.h"
+#include "studies/gears/bevel_worm.h"
+#include "studies/gears/gears.h"
 
 namespace kurbel::app {
 namespace {

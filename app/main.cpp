@@ -10,9 +10,9 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "engine/deadline.h"
-#include "engine/messages.h"
-#include "engine/units.h"
+#include "engine/numerics/deadline.h"
+#include "engine/scene/messages.h"
+#include "engine/scene/units.h"
 
 namespace {
 

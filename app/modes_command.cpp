@@ -6,7 +6,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "studies/modes_output.h"
+#include "studies/modes/modes_output.h"
 
 namespace kurbel::app {
 namespace {

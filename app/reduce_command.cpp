@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "app/command_line.h"
-#include "studies/reduce.h"
+#include "studies/reduce/reduce.h"
 
 namespace kurbel::app {
 namespace {

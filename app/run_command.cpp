@@ -11,12 +11,12 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
-#include "engine/checkpoint.h"
-#include "engine/model.h"
-#include "mechanisms/deforming_mechanism.h"
-#include "studies/known_accuracy.h"
-#include "studies/run_output.h"
-#include "studies/whole_file.h"
+#include "engine/model/model.h"
+#include "engine/run/checkpoint.h"
+#include "mechanisms/reduced/deforming_mechanism.h"
+#include "studies/accuracy/known_accuracy.h"
+#include "studies/files/whole_file.h"
+#include "studies/run/run_output.h"
 
 namespace kurbel::app {
 namespace {

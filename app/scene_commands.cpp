@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/keys.h"
-#include "engine/model.h"
-#include "engine/units.h"
-#include "studies/kinds.h"
-#include "studies/schema.h"
-#include "studies/simulate.h"
-#include "studies/templates/templates.h"
-#include "studies/whole_file.h"
+#include "engine/model/model.h"
+#include "engine/scene/keys.h"
+#include "engine/scene/units.h"
+#include "studies/files/whole_file.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
+#include "studies/scenes/schema.h"
+#include "studies/scenes/templates.h"
 
 namespace kurbel::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/command_line.h"
-#include "studies/size.h"
+#include "studies/size/size.h"
 
 namespace kurbel::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
-#include "studies/steady_output.h"
+#include "studies/steady/steady_output.h"
 
 namespace kurbel::app {
 namespace {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "engine/printable.h"
+#include "engine/scene/printable.h"
 
 namespace kurbel::app {
 namespace {

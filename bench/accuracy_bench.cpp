@@ -15,12 +15,13 @@
 #ifdef KURBEL_MUJOCO
 #include "bench/peers/mujoco_crank.h"
 #endif
-#include "engine/recorders.h"
-#include "engine/units.h"
-#include "engine/work_equation.h"
-#include "mechanisms/multibody_run.h"
-#include "studies/accuracy.h"
-#include "studies/run_output.h"
+#include "engine/rigid/work_equation.h"
+#include "engine/run/recorders.h"
+#include "engine/scene/units.h"
+#include "mechanisms/linkages/multibody_run.h"
+#include "studies/accuracy/accuracy.h"
+#include "studies/report/write_output.h"
+#include "studies/run/run_output.h"
 
 namespace kurbel::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/benches.h"
 #include "bench/machines.h"
-#include "studies/advise.h"
+#include "studies/advise/advise.h"
 
 namespace kurbel::bench {
 namespace {

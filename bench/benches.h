@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/report/report.h"
+#include "studies/findings/report.h"
 
 namespace kurbel::bench {
 

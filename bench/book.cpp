@@ -10,8 +10,9 @@
 #include <set>
 
 #include "bench/benches.h"
-#include "studies/machine_info.h"
-#include "studies/text_table.h"
+#include "studies/accuracy/machine_info.h"
+#include "studies/findings/text_table.h"
+#include "studies/report/render.h"
 
 namespace kurbel::bench {
 namespace {

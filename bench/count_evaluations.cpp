@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations.h"
-#include "engine/run.h"
-#include "studies/kinds.h"
+#include "engine/equations/equations.h"
+#include "engine/run/run.h"
+#include "studies/scenes/kinds.h"
 #include "tests/support/without_effect.h"
 
 namespace {

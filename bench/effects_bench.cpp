@@ -6,7 +6,7 @@
 
 #include "bench/benches.h"
 #include "bench/machines.h"
-#include "studies/effect_units.h"
+#include "studies/effects/effect_units.h"
 
 namespace kurbel::bench {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "drivetrain/coupling.h"
-#include "drivetrain/loads.h"
-#include "drivetrain/torque_source.h"
-#include "engine/run.h"
-#include "studies/kinds.h"
+#include "drivetrain/couplings/coupling.h"
+#include "drivetrain/loads/loads.h"
+#include "drivetrain/shared/torque_source.h"
+#include "engine/run/run.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel::bench {
 

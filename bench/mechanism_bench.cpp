@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "bench/benches.h"
-#include "mechanisms/multibody_run.h"
-#include "mechanisms/reduced_mechanism.h"
+#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/reduced/reduced_mechanism.h"
 
 namespace {
 

@@ -1,6 +1,12 @@
 // kinds.cpp — gathers the components of the drive.
 #include "drivetrain/kinds.h"
 
+#include "drivetrain/couplings/kinds.h"
+#include "drivetrain/friction/kinds.h"
+#include "drivetrain/gears/kinds.h"
+#include "drivetrain/loads/kinds.h"
+#include "drivetrain/motors/kinds.h"
+
 namespace kurbel {
 
 std::vector<Kind> drivetrain_kinds() {

@@ -1,8 +1,8 @@
 // two_masses.cpp — kurbel from C++: a scene as text, run rigid and elastic, figures by name.
 #include <cstdio>
 
-#include "studies/compare.h"
-#include "studies/kinds.h"
+#include "studies/run/compare.h"
+#include "studies/scenes/kinds.h"
 
 int main() {
   const kurbel::Scene scene = kurbel::parse_scene(R"(

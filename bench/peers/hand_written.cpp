@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/machines.h"
-#include "engine/butcher_tables.h"
+#include "engine/steppers/butcher_tables.h"
 
 namespace kurbel::bench {
 namespace {

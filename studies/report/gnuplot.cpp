@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <set>
 
-#include "engine/printable.h"
-#include "studies/report/report.h"
-#include "studies/report/thin.h"
-#include "studies/spawn.h"
-#include "studies/staging.h"
-#include "studies/whole_file.h"
+#include "engine/scene/printable.h"
+#include "studies/files/spawn.h"
+#include "studies/files/staging.h"
+#include "studies/files/whole_file.h"
+#include "studies/findings/thin.h"
+#include "studies/report/render.h"
 
 namespace kurbel {
 namespace {

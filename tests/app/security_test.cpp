@@ -21,8 +21,8 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/csv.h"
-#include "engine/document.h"
+#include "engine/scene/csv.h"
+#include "engine/scene/document.h"
 #include "tests/support/files.h"
 
 namespace kurbel {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/simulate.h"
+#include "studies/run/simulate.h"
 #include "tests/coverage/references.h"
 #include "tests/coverage/single_run.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/result.h"
+#include "studies/findings/result.h"
 #include "tests/coverage/variant.h"
 
 namespace kurbel::coverage {

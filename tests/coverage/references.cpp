@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "mechanisms/mechanism.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "tests/coverage/measure.h"
 #include "tests/coverage/single_run.h"
 #include "tests/coverage/variant.h"

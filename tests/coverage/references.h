@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/model.h"
+#include "engine/model/model.h"
 
 namespace kurbel::coverage {
 

@@ -1,8 +1,8 @@
 // single_run.cpp — asks the study for one rung of its ladder.
 #include "tests/coverage/single_run.h"
 
-#include "engine/equations.h"
-#include "studies/simulate.h"
+#include "engine/equations/equations.h"
+#include "studies/run/simulate.h"
 
 namespace kurbel::coverage {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "studies/result.h"
+#include "studies/findings/result.h"
 
 namespace kurbel::coverage {
 

@@ -9,10 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/document.h"
-#include "engine/equations.h"
-#include "engine/work_equation.h"
-#include "studies/kinds.h"
+#include "engine/equations/equations.h"
+#include "engine/rigid/work_equation.h"
+#include "engine/scene/document.h"
+#include "studies/scenes/kinds.h"
 #include "tests/coverage/variant_motors.h"
 
 namespace kurbel::coverage {

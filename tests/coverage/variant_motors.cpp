@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/units.h"
+#include "engine/scene/units.h"
 
 namespace kurbel::coverage {
 namespace {

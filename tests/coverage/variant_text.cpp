@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/units.h"
+#include "engine/scene/units.h"
 
 namespace kurbel::coverage {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "engine/document.h"
+#include "engine/scene/document.h"
 
 namespace kurbel::coverage {
 

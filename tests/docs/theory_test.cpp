@@ -16,7 +16,8 @@
 #include <string_view>
 #include <vector>
 
-#include "studies/report/report.h"
+#include "studies/findings/report.h"
+#include "studies/report/render.h"
 #include "studies/report/theory.h"
 
 namespace kurbel {

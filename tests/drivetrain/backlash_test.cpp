@@ -1,5 +1,5 @@
 // backlash_test.cpp — flanks with a gap: two published laws of contact, the step torque, impacts, and the gap left out.
-#include "drivetrain/backlash.h"
+#include "drivetrain/couplings/backlash.h"
 
 #include <fmt/format.h>
 

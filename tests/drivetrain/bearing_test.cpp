@@ -1,5 +1,5 @@
 // bearing_test.cpp — bearing friction: its curve in all three models, sticking, presliding, energy, off.
-#include "drivetrain/bearing.h"
+#include "drivetrain/friction/bearing.h"
 
 #include <fmt/format.h>
 

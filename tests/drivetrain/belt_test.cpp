@@ -1,5 +1,5 @@
 // belt_test.cpp — belts that slip: capacity by Euler and Eytelwein, the ideal ratio below it, the heat above it.
-#include "drivetrain/belt.h"
+#include "drivetrain/friction/belt.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // dc_circuits_test.cpp — DC motors with their circuits: closed forms, Dubey's braking, switching, energy, runaway.
-#include "drivetrain/dc_circuits.h"
+#include "drivetrain/motors/dc_circuits.h"
 
 #include <fmt/format.h>
 

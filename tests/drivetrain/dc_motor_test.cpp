@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "drivetrain/dc_series_motor.h"
+#include "drivetrain/motors/dc_series_motor.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -3,16 +3,16 @@
 #include <cmath>
 #include <random>
 
-#include "drivetrain/catalogue_motor.h"
-#include "drivetrain/coupling.h"
-#include "drivetrain/dc_series_motor.h"
-#include "drivetrain/engine_torque.h"
-#include "drivetrain/fluid_motors.h"
-#include "drivetrain/loads.h"
-#include "drivetrain/motors.h"
-#include "drivetrain/started_motor.h"
-#include "drivetrain/torque_source.h"
-#include "engine/element_pool.h"
+#include "drivetrain/couplings/coupling.h"
+#include "drivetrain/loads/loads.h"
+#include "drivetrain/motors/catalogue_motor.h"
+#include "drivetrain/motors/dc_series_motor.h"
+#include "drivetrain/motors/engine_torque.h"
+#include "drivetrain/motors/fluid_motors.h"
+#include "drivetrain/motors/motors.h"
+#include "drivetrain/motors/started_motor.h"
+#include "drivetrain/shared/torque_source.h"
+#include "engine/elements/element_pool.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // engine_torque_test.cpp — several cylinders by firing order: harmonics that cancel, work, the same as with mechanisms.
-#include "drivetrain/engine_torque.h"
+#include "drivetrain/motors/engine_torque.h"
 
 #include <fmt/format.h>
 

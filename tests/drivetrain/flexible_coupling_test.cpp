@@ -5,8 +5,8 @@
 #include <cmath>
 #include <complex>
 
-#include "drivetrain/progressive_coupling.h"
-#include "drivetrain/rubber_coupling.h"
+#include "drivetrain/couplings/progressive_coupling.h"
+#include "drivetrain/couplings/rubber_coupling.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

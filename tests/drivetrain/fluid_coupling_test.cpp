@@ -1,5 +1,5 @@
 // fluid_coupling_test.cpp — hydrodynamic coupling and viscous damper against their closed forms.
-#include "drivetrain/fluid_coupling.h"
+#include "drivetrain/couplings/fluid_coupling.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // fluid_motors_test.cpp — hydraulic and pneumatic drives: flow balance, power, settling speeds.
-#include "drivetrain/fluid_motors.h"
+#include "drivetrain/motors/fluid_motors.h"
 
 #include <fmt/format.h>
 

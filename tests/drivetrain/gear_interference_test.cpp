@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "drivetrain/gear_pair.h"
+#include "drivetrain/gears/gear_pair.h"
 
 namespace kurbel {
 namespace {

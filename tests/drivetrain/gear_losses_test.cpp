@@ -1,5 +1,5 @@
 // gear_losses_test.cpp — efficiency by the direction of power: stuck phases, self-locking, power, energy.
-#include "drivetrain/gear_losses.h"
+#include "drivetrain/gears/gear_losses.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // gear_mesh_test.cpp — elastic teeth: energy, the tooth frequency in the spectrum, and what is left when it is off.
-#include "drivetrain/gear_mesh.h"
+#include "drivetrain/gears/gear_mesh.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <complex>
 
-#include "drivetrain/gear_pair.h"
+#include "drivetrain/gears/gear_pair.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

@@ -1,5 +1,5 @@
 // gear_pair_test.cpp — laws of gearing on random pairs: conjugate action, path of contact, undercut, drawn wheels.
-#include "drivetrain/gear_pair.h"
+#include "drivetrain/gears/gear_pair.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "drivetrain/bevel_worm.h"
-#include "drivetrain/planetary.h"
+#include "drivetrain/gears/bevel_worm.h"
+#include "drivetrain/gears/planetary.h"
 
 namespace kurbel {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "drivetrain/gear_pair.h"
+#include "drivetrain/gears/gear_pair.h"
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
 

@@ -1,5 +1,5 @@
 // governor_test.cpp — proportional–integral speed governor: second-order response, limits, droop.
-#include "drivetrain/governor.h"
+#include "drivetrain/motors/governor.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "drivetrain/catalogue_motor.h"
-#include "drivetrain/motors.h"
-#include "drivetrain/started_motor.h"
+#include "drivetrain/motors/catalogue_motor.h"
+#include "drivetrain/motors/motors.h"
+#include "drivetrain/motors/started_motor.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/starters.h"
-#include "engine/model.h"
+#include "drivetrain/motors/starters.h"
+#include "engine/model/model.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

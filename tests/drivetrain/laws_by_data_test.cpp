@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/catalogue_motor.h"
-#include "drivetrain/dc_circuits.h"
-#include "drivetrain/gear_pair.h"
-#include "drivetrain/governor.h"
-#include "drivetrain/induction_circuit.h"
-#include "drivetrain/motors.h"
-#include "drivetrain/rubber_coupling.h"
-#include "drivetrain/universal_joint.h"
+#include "drivetrain/couplings/rubber_coupling.h"
+#include "drivetrain/couplings/universal_joint.h"
+#include "drivetrain/gears/gear_pair.h"
+#include "drivetrain/motors/catalogue_motor.h"
+#include "drivetrain/motors/dc_circuits.h"
+#include "drivetrain/motors/governor.h"
+#include "drivetrain/motors/induction_circuit.h"
+#include "drivetrain/motors/motors.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/backlash.h"
-#include "drivetrain/belt.h"
-#include "drivetrain/bevel_worm.h"
-#include "drivetrain/dc_circuits.h"
-#include "drivetrain/gear_losses.h"
-#include "drivetrain/gear_mesh.h"
-#include "drivetrain/gear_pair.h"
-#include "drivetrain/governor.h"
-#include "drivetrain/induction_circuit.h"
+#include "drivetrain/couplings/backlash.h"
+#include "drivetrain/friction/belt.h"
+#include "drivetrain/gears/bevel_worm.h"
+#include "drivetrain/gears/gear_losses.h"
+#include "drivetrain/gears/gear_mesh.h"
+#include "drivetrain/gears/gear_pair.h"
+#include "drivetrain/motors/dc_circuits.h"
+#include "drivetrain/motors/governor.h"
+#include "drivetrain/motors/induction_circuit.h"
 #include "tests/support/elements.h"
 
 namespace kurbel {

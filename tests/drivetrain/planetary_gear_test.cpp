@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "drivetrain/planetary.h"
+#include "drivetrain/gears/planetary.h"
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
 

@@ -1,5 +1,5 @@
 // universal_joint_test.cpp — Hooke's joint: kinematics of the textbook, and the torque that it takes to follow them.
-#include "drivetrain/universal_joint.h"
+#include "drivetrain/couplings/universal_joint.h"
 
 #include <fmt/format.h>
 

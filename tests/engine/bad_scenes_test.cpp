@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/document.h"
-#include "engine/model.h"
+#include "engine/model/model.h"
+#include "engine/scene/document.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -7,10 +7,10 @@
 #include <complex>
 #include <numbers>
 
-#include "engine/linearise.h"
-#include "engine/recorders.h"
-#include "engine/run.h"
-#include "studies/modes.h"
+#include "engine/analysis/linearise.h"
+#include "engine/run/recorders.h"
+#include "engine/run/run.h"
+#include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

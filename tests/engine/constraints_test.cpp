@@ -1,5 +1,5 @@
 // constraints_test.cpp — shafts that move together, with inertias far apart: against elimination with 34 digits.
-#include "engine/constraints.h"
+#include "engine/equations/constraints.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/constraints.h"
+#include "engine/equations/constraints.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "engine/constraints.h"
-#include "engine/equations.h"
-#include "engine/model.h"
+#include "engine/equations/constraints.h"
+#include "engine/equations/equations.h"
+#include "engine/model/model.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

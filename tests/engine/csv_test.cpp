@@ -1,5 +1,5 @@
 // csv_test.cpp — tables of measured data in the forms that programs write.
-#include "engine/csv.h"
+#include "engine/scene/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // curve_test.cpp — characteristics by points: linear, smooth, periodic.
-#include "engine/curve.h"
+#include "engine/numerics/curve.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/recorders.h"
+#include "engine/run/recorders.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,14 +1,14 @@
 // deadline_test.cpp — what takes long is ended by its budget and by the user, wherever it is.
-#include "engine/deadline.h"
+#include "engine/numerics/deadline.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/eigen_modes.h"
-#include "studies/forces.h"
-#include "studies/modes.h"
-#include "studies/reduce.h"
-#include "studies/size.h"
-#include "studies/steady.h"
+#include "engine/analysis/eigen_modes.h"
+#include "studies/forces/forces.h"
+#include "studies/modes/modes.h"
+#include "studies/reduce/reduce.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // eigen_modes_test.cpp — modes of linearised drives: closed forms, published lines, dense against sparse, counting.
-#include "engine/eigen_modes.h"
+#include "engine/analysis/eigen_modes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "drivetrain/coupling.h"
-#include "drivetrain/loads.h"
-#include "engine/equations.h"
+#include "drivetrain/couplings/coupling.h"
+#include "drivetrain/loads/loads.h"
+#include "engine/equations/equations.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,10 +1,10 @@
 // equations_test.cpp — the equations of compiled scenes: Jacobians, merging, d'Alembert torques, starts, standstill.
-#include "engine/equations.h"
+#include "engine/equations/equations.h"
 
 #include <cmath>
 #include <random>
 
-#include "studies/compare.h"
+#include "studies/run/compare.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

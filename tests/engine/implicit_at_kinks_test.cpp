@@ -2,8 +2,8 @@
 // motion so short that a coarse step goes over it. Variants that broke off.
 #include <gtest/gtest.h>
 
-#include "engine/model.h"
-#include "studies/simulate.h"
+#include "engine/model/model.h"
+#include "studies/run/simulate.h"
 #include "tests/coverage/variant.h"
 
 namespace kurbel {

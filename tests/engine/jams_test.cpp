@@ -7,9 +7,9 @@
 #include <random>
 #include <sstream>
 
-#include "engine/equations.h"
-#include "engine/model.h"
-#include "engine/run.h"
+#include "engine/equations/equations.h"
+#include "engine/model/model.h"
+#include "engine/run/run.h"
 #include "tests/published/published.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/coupling.h"
-#include "engine/eigen_modes.h"
-#include "engine/linearise.h"
-#include "engine/run.h"
-#include "engine/stepper.h"
-#include "studies/modes.h"
+#include "drivetrain/couplings/coupling.h"
+#include "engine/analysis/eigen_modes.h"
+#include "engine/analysis/linearise.h"
+#include "engine/run/run.h"
+#include "engine/steppers/stepper.h"
+#include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // period_test.cpp — where an angle or a time lies within a period, and that no machine sees on which turn it began.
-#include "engine/period.h"
+#include "engine/numerics/period.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <random>
 #include <vector>
 
-#include "drivetrain/torque_source.h"
-#include "engine/curve.h"
-#include "engine/model.h"
+#include "drivetrain/shared/torque_source.h"
+#include "engine/model/model.h"
+#include "engine/numerics/curve.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // printable_test.cpp — no text, whatever its bytes, holds anything that a terminal obeys; sound text stays as it is.
-#include "engine/printable.h"
+#include "engine/scene/printable.h"
 
 #include <gtest/gtest.h>
 

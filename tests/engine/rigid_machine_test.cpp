@@ -1,5 +1,5 @@
 // rigid_machine_test.cpp — the machine as functions of angle and speed, against closed forms and its own run.
-#include "engine/rigid_machine.h"
+#include "engine/rigid/rigid_machine.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "mechanisms/slider_crank_geometry.h"
+#include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -7,12 +7,12 @@
 #include <functional>
 #include <numbers>
 
-#include "engine/curve.h"
-#include "engine/recorders.h"
-#include "engine/return_map.h"
-#include "engine/sensitivities.h"
-#include "engine/work_equation.h"
-#include "studies/modes.h"
+#include "engine/analysis/return_map.h"
+#include "engine/analysis/sensitivities.h"
+#include "engine/numerics/curve.h"
+#include "engine/rigid/work_equation.h"
+#include "engine/run/recorders.h"
+#include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // scene_test.cpp — what a scene file says, in SI and in canonical order.
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 #include <gtest/gtest.h>
 

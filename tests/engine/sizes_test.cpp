@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/deadline.h"
-#include "studies/reduce.h"
-#include "studies/steady.h"
+#include "engine/numerics/deadline.h"
+#include "studies/reduce/reduce.h"
+#include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // speed_history_test.cpp — the last time outside a band that is known only at the end.
-#include "engine/speed_history.h"
+#include "engine/run/speed_history.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/work_equation.h"
+#include "engine/rigid/work_equation.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

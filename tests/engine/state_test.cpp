@@ -1,13 +1,13 @@
 // state_test.cpp — the state is a value: kept, written, read and handed on, it goes on to the same bits; and whatever
 // was asked of the equations in between changes nothing.
-#include "engine/state.h"
+#include "engine/equations/state.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <thread>
 
-#include "engine/checkpoint.h"
+#include "engine/run/checkpoint.h"
 #include "tests/coverage/variant.h"
 #include "tests/hard/random_machine.h"
 #include "tests/support/scenes.h"

@@ -1,10 +1,10 @@
 // step_limits_test.cpp — a run says which elements kept its steps short, and a run that breaks off says why in words.
-#include "engine/step_limits.h"
+#include "engine/run/step_limits.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/diagnosis.h"
+#include "engine/run/diagnosis.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // stepper_test.cpp — every integrator keeps its order, its tolerance in the maximum norm, and its promises on failure.
-#include "engine/stepper.h"
+#include "engine/steppers/stepper.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-#include "engine/butcher_tables.h"
+#include "engine/steppers/butcher_tables.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,5 @@
 // units_test.cpp — quantities as engineers write them, and garbage.
-#include "engine/units.h"
+#include "engine/scene/units.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // work_equation_test.cpp — the machine over its angle: work diagrams, time by quadrature, stalls and starts from rest.
-#include "engine/work_equation.h"
+#include "engine/rigid/work_equation.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "engine/butcher_tables.h"
-#include "engine/work_stepper.h"
-#include "mechanisms/slider_crank_geometry.h"
+#include "engine/rigid/work_stepper.h"
+#include "engine/steppers/butcher_tables.h"
+#include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

@@ -2,8 +2,8 @@
 // fixed number on.
 #include <gtest/gtest.h>
 
-#include "engine/scene.h"
-#include "studies/kinds.h"
+#include "engine/scene/scene.h"
+#include "studies/scenes/kinds.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/targets.h"

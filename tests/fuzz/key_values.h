@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/document.h"
-#include "engine/keys.h"
+#include "engine/scene/document.h"
+#include "engine/scene/keys.h"
 #include "tests/fuzz/random.h"
 
 namespace kurbel::fuzz {

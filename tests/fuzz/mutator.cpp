@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "engine/effects.h"
-#include "engine/scene.h"
-#include "engine/sequence_reader.h"
-#include "engine/units.h"
-#include "studies/kinds.h"
+#include "engine/scene/effects.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/sequence_reader.h"
+#include "engine/scene/units.h"
+#include "studies/scenes/kinds.h"
 #include "tests/fuzz/key_values.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/fuzz/toml_text.h"

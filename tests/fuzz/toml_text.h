@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/document.h"
+#include "engine/scene/document.h"
 
 namespace kurbel::fuzz {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/equations.h"
-#include "engine/recorders.h"
-#include "engine/run.h"
+#include "engine/equations/equations.h"
+#include "engine/run/recorders.h"
+#include "engine/run/run.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test {

@@ -8,10 +8,10 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "engine/messages.h"
-#include "engine/recorders.h"
-#include "studies/kinds.h"
-#include "studies/simulate.h"
+#include "engine/run/recorders.h"
+#include "engine/scene/messages.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel::hard {
 namespace {

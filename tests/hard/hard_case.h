@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/result.h"
+#include "studies/findings/result.h"
 
 namespace kurbel::hard {
 

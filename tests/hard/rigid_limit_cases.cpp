@@ -3,8 +3,8 @@
 #include <map>
 #include <mutex>
 
-#include "studies/kinds.h"
-#include "studies/simulate.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
 #include "tests/hard/families.h"
 #include "tests/hard/linear_chain.h"
 #include "tests/hard/machines.h"

@@ -3,7 +3,7 @@
 // not.
 #include <fmt/format.h>
 
-#include "studies/compare.h"
+#include "studies/run/compare.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

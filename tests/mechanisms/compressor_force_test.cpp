@@ -1,5 +1,5 @@
 // compressor_force_test.cpp — work and volumetric efficiency of a compressor's indicator diagram in closed form.
-#include "mechanisms/compressor_force.h"
+#include "mechanisms/loads/compressor_force.h"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations.h"
-#include "engine/run.h"
-#include "mechanisms/joint_contact.h"
+#include "engine/equations/equations.h"
+#include "engine/run/run.h"
+#include "mechanisms/slider_crank/joint_contact.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 #include "tests/support/scenes.h"

@@ -1,9 +1,9 @@
 // friction_test.cpp — classical friction pairs against published numbers (tests/cases/fr01_friction.toml) and limits.
-#include "mechanisms/friction.h"
+#include "mechanisms/slider_crank/friction.h"
 
 #include <gtest/gtest.h>
 
-#include "mechanisms/slider_crank_forces.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
 namespace {

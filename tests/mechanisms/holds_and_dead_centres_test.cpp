@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "mechanisms/rounded_profile.h"
-#include "mechanisms/slider_crank_forces.h"
-#include "mechanisms/slider_loads.h"
+#include "mechanisms/loads/rounded_profile.h"
+#include "mechanisms/loads/slider_loads.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/equations.h"
-#include "mechanisms/slider_crank_forces.h"
+#include "engine/equations/equations.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

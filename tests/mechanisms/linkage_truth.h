@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "mechanisms/mechanism_data.h"
-#include "mechanisms/taylor.h"
+#include "mechanisms/reduced/mechanism_data.h"
+#include "mechanisms/reduced/taylor.h"
 
 namespace kurbel::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanisms/mechanism.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_truth.h"
 
 namespace kurbel {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "mechanisms/mechanism.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/support/scenes.h"
 

@@ -1,6 +1,6 @@
 // multibody_run_test.cpp — the full multibody run against the reduced equation of motion (theory 2.4) in Runge-Kutta
 // steps.
-#include "mechanisms/multibody_run.h"
+#include "mechanisms/linkages/multibody_run.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // periodic_table_test.cpp — the table by itself: accuracy, wrapping, and what it says when it cannot do better.
-#include "mechanisms/periodic_table.h"
+#include "mechanisms/reduced/periodic_table.h"
 
 #include <gtest/gtest.h>
 

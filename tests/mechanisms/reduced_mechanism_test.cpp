@@ -1,5 +1,5 @@
 // reduced_mechanism_test.cpp — the table extracted from Simbody against the closed form in long double.
-#include "mechanisms/reduced_mechanism.h"
+#include "mechanisms/reduced/reduced_mechanism.h"
 
 #include <gtest/gtest.h>
 

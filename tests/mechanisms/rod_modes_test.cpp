@@ -1,5 +1,5 @@
 // rod_modes_test.cpp — the integrals of a flexible rod's shape functions against quadrature and a rod's own vibrations.
-#include "mechanisms/rod_flexibility.h"
+#include "mechanisms/slider_crank/rod_flexibility.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanisms/rounded_profile.h"
+#include "mechanisms/loads/rounded_profile.h"
 #include "tests/support/elements.h"
 
 namespace kurbel {

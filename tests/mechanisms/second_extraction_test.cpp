@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
-#include "engine/model.h"
-#include "mechanisms/closed_forms.h"
-#include "mechanisms/mechanism.h"
-#include "studies/kinds.h"
-#include "studies/simulate.h"
+#include "engine/model/model.h"
+#include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/reduced/mechanism.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/mechanisms/mechanism_examples.h"
 #include "tests/support/scenes.h"

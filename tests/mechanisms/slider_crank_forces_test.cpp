@@ -1,11 +1,11 @@
 // slider_crank_forces_test.cpp — reactions against Simbody, energy and published cases; friction against its laws.
-#include "mechanisms/slider_crank_forces.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "mechanisms/simbody_reactions.h"
+#include "mechanisms/linkages/simbody_reactions.h"
 #include "tests/mechanisms/mechanism_examples.h"
 
 namespace kurbel {

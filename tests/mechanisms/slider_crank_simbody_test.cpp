@@ -1,5 +1,5 @@
 // slider_crank_simbody_test.cpp — what Simbody's bodies say against the closed form, over random slider-cranks.
-#include "mechanisms/slider_crank_simbody.h"
+#include "mechanisms/linkages/slider_crank_simbody.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // slider_loads_test.cpp — forces on the slider: work per cycle in closed form, modes, holding at standstill.
-#include "mechanisms/slider_loads.h"
+#include "mechanisms/loads/slider_loads.h"
 
 #include <cmath>
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <numbers>
 
-#include "engine/equations.h"
-#include "engine/run.h"
-#include "mechanisms/mechanism.h"
+#include "engine/equations/equations.h"
+#include "engine/run/run.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test {

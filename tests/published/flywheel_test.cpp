@@ -1,5 +1,5 @@
 // flywheel_test.cpp — turning-moment diagrams, flywheels and punch presses (tests/cases/fl01_flywheel_areas.toml).
-#include "studies/flywheel.h"
+#include "studies/size/flywheel.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "drivetrain/gear_pair.h"
-#include "drivetrain/planetary.h"
+#include "drivetrain/gears/gear_pair.h"
+#include "drivetrain/gears/planetary.h"
 
 namespace kurbel {
 namespace {

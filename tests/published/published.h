@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/csv.h"
-#include "engine/eigen_modes.h"
-#include "engine/equations.h"
+#include "engine/analysis/eigen_modes.h"
+#include "engine/equations/equations.h"
+#include "engine/scene/csv.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test {

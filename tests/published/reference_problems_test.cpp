@@ -5,9 +5,9 @@
 
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "drivetrain/coupling.h"
-#include "drivetrain/loads.h"
-#include "drivetrain/torque_source.h"
+#include "drivetrain/couplings/coupling.h"
+#include "drivetrain/loads/loads.h"
+#include "drivetrain/shared/torque_source.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

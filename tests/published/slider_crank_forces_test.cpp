@@ -1,13 +1,13 @@
 // slider_crank_forces_test.cpp — published reactions and torques: textbook engines (sc05), a flexible-rod benchmark's
 // rigid limit (mb04), a pendulum by ADAMS (mb05), the slider-crank of SUNDIALS' IDAS (sc04).
-#include "mechanisms/slider_crank_forces.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "engine/stepper.h"
+#include "engine/steppers/stepper.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,5 @@
 // accuracy_test.cpp — what accuracy costs: errors fall with the tolerance, references are right, answers hold.
-#include "studies/accuracy.h"
+#include "studies/accuracy/accuracy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "studies/accuracy_output.h"
-#include "studies/known_accuracy.h"
+#include "studies/accuracy/accuracy_output.h"
+#include "studies/accuracy/known_accuracy.h"
+#include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "studies/steady.h"
-#include "studies/steady_simulation.h"
+#include "studies/steady/steady.h"
+#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

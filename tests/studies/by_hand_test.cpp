@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/flywheel.h"
-#include "studies/forces.h"
-#include "studies/rainflow.h"
+#include "studies/forces/forces.h"
+#include "studies/modes/rainflow.h"
+#include "studies/size/flywheel.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <numbers>
 
-#include "engine/equations.h"
-#include "engine/run.h"
-#include "studies/advise.h"
-#include "studies/effect_study.h"
+#include "engine/equations/equations.h"
+#include "engine/run/run.h"
+#include "studies/advise/advise.h"
+#include "studies/effects/effect_study.h"
 #include "tests/support/scenes.h"
 #include "tests/support/without_effect.h"
 

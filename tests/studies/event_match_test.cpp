@@ -1,5 +1,5 @@
 // event_match_test.cpp — the events of two runs side by side.
-#include "studies/event_match.h"
+#include "studies/run/event_match.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // figure_text_test.cpp — a figure and its error as they are printed: digits end where the error begins.
-#include "studies/figure_text.h"
+#include "studies/findings/figure_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // flywheel_test.cpp — synthesis against the speed that it promises, limits, tangents, dimensions, bad input.
-#include "studies/flywheel.h"
+#include "studies/size/flywheel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // forces_test.cpp — the two problems over a cycle against conservation laws, Fourier series and balancing by hand.
-#include "studies/forces.h"
+#include "studies/forces/forces.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "studies/forces_output.h"
+#include "studies/forces/forces_output.h"
+#include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

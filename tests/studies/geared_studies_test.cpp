@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/advise_screens.h"
-#include "studies/excitation.h"
-#include "studies/size.h"
+#include "studies/advise/advise_screens.h"
+#include "studies/modes/excitation.h"
+#include "studies/size/size.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,6 +1,6 @@
 // gears_test.cpp — kurbel gears: stages of a scene, a pair alone, what a gearbox takes from its teeth, the report's
 // data.
-#include "studies/gears.h"
+#include "studies/gears/gears.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "engine/model.h"
+#include "engine/model/model.h"
+#include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "studies/accuracy.h"
-#include "studies/forced_response.h"
-#include "studies/reduce.h"
-#include "studies/steady.h"
-#include "studies/steady_simulation.h"
+#include "studies/accuracy/accuracy.h"
+#include "studies/modes/forced_response.h"
+#include "studies/reduce/reduce.h"
+#include "studies/steady/steady.h"
+#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

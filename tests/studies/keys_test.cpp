@@ -2,7 +2,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "studies/kinds.h"
+#include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

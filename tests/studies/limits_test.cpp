@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "studies/modes.h"
+#include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

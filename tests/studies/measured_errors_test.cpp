@@ -1,5 +1,5 @@
 // measured_errors_test.cpp — stated errors cover the true ones: closed forms, runs that take the same steps, chance.
-#include "studies/measured_errors.h"
+#include "studies/run/measured_errors.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "engine/equations.h"
-#include "studies/simulate.h"
+#include "engine/equations/equations.h"
+#include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "studies/run_output.h"
-#include "studies/size.h"
+#include "studies/report/render.h"
+#include "studies/run/run_output.h"
+#include "studies/size/size.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,6 +1,6 @@
 // modes_test.cpp — orders, forced response, parametric zones, rainflow, spectra and the study against closed forms and
 // long simulations.
-#include "studies/modes.h"
+#include "studies/modes/modes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 #include <numbers>
 #include <random>
 
-#include "studies/modes_output.h"
+#include "studies/modes/modes_output.h"
+#include "studies/report/render.h"
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
 

@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "studies/templates/templates.h"
+#include "studies/scenes/templates.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

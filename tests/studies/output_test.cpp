@@ -1,11 +1,13 @@
 // output_test.cpp — results as files: the JSON that programs read, the CSV, and a run against the full multibody.
-#include "studies/run_output.h"
+#include "studies/run/run_output.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "studies/report/render.h"
+#include "studies/report/write_output.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // periods_test.cpp — run-up, steady motion and run-down against closed forms; no figure depends on what is sampled.
-#include "studies/periods.h"
+#include "studies/run/periods.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

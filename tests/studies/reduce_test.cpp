@@ -1,11 +1,11 @@
 // reduce_test.cpp — reduction against closed forms, power and energy; gear trains; chain; harmonics.
-#include "studies/reduce.h"
+#include "studies/reduce/reduce.h"
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "mechanisms/slider_crank_geometry.h"
+#include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

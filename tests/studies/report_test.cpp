@@ -1,5 +1,5 @@
 // report_test.cpp — a report is one self-contained page, keeps every peak, and stays small.
-#include "studies/report/report.h"
+#include "studies/findings/report.h"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "studies/compare.h"
-#include "studies/figure_text.h"
-#include "studies/kinds.h"
-#include "studies/report/run_report.h"
-#include "studies/report/thin.h"
-#include "studies/report/trace.h"
-#include "studies/run_output.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/thin.h"
+#include "studies/findings/trace.h"
+#include "studies/report/render.h"
+#include "studies/run/compare.h"
+#include "studies/run/run_output.h"
+#include "studies/run/run_report.h"
+#include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

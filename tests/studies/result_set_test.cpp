@@ -1,6 +1,6 @@
 // result_set_test.cpp — results are whole or not there; what is not kurbel's is never lost; who was killed leaves
 // nothing.
-#include "studies/result_set.h"
+#include "studies/files/result_set.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include <sstream>
 #include <thread>
 
-#include "studies/clear_away.h"
-#include "studies/sha256.h"
-#include "studies/whole_file.h"
+#include "studies/files/clear_away.h"
+#include "studies/files/sha256.h"
+#include "studies/files/whole_file.h"
 #include "tests/support/files.h"
 
 namespace kurbel {

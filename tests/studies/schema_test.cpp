@@ -1,5 +1,5 @@
 // schema_test.cpp — the schema is that of the reader: every example scene fits it, and slips do not.
-#include "studies/schema.h"
+#include "studies/scenes/schema.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <regex>
 #include <sstream>
 
-#include "engine/document.h"
+#include "engine/scene/document.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -1,6 +1,6 @@
 // size_test.cpp — the flywheel for a demanded δ: what was sized is what runs, rigid and elastic; the motor's slope; bad
 // input.
-#include "studies/size.h"
+#include "studies/size/size.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "studies/steady_simulation.h"
+#include "studies/report/render.h"
+#include "studies/steady/steady_simulation.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

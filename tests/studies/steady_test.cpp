@@ -1,5 +1,5 @@
 // Steady cycles and operating points as a user asks for them: closed forms, families, stalls, runaways.
-#include "studies/steady.h"
+#include "studies/steady/steady.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "studies/steady_output.h"
+#include "studies/steady/steady_output.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test {

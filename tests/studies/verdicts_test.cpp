@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "studies/effect_study.h"
-#include "studies/forces.h"
-#include "studies/forces_output.h"
-#include "studies/steady_simulation.h"
+#include "studies/effects/effect_study.h"
+#include "studies/forces/forces.h"
+#include "studies/forces/forces_output.h"
+#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

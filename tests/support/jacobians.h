@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations.h"
-#include "engine/model.h"
+#include "engine/equations/equations.h"
+#include "engine/model/model.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "engine/scene.h"
-#include "studies/kinds.h"
-#include "studies/simulate.h"
+#include "engine/scene/scene.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel::test {
 

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene.h"
-#include "studies/result.h"
+#include "engine/scene/scene.h"
+#include "studies/findings/result.h"
 
 namespace kurbel::test {
 

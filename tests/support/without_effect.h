@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace kurbel::test {
 

@@ -6,9 +6,9 @@
 #include <complex>
 #include <numbers>
 
-#include "mechanisms/slider_crank_forces.h"
-#include "studies/modes.h"
-#include "studies/reduce.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "studies/modes/modes.h"
+#include "studies/reduce/reduce.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

@@ -3,9 +3,9 @@
 // modes, steady cycles and reductions put out.
 #include <set>
 
-#include "studies/modes.h"
-#include "studies/reduce.h"
-#include "studies/steady.h"
+#include "studies/modes/modes.h"
+#include "studies/reduce/reduce.h"
+#include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 

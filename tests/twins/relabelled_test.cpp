@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "studies/modes.h"
-#include "studies/modes_output.h"
-#include "studies/reduce.h"
-#include "studies/run_output.h"
+#include "studies/modes/modes.h"
+#include "studies/modes/modes_output.h"
+#include "studies/reduce/reduce.h"
+#include "studies/run/run_output.h"
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 

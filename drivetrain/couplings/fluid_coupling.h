@@ -1,0 +1,57 @@
+// fluid_coupling.h — what transmits by a fluid and has no spring: hydrodynamic coupling, viscous film.
+//
+//     fluid coupling:  M = λ(ν) ρ D⁵ ω_p |ω_p|, from the faster side (p, by |ω|) to the slower, ν = ω_slower/ω_faster
+//     viscous film:    τ = c (ω_a − i ω_b)
+// λ over −1 ≤ ν ≤ 1 with λ(1) = 0; for ν below its first point it keeps its first value. The law is symmetric: a driven
+// side that runs ahead drives back. Smooth through ν = 1; at ω_b = −ω_a (countercurrent braking) its slope jumps.
+// (Föttinger's law of similarity; VDI 2153, Hydrodynamische Leistungsübertragung.) A ring that hangs on a shaft by a
+// viscous film is the untuned damper of Houdaille. On a shaft of inertia J on a spring k to the frame, μ = J_ring/J:
+// least peak M₀/k · (1 + 2/μ) at ω² = (k/J) 2/(2 + μ), with c = 2 J_ring √(k/J)/√(2 (1 + μ)(2 + μ)) (Den Hartog,
+// Mechanical Vibrations, 4th ed., ch. 3.3).
+#pragma once
+
+#include <cmath>
+
+#include "engine/elements/element.h"
+#include "engine/numerics/curve.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+struct FluidCoupling {
+  static constexpr bool springless = true;
+  static constexpr bool uses_speeds = true;
+  Curve lambda;     // λ(ν) [1]
+  double size = 0;  // ρ D⁵ [kg·m²], > 0
+
+  template <class T>
+  T torque(const Twist<T>& x) const {
+    const T a = x.turn_rate, b = x.turn_rate - x.rate;
+    const bool a_faster = std::abs(value_of(a)) >= std::abs(value_of(b));
+    const T fast = a_faster ? a : b, slow = a_faster ? b : a;
+    if (value_of(fast) == 0) return T(0.0);
+    const T flow = lambda.value(slow / fast) * size * (fast * fast);
+    return (a_faster == (value_of(fast) > 0) ? 1.0 : -1.0) * flow;
+  }
+  double loss_power(const Twist<double>& x) const { return torque(x) * x.rate; }
+};
+
+struct ViscousFilm {
+  static constexpr bool springless = true;
+  double damping = 0;  // c [N·m·s/rad], ≥ 0
+
+  template <class T>
+  T torque(const Twist<T>& x) const {
+    return damping * x.rate;
+  }
+  double loss_power(const Twist<double>& x) const { return damping * x.rate * x.rate; }
+
+  // c and the peak M/M₀ over k of the best untuned damper.
+  static double best_damping(double inertia, double ring, double stiffness) {
+    const double mu = ring / inertia;
+    return 2 * ring * std::sqrt(stiffness / inertia) / std::sqrt(2 * (1 + mu) * (2 + mu));
+  }
+  static double least_peak(double inertia, double ring) { return 1 + 2 * inertia / ring; }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,123 @@
+// progressive_coupling.cpp — from points to pieces, their areas, and the way back from torque to twist.
+#include "drivetrain/couplings/progressive_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace kurbel {
+namespace {
+
+constexpr double far_beyond = 1000;  // the straight ends reach this many times the range of the points
+
+// Drops the points that lie on the straight line through their neighbours: no event where nothing changes.
+void drop_straight_points(std::vector<double>& x, std::vector<double>& y) {
+  std::vector<double> kept_x = {x.front()}, kept_y = {y.front()};
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double before = (y[i] - kept_y.back()) / (x[i] - kept_x.back()),
+                 after = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+    if (std::abs(before - after) <= 1e-12 * std::abs(before)) continue;
+    kept_x.push_back(x[i]);
+    kept_y.push_back(y[i]);
+  }
+  kept_x.push_back(x.back());
+  kept_y.push_back(y.back());
+  x = std::move(kept_x);
+  y = std::move(kept_y);
+}
+
+}  // namespace
+
+ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const std::vector<double>& torque,
+                                         Curve::Form form, double damping)
+    : damping_(damping) {
+  std::vector<double> x = twist, y = torque;
+  const auto origin = std::find(x.begin(), x.end(), 0.0);
+  if (origin == x.end() || y[static_cast<std::size_t>(origin - x.begin())] != 0)
+    throw std::invalid_argument("the table does not pass through the origin; give the point [0, 0]");
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (!(y[i] > y[i - 1]))
+      throw std::invalid_argument(
+          fmt::format("the torque does not rise from point {} to point {}; it must, or no "
+                      "twist belongs to a torque (a gap is \"backlash\" of a coupling)",
+                      i, i + 1));
+  if (x.front() < 0 && x.back() <= 0)
+    throw std::invalid_argument("the table ends at the origin; give the side of positive twist");
+  given_twist_ = x.back(), given_torque_ = y.back();
+  if (x.front() == 0) {  // one side counts for both
+    std::vector<double> both_x, both_y;
+    for (std::size_t i = x.size(); i-- > 1;) both_x.push_back(-x[i]), both_y.push_back(-y[i]);
+    both_x.insert(both_x.end(), x.begin(), x.end());
+    both_y.insert(both_y.end(), y.begin(), y.end());
+    x = std::move(both_x);
+    y = std::move(both_y);
+  }
+  const double range = x.back() - x.front();
+  const auto beyond = [&](std::size_t inner, std::size_t end) {
+    return (y[end] - y[inner]) / (x[end] - x[inner]) * far_beyond * range;
+  };
+  const std::size_t n = x.size();
+  const double low = y.front() - beyond(1, 0), high = y.back() + beyond(n - 2, n - 1);
+  x.insert(x.begin(), x.front() - far_beyond * range);
+  y.insert(y.begin(), low);
+  x.push_back(x.back() + far_beyond * range);
+  y.push_back(high);
+  if (form == Curve::Form::linear) drop_straight_points(x, y);
+  curve_ = Curve(std::move(x), std::move(y), form);
+  twist_scale_ = range;
+
+  // Areas from θ = 0 outwards: those of the far ends are a million times as large.
+  energy_.assign(curve_.x().size(), 0.0);
+  const int middle = piece_at(0);
+  const auto m = static_cast<std::size_t>(middle);
+  energy_[m] = -area(middle, curve_.x()[m], 0);
+  for (std::size_t i = m; i-- > 0;)
+    energy_[i] = energy_[i + 1] - area(static_cast<int>(i), curve_.x()[i], curve_.x()[i + 1]);
+  energy_[m + 1] = area(middle, 0, curve_.x()[m + 1]);
+  for (std::size_t i = m + 2; i < energy_.size(); ++i)
+    energy_[i] = energy_[i - 1] + area(static_cast<int>(i) - 1, curve_.x()[i - 1], curve_.x()[i]);
+
+  const auto slope = [&](int piece) { return curve_.value_in(piece, Dual<1>::input(0.0, 0)).d[0]; };
+  const int before = curve_.piece_begin(middle) == 0 ? middle - 1 : middle;
+  rest_stiffness_ = 0.5 * (slope(before) + slope(middle));
+}
+
+double ProgressiveCoupling::area(int piece, double from, double to) const {
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from), offset = half / std::sqrt(3.0);
+  return half * (curve_.value_in(piece, middle - offset) + curve_.value_in(piece, middle + offset));
+}
+
+double ProgressiveCoupling::energy(double twist) const {
+  const int piece = piece_at(twist);
+  const double begin = curve_.piece_begin(piece), end = curve_.piece_end(piece);
+  if (begin >= 0) return energy_[static_cast<std::size_t>(piece)] + area(piece, begin, twist);
+  if (end <= 0) return energy_[static_cast<std::size_t>(piece) + 1] - area(piece, twist, end);
+  return area(piece, 0, twist);
+}
+
+double ProgressiveCoupling::twist_at(double torque) const {
+  // The piece first, then halving to the last digit.
+  const auto& y = curve_.y();
+  const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(y.begin(), y.end(), torque) - y.begin(), 1,
+                                                static_cast<std::ptrdiff_t>(y.size()) - 1);
+  const int piece = static_cast<int>(above) - 1;
+  double low = curve_.piece_begin(piece), high = curve_.piece_end(piece);
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (curve_.value_in(piece, middle) < torque ? low : high) = middle;
+  }
+  return std::abs(curve_.value_in(piece, low) - torque) < std::abs(curve_.value_in(piece, high) - torque) ? low : high;
+}
+
+std::string ProgressiveCoupling::describe() const {
+  return fmt::format(
+      "progressive by a table up to {:.4g}°, {:.6g} N·m; beyond it straight on; stiffness {:.6g} N·m/rad "
+      "at zero twist",
+      given_twist_ * 180 / std::numbers::pi, given_torque_, rest_stiffness_);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,83 @@
+// progressive_coupling.h — coupling whose torque over its twist is given by points ("graphically"), with a damper.
+//     τ = M(θ) + c θ̇,   E = ∫ M dθ from 0 to θ                                           (theory 5.8)
+// M(0) = 0, M rises strictly; straight between the points or a monotone cubic (curve.h). Points for θ ≥ 0 alone count
+// for both senses: M(−θ) = −M(θ). Beyond the last point it goes on straight. The pieces are modes: points are events.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivetrain/couplings/coupling.h"
+#include "engine/elements/element.h"
+#include "engine/numerics/curve.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+class ProgressiveCoupling {
+ public:
+  static constexpr int guards = 2;
+  static constexpr int regularised_mode = -1;  // no piece begins before the first point
+
+  ProgressiveCoupling() = default;
+  // Torques in N·m over twists in rad, with the damping c [N·m·s/rad]. Throws std::invalid_argument in words.
+  ProgressiveCoupling(const std::vector<double>& twist, const std::vector<double>& torque, Curve::Form form,
+                      double damping = 0);
+
+  template <class T>
+  T torque(const Twist<T>& x) const {
+    const int piece = x.mode == regularised_mode ? piece_at(value_of(x.angle)) : x.mode;
+    return curve_.value_in(piece, x.angle) + damping_ * x.rate;
+  }
+  double spring_torque(double twist) const { return curve_.value_in(piece_at(twist), twist); }
+  double energy(double twist) const;
+  double twist_at(double torque) const;
+  double stiffness_at_rest() const { return rest_stiffness_; }  // mean of the slopes on either side of θ = 0
+  double damping() const { return damping_; }
+  void set_damping(double damping) { damping_ = damping; }
+
+  int first_mode(const Twist<double>& x) const {
+    const int piece = piece_at(x.angle);
+    return x.rate < 0 && x.angle == curve_.piece_begin(piece) && piece > 0 ? piece - 1 : piece;
+  }
+  void guard(const Twist<double>& x, double* g) const {
+    g[0] = (curve_.piece_end(x.mode) - x.angle) / twist_scale_;
+    g[1] = (x.angle - curve_.piece_begin(x.mode)) / twist_scale_;
+  }
+  int next_mode(const Twist<double>& x, int which) const {
+    const int last = static_cast<int>(curve_.x().size()) - 2;
+    return std::clamp(x.mode + (which == 0 ? 1 : -1), 0, last);
+  }
+  std::string mode_name(int) const { return {}; }
+  std::string describe() const;
+
+ private:
+  int piece_at(double twist) const {
+    return std::clamp(curve_.piece(twist), 0, static_cast<int>(curve_.x().size()) - 2);
+  }
+  // ∫ M dθ within one piece, a polynomial of degree 3 at most: two Gauss points are exact.
+  double area(int piece, double from, double to) const;
+
+  Curve curve_;
+  std::vector<double> energy_;  // at the points [J]
+  double damping_ = 0, rest_stiffness_ = 0;
+  double twist_scale_ = 1;                     // of the points [rad]
+  double given_twist_ = 0, given_torque_ = 0;  // last point, for people
+};
+
+// As a data sheet gives it: relative damping refers to the stiffness at rest.
+struct ProgressiveCouplingData {
+  using Element = ProgressiveCoupling;
+  ProgressiveCoupling spring;
+  Damping given;
+
+  ProgressiveCoupling settled(double inertia) const {
+    ProgressiveCoupling element = spring;
+    element.set_damping(CouplingData{spring.stiffness_at_rest(), given}.settled(inertia).damping);
+    return element;
+  }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,103 @@
+// rubber_coupling.h — coupling of rubber: spring and damper (Kelvin–Voigt), and Maxwell branches that relax.
+//     τ = k θ + c θ̇ + Σ k_j (θ − z_j),   ż_j = (θ − z_j)/T_j                               (generalised Maxwell model)
+//     under θ e^{iωt}:  k*(ω) = k + i ω c + Σ k_j i ω T_j/(1 + i ω T_j)
+// k is the static stiffness, k + Σ k_j the one in fast motion; z_j is what branch j has crept [rad]. Loss factor of the
+// material: Im k*/Re k*. Source: Christensen, Theory of Viscoelasticity, 2nd ed. 1982, ch. 1. At the start the branches
+// have relaxed.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivetrain/couplings/coupling.h"
+#include "engine/elements/element.h"
+#include "engine/model/network.h"
+#include "engine/scene/effects.h"
+
+namespace kurbel {
+
+struct MaxwellBranch {
+  double stiffness = 0;        // k_j [N·m/rad], > 0
+  double relaxation_time = 1;  // T_j [s], > 0
+};
+
+template <int branches>
+struct RubberCoupling {
+  static constexpr int states = branches;
+  double stiffness = 0;  // k [N·m/rad], > 0
+  double damping = 0;    // c [N·m·s/rad], ≥ 0
+  std::array<MaxwellBranch, branches> branch{};
+
+  template <class T>
+  T torque(const Twist<T>& x) const {
+    T tau = stiffness * x.angle + damping * x.rate;
+    for (std::size_t j = 0; j < branches; ++j) tau = tau + branch[j].stiffness * (x.angle - x.own[j]);
+    return tau;
+  }
+  template <class T>
+  void rates(const Twist<T>& x, T* rate) const {
+    for (std::size_t j = 0; j < branches; ++j) rate[j] = (x.angle - x.own[j]) / branch[j].relaxation_time;
+  }
+  double spring_torque(const Twist<double>& x) const {
+    double tau = stiffness * x.angle;
+    for (std::size_t j = 0; j < branches; ++j) tau += branch[j].stiffness * (x.angle - x.own[j]);
+    return tau;
+  }
+  double energy(const Twist<double>& x) const {
+    double sum = 0.5 * stiffness * x.angle * x.angle;
+    for (std::size_t j = 0; j < branches; ++j) sum += 0.5 * branch[j].stiffness * std::pow(x.angle - x.own[j], 2);
+    return sum;
+  }
+  double loss_power(const Twist<double>& x) const {
+    double power = damping * x.rate * x.rate;
+    for (std::size_t j = 0; j < branches; ++j)
+      power += branch[j].stiffness * std::pow(x.angle - x.own[j], 2) / branch[j].relaxation_time;
+    return power;
+  }
+  void first_states(const Twist<double>& x, double* own) const {
+    for (std::size_t j = 0; j < branches; ++j) own[j] = x.angle;
+  }
+  OwnState state(int k) const { return {branches == 1 ? "creep" : "creep" + std::to_string(k + 1), "rad", 1e-3}; }
+  double twist_at(double torque) const { return torque / stiffness; }
+  double stiffness_at_rest() const { return stiffness; }
+};
+
+// Its form without relaxation: the static spring, and the damper that loses at ω_ref what the branches lose there,
+// c + Σ k_j T_j/(1 + ω_ref² T_j²), ω_ref = √(k/J_red) unless damping_frequency says otherwise.
+struct StaticRubberData {
+  using Element = Coupling;
+  CouplingData spring;
+  std::vector<MaxwellBranch> branch;
+
+  Coupling settled(double inertia) const {
+    Coupling element = spring.settled(inertia);
+    const double given = spring.damping.frequency;
+    const double omega = given > 0 ? given : inertia > 0 ? std::sqrt(element.stiffness / inertia) : 0;
+    for (const MaxwellBranch& b : branch)
+      element.damping += b.stiffness * b.relaxation_time / (1 + std::pow(omega * b.relaxation_time, 2));
+    return element;
+  }
+};
+
+// As a scene gives it; without the effect "relaxation" it is static.
+template <int branches>
+struct RubberCouplingData {
+  using Element = RubberCoupling<branches>;
+  CouplingData spring;
+  std::array<MaxwellBranch, branches> branch{};
+
+  RubberCoupling<branches> settled(double inertia) const {
+    const Coupling plain = spring.settled(inertia);
+    return {plain.stiffness, plain.damping, branch};
+  }
+  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const {
+    if (effects.relaxation) return nullptr;
+    return std::make_shared<ConnectionMakerOf<Coupling, StaticRubberData>>(
+        StaticRubberData{spring, {branch.begin(), branch.end()}});
+  }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,125 @@
+// bearing.h — friction of a bearing against the frame: dry, mixed and viscous.
+//
+//     M(ω) = −g(|ω|) sgn ω − b ω,   g(v) = M_c + (M_s − M_c) exp(−(v/ω_s)ⁿ)                 (theory 8.6; Stribeck)
+//     M_c  kinetic (Coulomb) torque [N·m], M_s static torque [N·m], ≥ M_c
+//     ω_s  Stribeck speed [rad/s], where mixed friction has fallen to 1/e; n its exponent, 0.5 … 10
+//     b    viscous friction [N·m·s/rad]
+// Three models of one curve:
+//   exact        sticks and slips: at standstill it holds up to M_s (engine/equations/equations_contacts.cpp)
+//   regularised  g tanh(ω/ω_c) in place of g sgn ω: smooth, holds nothing: it creeps
+//   LuGre        bristles bend by z before they slip: ż = ω − σ₀ |ω| z/g(|ω|), M = −(σ₀ z + σ₁ ż + b ω); at constant
+//                speed it is the curve above. |ω| has a kink at standstill, where ż stays continuous; the many
+//                crossings of presliding would be no events worth telling
+// Sources: Armstrong-Hélouvry, Dupont, Canudas de Wit: A survey of models … for machines with friction, Automatica 30
+// (1994), 1083–1138; Canudas de Wit, Olsson, Åström, Lischinsky: A new model for control of systems with friction,
+// IEEE Trans. Automatic Control 40 (1995), 419–425.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "engine/elements/element.h"
+#include "engine/model/network.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+struct StribeckCurve {
+  double kinetic = 0;         // M_c [N·m], ≥ 0
+  double breakaway = 0;       // M_s [N·m], ≥ M_c
+  double stribeck_speed = 1;  // ω_s [rad/s], ≥ 0
+  double exponent = 2;        // n [1]
+  double viscous = 0;         // b [N·m·s/rad], ≥ 0
+
+  // g(v), v = |ω|; constant for v ≤ 0, where trial steps come.
+  template <class T>
+  T dry(const T& v) const {
+    using std::exp;
+    using std::pow;
+    if (!falls()) return T(kinetic);
+    if (value_of(v) <= 0) return T(breakaway);
+    return kinetic + (breakaway - kinetic) * exp(-pow(v / stribeck_speed, exponent));
+  }
+  // Over a speed; at ω_s = 0 it falls as soon as the bearing moves.
+  bool falls() const { return breakaway != kinetic && stribeck_speed > 0; }
+  bool uses_speed() const { return viscous != 0 || falls(); }
+  Rated rated() const { return {breakaway, 0}; }
+};
+
+// What stands in place of a bearing under these effects; null: the bearing as it is.
+std::shared_ptr<ShaftElementMaker> bearing_without(const Effects& effects);
+
+struct StickingBearing {
+  static constexpr bool directional = true;
+  static constexpr Account account = Account::harmful;
+  StribeckCurve curve;
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double side = x.direction;
+    return -side * curve.dry(side * x.rate) - curve.viscous * x.rate;
+  }
+  Hold hold(const ShaftState<double>&) const { return {-curve.breakaway, curve.breakaway}; }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return curve.uses_speed(); }
+  Rated rated() const { return curve.rated(); }
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
+};
+
+struct CreepingBearing {
+  static constexpr Account account = Account::harmful;
+  StribeckCurve curve;
+  double creep_speed = 0;  // ω_c [rad/s], > 0
+  std::string name = {};   // of the component, for what is said of it
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    using std::abs;
+    using std::tanh;
+    return -curve.dry(abs(x.rate)) * tanh(x.rate / creep_speed) - curve.viscous * x.rate;
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
+  Rated rated() const { return curve.rated(); }
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
+  std::string describe() const;
+};
+
+struct BristleBearing {
+  static constexpr Account account = Account::harmful;
+  static constexpr int states = 1;
+  StribeckCurve curve;
+  double stiffness = 0;  // σ₀ of the bristles [N·m/rad], > 0
+  double damping = 0;    // σ₁ [N·m·s/rad], ≥ 0
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    T bend_rate;
+    rates(x, &bend_rate);
+    return -(stiffness * x.own[0] + damping * bend_rate + curve.viscous * x.rate);
+  }
+  template <class T>
+  void rates(const ShaftState<T>& x, T* rate) const {
+    using std::abs;
+    const T speed = abs(x.rate);
+    rate[0] = x.rate - stiffness * speed * x.own[0] / curve.dry(speed);
+  }
+  // Bent as in steady sliding at the speed of the start, straight at rest.
+  void first_states(const ShaftState<double>& x, double* own) const {
+    own[0] = x.rate == 0 ? 0 : std::copysign(curve.dry(std::abs(x.rate)) / stiffness, x.rate);
+  }
+  OwnState state(int) const { return {"bristle", "rad", curve.breakaway / stiffness}; }
+  double stored(const double* own) const { return 0.5 * stiffness * own[0] * own[0]; }
+  double loss_power(const ShaftState<double>& x) const {
+    double bend_rate = 0;
+    rates(x, &bend_rate);
+    return -torque(x) * x.rate - stiffness * x.own[0] * bend_rate;
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
+  Rated rated() const { return curve.rated(); }
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,97 @@
+// catalogue_motor.h — induction motor by the points of its catalogue: starting (locked rotor), pull-up, breakdown,
+// rated, synchronous. A cage motor starts with far more torque than Kloss gives it (theory 4.1: deep bars, double
+// cages), so starts are computed with these points.
+//
+//     M
+//     |          .-B.                 S  starting      (0, M_st)
+//     S.       .'    '.               P  pull-up       slope zero, the least torque on the way up
+//     | '-.P.-'        R              B  breakdown     slope zero, the greatest
+//     |                 \             R  rated
+//     +------------------O---- ω      O  synchronous   (ω_s, 0)
+//
+// Between the points a monotone cubic (Fritsch & Carlson 1980): no extreme but at P and B, the slope is continuous.
+// Command c of an operating sequence: M = sgn c · c² M(ω sgn c); 0 is off.
+// Generating, ω > ω_s: odd about O, M(2 ω_s − ω) = −M(ω). Plugging, ω < 0, and beyond 2 ω_s: M_st is held.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "drivetrain/shared/torque_source.h"
+#include "engine/numerics/curve.h"
+
+namespace kurbel {
+
+struct CataloguePoints {
+  struct Point {
+    double speed, torque;  // [rad/s], [N·m]
+  };
+  double starting_torque = 0;         // M_st [N·m], > 0
+  std::optional<Point> pull_up = {};  // none: M rises from S to B
+  Point breakdown{}, rated{};         // ascending in speed
+  double synchronous_speed = 0;       // ω_s [rad/s]
+
+  Curve curve() const;
+};
+
+inline Curve CataloguePoints::curve() const {
+  // Up to the synchronous speed; the point before standstill gives S the slope zero.
+  std::vector<Point> half = {{-synchronous_speed, starting_torque}, {0, starting_torque}};
+  if (pull_up) half.push_back(*pull_up);
+  half.push_back(breakdown);
+  half.push_back(rated);
+  std::vector<double> speed, torque;
+  for (const Point& p : half) {
+    speed.push_back(p.speed);
+    torque.push_back(p.torque);
+  }
+  speed.push_back(synchronous_speed);
+  torque.push_back(0);
+  for (auto p = half.rbegin(); p != half.rend(); ++p) {
+    speed.push_back(2 * synchronous_speed - p->speed);
+    torque.push_back(-p->torque);
+  }
+  return Curve(std::move(speed), std::move(torque), Curve::Form::smooth);
+}
+
+struct CatalogueMotor {
+  static constexpr Account account = Account::driving;
+  static constexpr bool commanded = true;
+  static constexpr bool reversible = true;
+  static constexpr int guards = 2;
+  static constexpr int pieces = 16;  // numbers that a mode needs for them, at most
+  Curve curve;                       // [rad/s] → [N·m]
+  double synchronous_speed = 0;      // ω_s [rad/s]
+  double rated_torque = 0;           // M_n [N·m]
+
+  template <class T>
+  T torque_in(int piece, const T& speed) const {
+    return curve.value_in(piece - 1, speed);
+  }
+  int piece_at(double speed) const { return curve.piece(speed) + 1; }
+  void guard_piece(int piece, double speed, double* g) const {
+    PieceGuard::guard(curve, piece - 1, speed, synchronous_speed, g);
+  }
+  int next_piece(int piece, int which) const { return PieceGuard::next(curve, piece - 1, which) + 1; }
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    return sense(x) * x.command * x.command * torque_in(x.mode, sense(x) * x.rate);
+  }
+  bool opens_at_zero() const { return true; }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
+  Rated rated() const { return {rated_torque, synchronous_speed}; }
+  void guard(const ShaftState<double>& x, double* g) const { guard_piece(x.mode, sense(x) * x.rate, g); }
+  int first_mode(const ShaftState<double>& x) const { return piece_at(sense(x) * x.rate); }
+  int next_mode(const ShaftState<double>& x, int which) const { return next_piece(x.mode, which); }
+  std::string mode_name(int) const { return {}; }  // a table's points are no events worth telling
+
+ private:
+  template <class T>
+  static double sense(const ShaftState<T>& x) {
+    return x.command < 0 ? -1 : 1;
+  }
+};
+
+}  // namespace kurbel

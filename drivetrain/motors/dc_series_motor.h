@@ -1,0 +1,92 @@
+// dc_series_motor.h — DC series motor, static: armature and field carry the same current, flux in proportion to it.
+//     M = κ i²,  U = (R + κ ω) i   ⇒   M = κ U²/(R + κ ω)²                                  (theory 4.8)
+//
+// A command c of the operating sequence sets the voltage to |c| U; c < 0 reverses the armature against the field, and
+// with it the torque: M = sgn c · κ (c U)²/(R + κ ω sgn c)². 0 opens the circuit.
+//
+// Its torque never reaches zero: where no load holds it, it **runs away**. At `max_speed` it says so and ends the run.
+// Driven backwards it brakes, U and the induced voltage add, and the current grows without bound as ω → −R/κ (in a
+// machine iron saturates first and a fuse melts). The law is taken down to half of that speed, where the current is
+// twice the stall current U/R; there the run ends in words, too.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "engine/elements/element.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+struct DcSeriesMotor {
+  static constexpr Account account = Account::driving;
+  static constexpr bool commanded = true;
+  static constexpr bool reversible = true;
+  static constexpr int guards = 2;
+  double voltage = 0;         // U [V], > 0
+  double resistance = 0;      // R of armature and field [Ω], > 0
+  double constant = 0;        // κ, torque over current squared [N·m/A²], > 0
+  double max_speed = 0;       // [rad/s], > 0
+  std::string name = {};      // of the component, for what is said of it
+  std::string limit_by = {};  // where max_speed comes from, if not from the scene
+
+  // R/κ: the speed at which the torque is a quarter of the stall torque [rad/s].
+  double base_speed() const { return resistance / constant; }
+  double stall_torque() const { return constant * voltage * voltage / (resistance * resistance); }
+  double least_speed() const { return -0.5 * base_speed(); }
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double stall = sense(x) * x.command * x.command * stall_torque();
+    const T speed = sense(x) * x.rate;
+    if (value_of(speed) < least_speed()) {  // no motion comes here, trial steps may: a parabola with value and slopes
+      const double at = 0.5;
+      const T below = (speed - least_speed()) / base_speed();
+      return stall / (at * at) * (1.0 - 2.0 / at * below + 3.0 / (at * at) * below * below);
+    }
+    const T over_stall = 1.0 + speed / base_speed();
+    return stall / (over_stall * over_stall);
+  }
+  bool opens_at_zero() const { return true; }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
+  Rated rated() const { return {stall_torque(), base_speed()}; }
+
+  // Mode 0: all is well. Mode 1: ran away; told as an event, and then the reason why the run ends.
+  void guard(const ShaftState<double>& x, double* g) const {
+    const double speed = sense(x) * x.rate;
+    g[0] = x.mode == 0 ? std::min(1.0, (max_speed - speed) / max_speed) : -1.0;
+    g[1] = std::min(1.0, (speed - least_speed()) / base_speed());
+  }
+  int first_mode(const ShaftState<double>&) const { return 0; }
+  int next_mode(const ShaftState<double>& x, int which) const {
+    constexpr double rpm = 30 / std::numbers::pi;
+    if (which == 1)
+      throw std::runtime_error(fmt::format(
+          "series motor \"{}\" is driven backwards at {:.6g} rpm, half the speed at which its current grows without "
+          "bound (−R/κ); give it a lighter load, or more resistance",
+          name, least_speed() * rpm));
+    if (x.mode != 0) say_it_ran_away();
+    return 1;
+  }
+  [[noreturn]] void say_it_ran_away() const {
+    throw std::runtime_error(fmt::format(
+        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm{}. Nothing on its shaft held it "
+        "below, and its own torque reaches zero at no speed; load it more, or raise max_speed if the machine can bear "
+        "it",
+        name, max_speed * 30 / std::numbers::pi, limit_by.empty() ? "" : " (" + limit_by + ")"));
+  }
+  std::string mode_name(int mode) const { return mode == 0 ? "" : "ran away: passed its max_speed"; }
+
+ private:
+  template <class T>
+  static double sense(const ShaftState<T>& x) {
+    return x.command < 0 ? -1 : 1;
+  }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,113 @@
+// torque_source.h — torques given as functions of time, angle or speed; sources drive, loads resist.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/elements/element.h"
+#include "engine/elements/piece_guard.h"
+#include "engine/numerics/curve.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+// M = M₀ + M₁ sin(2π f t + ψ)
+struct HarmonicTorque {
+  Account work_account = Account::driving;
+  double mean = 0;       // M₀ [N·m]
+  double amplitude = 0;  // M₁ [N·m]
+  double frequency = 0;  // f [Hz]
+  double phase = 0;      // ψ [rad]
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    if (amplitude == 0) return T(mean);
+    return T(mean + amplitude * std::sin(2 * std::numbers::pi * frequency * x.t + phase));
+  }
+  bool uses_time() const { return amplitude != 0; }
+  bool uses_speed() const { return false; }
+  Rated rated() const { return {std::abs(mean) + std::abs(amplitude), 0}; }
+  double time_period() const { return amplitude == 0 || frequency == 0 ? 0 : 1 / std::abs(frequency); }
+};
+
+// M = sign · f(t), piecewise: the piece is the mode.
+struct TorqueOverTime {
+  Account work_account = Account::driving;
+  Curve curve;      // [s] → [N·m]
+  double sign = 1;  // −1: a load
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double t = x.t - shift(x.t, x.mode);
+    return T(sign * curve.value_in(x.mode, t));
+  }
+  int mode_at(double t) const { return curve.piece(t + slack(t)); }
+  bool uses_time() const { return true; }
+  bool uses_speed() const { return false; }
+  double next_edge(double t) const {
+    const double here = t + slack(t), past = here - curve.within(here);  // whole periods
+    return past + curve.piece_end(mode_at(t));
+  }
+  Rated rated() const { return {curve.max_abs(), 0}; }
+  double time_period() const { return curve.period(); }
+  double settled_from() const { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
+
+ private:
+  // A time this close before a knot is on it: k · period rounds to either side.
+  double slack(double t) const { return 1e-12 * (curve.x().back() - curve.x().front()) + 1e-15 * std::abs(t); }
+  // Brings t near the piece in force, so that a period's end does not jump within a step.
+  double shift(double t, int piece) const {
+    if (curve.period() == 0) return 0;
+    const double middle = 0.5 * (curve.piece_begin(piece) + curve.piece_end(piece));
+    return curve.period() * std::round((t - middle) / curve.period());
+  }
+};
+
+// M = sign · f(φ)
+struct TorqueOverAngle {
+  static constexpr bool uses_angle = true;
+  static constexpr int guards = 2;
+  Account work_account = Account::driving;
+  Curve curve;  // [rad] → [N·m], periodic
+  double sign = 1;
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    const double moved = PieceGuard::near_piece(curve, x.mode, value_of(x.angle)) - value_of(x.angle);
+    return sign * curve.value_in(x.mode, x.angle + moved);
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return false; }
+  double angle_period() const { return curve.period(); }
+  void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(curve, x.mode, x.angle, 1.0, g); }
+  int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.angle); }
+  int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
+  std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
+  Rated rated() const { return {curve.max_abs(), 0}; }
+};
+
+// M = sign · f(ω): a characteristic given "graphically"; motors by table, hydraulic drives, turbines, brakes.
+struct TorqueOverSpeed {
+  static constexpr int guards = 2;
+  Account work_account = Account::driving;
+  Curve curve;  // [rad/s] → [N·m]
+  double sign = 1;
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    return sign * curve.value_in(x.mode, x.rate);
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return true; }
+  void guard(const ShaftState<double>& x, double* g) const {
+    PieceGuard::guard(curve, x.mode, x.rate, curve.x().back() - curve.x().front(), g);
+  }
+  int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.rate); }
+  int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
+  std::string mode_name(int) const { return {}; }
+  Rated rated() const { return {curve.max_abs(), std::max(std::abs(curve.x().front()), std::abs(curve.x().back()))}; }
+};
+
+}  // namespace kurbel

@@ -1,0 +1,436 @@
+// eigen_modes.cpp — dense for small drives; for large ones a block Krylov space of (K + s M)⁻¹ M, checked by counting.
+#include "engine/analysis/eigen_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Eigen::VectorXi;
+
+constexpr int block = 4;                 // vectors a step of the Krylov space
+constexpr double converged = 1e-10;      // residual of (A + s)⁻¹ x = θ x over θ
+constexpr double good_enough = 1e-10;    // backward error that is handed out at all
+constexpr double shift_of_free = 1e-12;  // s over the largest eigenvalue, where rigid motions make K singular
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// A = M^(−½) K M^(−½)
+SparseMatrix scaled_stiffness(const LinearDrive& drive) {
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  SparseMatrix a = scale.asDiagonal() * drive.stiffness * scale.asDiagonal();
+  a.makeCompressed();
+  return a;
+}
+
+// Upper bound of all eigenvalues (Gershgorin).
+double largest_row_sum(const SparseMatrix& a) {
+  double largest = 0;
+  for (Index c = 0; c < a.outerSize(); ++c) {
+    double sum = 0;
+    for (SparseMatrix::InnerIterator it(a, c); it; ++it) sum += std::abs(it.value());
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+SparseMatrix shifted(const SparseMatrix& a, double shift) {
+  SparseMatrix identity(a.rows(), a.cols());
+  identity.setIdentity();
+  return a + shift * identity;
+}
+
+// Negative pivots of A − σ.
+int count_below(const SparseMatrix& a, double sigma) {
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  const SparseMatrix first = shifted(a, -sigma);
+  ldlt.analyzePattern(first);
+  for (int attempt = 0; attempt < 8; ++attempt) {  // a pivot of exactly zero: σ is a little moved
+    ldlt.factorize(attempt == 0 ? first : shifted(a, -sigma * (1 + attempt * 1e-13)));
+    if (ldlt.info() == Eigen::Success && ldlt.vectorD().allFinite())
+      return static_cast<int>((ldlt.vectorD().array() < 0).count());
+  }
+  throw std::runtime_error("the modes below a frequency could not be counted: the stiffness matrix has no finite LDLᵀ");
+}
+
+// Parts of the drive that hang together by springs and on nothing that is held: each turns freely as a whole.
+MatrixXd rigid_motions(const LinearDrive& drive) {
+  const Index n = drive.size();
+  std::vector<int> parent(at(n) + 1);  // the last one: what is held
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+    return i;
+  };
+  const auto held = static_cast<int>(n);
+  for (const LinearDrive::Joint& j : drive.joints)
+    if (j.stiffness != 0) parent[at(root(j.a >= 0 ? j.a : held))] = root(j.b >= 0 ? j.b : held);
+  std::vector<int> column(at(n) + 1, -1);
+  int free = 0;
+  for (int i = 0; i < held; ++i)
+    if (const int r = root(i); r != root(held) && column[at(r)] < 0) column[at(r)] = free++;
+  MatrixXd motions = MatrixXd::Zero(n, free);
+  for (int i = 0; i < held; ++i)
+    if (const int c = column[at(root(i))]; c >= 0) motions(i, c) = drive.ratio[at(i)] * std::sqrt(drive.inertia[i]);
+  motions.colwise().normalize();
+  return motions;
+}
+
+// ω² = Σ k θ²/Σ J q²: the energies know low frequencies beside stiff springs to more digits than the matrix does.
+double frequency(const LinearDrive& drive, const VectorXd& q) {
+  double potential = 0;
+  for (std::size_t j = 0; j < drive.joints.size(); ++j)
+    potential += drive.joints[j].stiffness * std::pow(drive.twist(j, q), 2);
+  return std::sqrt(std::max(0.0, potential) / drive.inertia.dot(q.cwiseAbs2()));
+}
+
+// From orthonormal vectors of A to modes of K, M, sorted; rigid motions first.
+UndampedModes collect(const LinearDrive& drive, const SparseMatrix& a, const MatrixXd& rigid, const MatrixXd& found) {
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  const Index r = rigid.cols(), m = found.cols();
+  VectorXd omega(m);
+  for (Index i = 0; i < m; ++i) omega[i] = frequency(drive, scale.cwiseProduct(found.col(i)));
+  std::vector<Index> order(at(m));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index x, Index y) { return omega[x] < omega[y]; });
+  const double norm = largest_row_sum(a);
+  UndampedModes modes;
+  modes.rigid = static_cast<int>(r);
+  modes.omega = VectorXd::Zero(r + m);
+  modes.shapes.resize(drive.size(), r + m);
+  for (Index i = 0; i < r; ++i) modes.shapes.col(i) = scale.cwiseProduct(rigid.col(i));
+  for (Index i = 0; i < m; ++i) {
+    const VectorXd x = found.col(order[at(i)]);
+    const double w = omega[order[at(i)]];
+    modes.omega[r + i] = w;
+    modes.shapes.col(r + i) = scale.cwiseProduct(x);
+    modes.residual = std::max(modes.residual, (a * x - w * w * x).norm() / (norm * x.norm()));
+  }
+  modes.complete = r + m == drive.size();
+  return modes;
+}
+
+UndampedModes dense_modes(const LinearDrive& drive, const SparseMatrix& a, const MatrixXd& rigid) {
+  // Rigid motions are known exactly; the rest is found in the space across them.
+  const Index n = a.rows(), r = rigid.cols();
+  MatrixXd across = MatrixXd::Identity(n, n);
+  if (r > 0) across = MatrixXd(Eigen::HouseholderQR<MatrixXd>(rigid).householderQ()).rightCols(n - r);
+  if (n == r) return collect(drive, a, rigid, MatrixXd(n, 0));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(across.transpose() * (a * across));
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the dense eigenvalue solver did not converge");
+  return collect(drive, a, rigid, across * solver.eigenvectors());
+}
+
+// Block Krylov space of (A + s)⁻¹ with full orthogonalisation, Rayleigh–Ritz on it; random vectors are added where the
+// count says that a mode of a multiple frequency is missing.
+class KrylovSearch {
+ public:
+  KrylovSearch(const LinearDrive& drive, const SparseMatrix& a, MatrixXd rigid)
+      : drive_(drive), a_(a), rigid_(std::move(rigid)), n_(a.rows()), v_(n_, 0), image_(n_, 0) {
+    const double shift = rigid_.cols() > 0 ? shift_of_free * largest_row_sum(a) : 0;
+    solver_.compute(shifted(a, shift));
+    if (solver_.info() != Eigen::Success)
+      throw std::runtime_error("the stiffness matrix of the drive could not be factorised");
+  }
+
+  UndampedModes lowest(int wanted) {
+    const Index most = n_ - rigid_.cols();
+    const Index count = std::min<Index>(wanted, most);
+    MatrixXd next = random_block(std::min<Index>(block, most));
+    for (;;) {
+      Deadline::check();
+      extend(next);
+      const bool full = basis_ >= most;
+      if (full || basis_ >= 2 * count) {
+        ritz();
+        if (full || has_converged(count)) {
+          const int missing = miss(count);
+          if (missing == 0 || full) break;
+          next = random_block(std::min<Index>(std::max(missing, block), most - basis_));
+          continue;
+        }
+      }
+      next = orthogonal(last_image_);
+      if (next.cols() == 0) next = random_block(std::min<Index>(block, most - basis_));
+    }
+    UndampedModes modes = collect(drive_, a_, rigid_, vectors_.leftCols(std::min(count, vectors_.cols())));
+    modes.basis = static_cast<int>(basis_);
+    return modes;
+  }
+
+ private:
+  MatrixXd random_block(Index columns) {
+    std::normal_distribution<double> normal;
+    return orthogonal(MatrixXd::NullaryExpr(n_, columns, [&]() { return normal(random_); }));
+  }
+
+  // Twice is enough (Kahan, Parlett): orthogonal to the rigid motions and to the basis, then within itself.
+  MatrixXd orthogonal(MatrixXd x) const {
+    x.colwise().normalize();
+    for (int pass = 0; pass < 2; ++pass) {
+      x -= rigid_ * (rigid_.transpose() * x);
+      x -= v_.leftCols(basis_) * (v_.leftCols(basis_).transpose() * x);
+    }
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(x);
+    Index rank = 0;
+    while (rank < x.cols() && std::abs(qr.matrixR()(rank, rank)) > 1e-10) ++rank;
+    MatrixXd q = qr.householderQ() * MatrixXd::Identity(n_, rank);
+    q -= rigid_ * (rigid_.transpose() * q);
+    q -= v_.leftCols(basis_) * (v_.leftCols(basis_).transpose() * q);
+    q.colwise().normalize();
+    return q.leftCols(std::min(rank, n_ - rigid_.cols() - basis_));
+  }
+
+  void extend(const MatrixXd& x) {
+    const Index m = x.cols();
+    if (v_.cols() < basis_ + m) {
+      const Index room = std::min(n_, std::max<Index>(2 * v_.cols(), basis_ + m + 64));
+      v_.conservativeResize(n_, room);
+      image_.conservativeResize(n_, room);
+      h_.conservativeResize(room, room);
+    }
+    v_.middleCols(basis_, m) = x;
+    last_image_ = solver_.solve(x);
+    last_image_ -= rigid_ * (rigid_.transpose() * last_image_);
+    image_.middleCols(basis_, m) = last_image_;
+    h_.block(0, basis_, basis_ + m, m) = v_.leftCols(basis_ + m).transpose() * last_image_;
+    h_.block(basis_, 0, m, basis_) = h_.block(0, basis_, basis_, m).transpose();
+    basis_ += m;
+  }
+
+  void ritz() {
+    const MatrixXd h = h_.topLeftCorner(basis_, basis_);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (h + h.transpose()));
+    theta_ = solver.eigenvalues().reverse();
+    weights_ = solver.eigenvectors().rowwise().reverse();
+  }
+
+  bool has_converged(Index count) {
+    const Index m = std::min(count + 1, basis_);  // one more: the count needs to know where the next one lies
+    // The slowest one first: most checks end there.
+    const auto residual = [&](Index first, Index columns) {
+      const MatrixXd w = weights_.middleCols(first, columns);
+      const MatrixXd r =
+          image_.leftCols(basis_) * w - (v_.leftCols(basis_) * w) * theta_.segment(first, columns).asDiagonal();
+      return (r.colwise().norm().transpose().array() / theta_.segment(first, columns).array()).maxCoeff();
+    };
+    return residual(count - 1, 1) < converged && residual(0, count) < converged &&
+           (m == count || residual(count, 1) < 1e-2);
+  }
+
+  // Modes that the count finds up to the last wanted one and the search did not; where more of the last frequency may
+  // follow, up to just below it.
+  int miss(Index count) {
+    vectors_ = v_.leftCols(basis_) * weights_.leftCols(std::min(count + 1, basis_));
+    const auto lambda = [&](Index i) {
+      return vectors_.col(i).dot(a_ * vectors_.col(i)) / vectors_.col(i).squaredNorm();
+    };
+    const double last = lambda(count - 1), next = vectors_.cols() > count ? lambda(count) : 2 * last;
+    const double above = next > last * (1 + 1e-6) ? 0.5 * (last + next) : last * (1 - 1e-6);
+    Index found = rigid_.cols();
+    for (Index i = 0; i < vectors_.cols(); ++i) found += lambda(i) < above;
+    return static_cast<int>(std::max<Index>(0, count_below(a_, above) - found));
+  }
+
+  const LinearDrive& drive_;
+  const SparseMatrix& a_;
+  MatrixXd rigid_;
+  Index n_ = 0, basis_ = 0;
+  Eigen::SimplicialLDLT<SparseMatrix> solver_;
+  MatrixXd v_, image_, h_, last_image_, weights_, vectors_;
+  VectorXd theta_;
+  std::mt19937_64 random_{20240607};
+};
+
+// First order in springs' and inertias' own scales: x = [√k θ, √J ω] is skew-symmetric without damping.
+MatrixXd first_order_matrix(const LinearDrive& drive) {
+  const Index n = drive.size(), t = static_cast<Index>(drive.joints.size());
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  MatrixXd a = MatrixXd::Zero(t + n, t + n);
+  for (Index j = 0; j < t; ++j) {
+    const LinearDrive::Joint& joint = drive.joints[at(j)];
+    const double root = std::sqrt(std::max(0.0, joint.stiffness));
+    if (joint.a >= 0) a(j, t + joint.a) = root * joint.gain_a * scale[joint.a];
+    if (joint.b >= 0) a(j, t + joint.b) = -root * joint.gain_b * scale[joint.b];
+  }
+  a.bottomLeftCorner(n, t) = -a.topRightCorner(t, n).transpose();
+  a.bottomRightCorner(n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
+  return a;
+}
+
+// With torques that depend on the angle: x = [√J q, √J ω].
+MatrixXd second_order_matrix(const LinearDrive& drive) {
+  const Index n = drive.size();
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  MatrixXd a = MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) =
+      -(scale.asDiagonal() * MatrixXd(drive.stiffness + drive.angle_stiffness) * scale.asDiagonal());
+  a.bottomRightCorner(n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
+  return a;
+}
+
+DampedMode normalised(std::complex<double> lambda, Eigen::VectorXcd shape) {
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  shape /= shape[largest];
+  return {lambda, std::move(shape)};
+}
+
+void sort_modes(std::vector<DampedMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const DampedMode& x, const DampedMode& y) {
+    const bool swings_x = x.lambda.imag() > 0, swings_y = y.lambda.imag() > 0;
+    if (swings_x != swings_y) return swings_x;
+    return std::abs(x.lambda) < std::abs(y.lambda);
+  });
+}
+
+std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
+  const bool by_angle = drive.angle_stiffness.nonZeros() > 0;
+  const MatrixXd a = by_angle ? second_order_matrix(drive) : first_order_matrix(drive);
+  const Eigen::EigenSolver<MatrixXd> solver(a);
+  if (solver.info() != Eigen::Success)
+    throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
+  const double noise = 1e-12 * a.norm();
+  std::vector<DampedMode> modes;
+  for (Index i = 0; i < a.rows(); ++i) {
+    std::complex<double> lambda = solver.eigenvalues()[i];
+    if (lambda.imag() < 0) continue;
+    if (std::abs(lambda.imag()) <= noise) lambda = lambda.real();
+    if (std::abs(lambda) <= noise) lambda = 0;
+    modes.push_back(
+        normalised(lambda, drive.inertia.cwiseSqrt().cwiseInverse().cast<std::complex<double>>().cwiseProduct(
+                               solver.eigenvectors().col(i).tail(drive.size()))));
+  }
+  sort_modes(modes);
+  return modes;
+}
+
+// Newton on the quadratic problem: a step of inverse iteration, then the root of the quadratic form vᵀ(λ²M + λC + K)v.
+class DampedNewton {
+ public:
+  explicit DampedNewton(const LinearDrive& drive) : drive_(drive), k_(drive.stiffness) {
+    if (drive.angle_stiffness.nonZeros() > 0) k_ += drive.angle_stiffness;
+  }
+
+  bool refine(std::complex<double>& lambda, Eigen::VectorXcd& v) {
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      const Eigen::SparseMatrix<std::complex<double>> q = at_lambda(lambda);
+      if (!analysed_) solver_.analyzePattern(q);
+      analysed_ = true;
+      solver_.factorize(q);
+      if (solver_.info() != Eigen::Success) return true;  // λ is an eigenvalue to the last bit
+      const Eigen::VectorXcd w = solver_.solve(2.0 * lambda * drive_.inertia.cwiseProduct(v) + drive_.damping * v);
+      if (!w.allFinite()) return false;
+      v = w.normalized();
+      const std::complex<double> before = lambda;
+      lambda = root(v, lambda);
+      if (std::abs(lambda - before) <= 1e-12 * std::abs(lambda)) return true;
+    }
+    return false;
+  }
+
+ private:
+  Eigen::SparseMatrix<std::complex<double>> at_lambda(std::complex<double> lambda) const {
+    using Complex = std::complex<double>;
+    Eigen::SparseMatrix<Complex> q = k_.cast<Complex>() + lambda * drive_.damping.cast<Complex>();
+    Eigen::SparseMatrix<Complex> mass(drive_.size(), drive_.size());
+    mass.setIdentity();
+    for (Index i = 0; i < drive_.size(); ++i) mass.coeffRef(i, i) = lambda * lambda * drive_.inertia[i];
+    q += mass;
+    q.makeCompressed();
+    return q;
+  }
+  std::complex<double> root(const Eigen::VectorXcd& v, std::complex<double> near) const {
+    const auto form = [&](const auto& m) { return (v.transpose() * (m * v)).value(); };
+    const std::complex<double> a = (v.array().square() * drive_.inertia.array()).sum(), c = form(drive_.damping),
+                               k = form(k_);
+    const std::complex<double> half = std::sqrt(c * c - 4.0 * a * k);
+    const std::complex<double> one = (-c + half) / (2.0 * a), two = (-c - half) / (2.0 * a);
+    return std::abs(one - near) < std::abs(two - near) ? one : two;
+  }
+
+  const LinearDrive& drive_;
+  SparseMatrix k_;
+  Eigen::SparseLU<Eigen::SparseMatrix<std::complex<double>>> solver_;
+  bool analysed_ = false;
+};
+
+std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedModes& undamped) {
+  DampedNewton newton(drive);
+  std::vector<DampedMode> modes;
+  for (Index i = undamped.rigid; i < undamped.omega.size(); ++i) {
+    const VectorXd shape = undamped.shapes.col(i);
+    const double decay = 0.5 * shape.dot(drive.damping * shape);
+    std::complex<double> lambda(-decay, std::sqrt(std::max(0.0, std::pow(undamped.omega[i], 2) - decay * decay)));
+    Eigen::VectorXcd v = shape.cast<std::complex<double>>();
+    if (!newton.refine(lambda, v)) continue;
+    const bool known = std::any_of(modes.begin(), modes.end(), [&](const DampedMode& m) {
+      return std::abs(m.lambda - lambda) < 1e-9 * std::abs(lambda) &&
+             std::abs(m.shape.normalized().dot(v.normalized())) > 1 - 1e-6;
+    });
+    if (!known) modes.push_back(normalised(lambda, v));
+  }
+  sort_modes(modes);
+  return modes;
+}
+
+}  // namespace
+
+UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted) {
+  if (wanted.count < 1) throw std::invalid_argument("the number of modes wanted must be ≥ 1");
+  const SparseMatrix a = scaled_stiffness(drive);
+  const MatrixXd rigid = rigid_motions(drive);
+  UndampedModes modes;
+  if (drive.size() <= wanted.dense_below || 3 * wanted.count > drive.size()) {
+    modes = dense_modes(drive, a, rigid);
+  } else {
+    modes = KrylovSearch(drive, a, rigid).lowest(wanted.count);
+  }
+  const Index found = modes.omega.size();
+  const double last = modes.omega[found - 1];
+  modes.counted_below =
+      modes.complete || last == 0 ? static_cast<int>(found) : count_below(a, std::pow(last * (1 + 1e-9), 2));
+  if (!(modes.residual < good_enough))
+    throw std::runtime_error(
+        "the modes were not found to a backward error of 1e-10: the springs' stiffnesses lie too far apart");
+  return modes;
+}
+
+int modes_below(const LinearDrive& drive, double omega) {
+  return omega <= 0 ? 0 : count_below(scaled_stiffness(drive), omega * omega);
+}
+
+std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
+                                     const ModesWanted& wanted) {
+  return drive.size() <= wanted.dense_below ? dense_damped(drive) : sparse_damped(drive, undamped);
+}
+
+EnergyShares energy_shares(const LinearDrive& drive, const VectorXd& shape) {
+  EnergyShares shares;
+  double potential = 0;
+  for (std::size_t j = 0; j < drive.joints.size(); ++j) {
+    shares.joint.push_back(drive.joints[j].stiffness * std::pow(drive.twist(j, shape), 2));
+    potential += shares.joint.back();
+  }
+  for (double& share : shares.joint) share = potential > 0 ? share / potential : 0;
+  const double kinetic = drive.inertia.dot(shape.cwiseAbs2());
+  for (Index i = 0; i < drive.size(); ++i)
+    shares.coordinate.push_back(drive.inertia[i] * shape[i] * shape[i] / kinetic);
+  return shares;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,55 @@
+// eigen_modes.h — natural frequencies and shapes of a linearised drive.
+//
+//     undamped   K v = ω² M v,  vᵀ M v = 1                      small drives dense; large ones by shift and invert
+//     damped     (λ² M + λ C + K) v = 0,  λ = −ζ |λ| ± i ω_d
+// Modes are counted by Sylvester's law of inertia (Sturm's count): K − σ M has as many negative pivots as there are
+// modes below √σ. So it is proven that none is missed.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "engine/analysis/linearise.h"
+
+namespace kurbel {
+
+struct ModesWanted {
+  int count = 20;         // lowest, rigid-body motions not counted; ≥ 1
+  int dense_below = 160;  // coordinates up to which all modes are found by a dense solver
+};
+
+struct UndampedModes {
+  int rigid = 0;           // motions without twist: ω = 0 exactly; they come first
+  Eigen::VectorXd omega;   // ascending [rad/s]
+  Eigen::MatrixXd shapes;  // columns; M-orthonormal
+  double residual = 0;  // backward error: largest ‖A x − ω² x‖/‖A‖, A = M^(−½) K M^(−½), ‖x‖ = 1
+  bool complete = false;  // all modes of the drive
+  int counted_below = 0;  // by Sturm, up to just above the last one: equals what was found
+  int basis = 0;          // vectors that the search needed; 0: dense
+};
+
+// The lowest modes. Throws std::runtime_error where they cannot be found to a backward error of 1e-10.
+UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted = {});
+
+// Number of modes with ω < omega, rigid ones included.
+int modes_below(const LinearDrive& drive, double omega);
+
+struct DampedMode {
+  std::complex<double> lambda;                                        // [1/s], Im ≥ 0; Im = 0: does not swing
+  Eigen::VectorXcd shape;                                             // per coordinate; largest entry 1
+  double natural() const { return std::abs(lambda); }                 // [rad/s]
+  double ratio() const { return -lambda.real() / std::abs(lambda); }  // ζ; < 0: grows by itself
+};
+
+// Swinging modes by ascending |λ|, then those that do not swing. Small drives: all. Large ones: those that grow out of
+// the undamped modes given, by Newton's method; without what does not swing.
+std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
+                                     const ModesWanted& wanted = {});
+
+// Shares of each joint in the potential energy and of each coordinate in the kinetic energy of a shape.
+struct EnergyShares {
+  std::vector<double> joint, coordinate;  // each sums to 1
+};
+EnergyShares energy_shares(const LinearDrive& drive, const Eigen::VectorXd& shape);
+
+}  // namespace kurbel

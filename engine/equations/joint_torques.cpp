@@ -1,0 +1,130 @@
+// joint_torques.cpp — needs of the nodes, summed from the leaves of each merged shaft to its root.
+#include "engine/equations/joint_torques.h"
+
+#include <algorithm>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+}  // namespace
+
+JointTorques::JointTorques(const Model& model) : model_(&model) {
+  torque_.assign(model.network.joints.size(), 0);
+  balance_.assign(model.network.nodes.size(), 0);
+  list_trees();
+}
+
+// The rigid joints within each merged shaft, leaves first, seen from its reference node.
+void JointTorques::list_trees() {
+  const Network& net = model_->network;
+  std::vector<std::vector<int>> joints_at(net.nodes.size());
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    if (net.joints[j].elastic) continue;
+    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
+    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
+  }
+  std::vector<char> seen(net.nodes.size(), 0);
+  for (const Shaft& shaft : model_->shafts) {
+    std::vector<int> queue = {shaft.reference};
+    seen[at(shaft.reference)] = 1;
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const int j : joints_at[at(queue[next])]) {
+        const Network::Joint& joint = net.joints[at(j)];
+        const int other = joint.a == queue[next] ? joint.b : joint.a;
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        steps_.push_back({j, other, queue[next], other == joint.b});
+        queue.push_back(other);
+      }
+  }
+  std::reverse(steps_.begin(), steps_.end());
+}
+
+void JointTorques::find(const Given& given, std::span<const Held> held, const Hold* shaft_hold,
+                        const Hold* element_hold) {
+  add_inertia_and_elements(given);
+  add_connections(given);
+  for (const Held& one : held) add_held(one, shaft_hold[one.shaft], element_hold);
+  walk_to_the_roots();
+  bear_reactions();
+}
+
+void JointTorques::add_inertia_and_elements(const Given& given) {
+  const Model& m = *model_;
+  const Network& net = m.network;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    balance_[n] = net.nodes[n].inertia * m.gain_of_node[n] * given.alpha[m.shaft_of_node[n]];
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const std::size_t n = at(net.elements[e].node);
+    balance_[n] +=
+        given.element_inertia[e] * m.gain_of_node[n] * given.alpha[m.shaft_of_node[n]] - given.element_torque[e];
+  }
+}
+
+void JointTorques::add_connections(const Given& given) {
+  const Model& m = *model_;
+  const Network& net = m.network;
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const Network::Joint& joint = net.joints[at(m.elastic[i].joint)];
+    torque_[at(m.elastic[i].joint)] = given.connection_torque[i];
+    balance_[at(joint.a)] += given.connection_torque[i];
+    balance_[at(joint.b)] -= joint.ratio * given.connection_torque[i];
+  }
+  for (std::size_t r = 0; r < m.relations.size(); ++r) {
+    const Network::Relation& relation = net.relations[at(m.relations[r].relation)];
+    const double taken = given.relation_torque[r], lost = given.relation_loss[r];
+    for (int k = 0; k < relation.members(); ++k) balance_[at(relation.node[at(k)])] += relation.gain[at(k)] * taken;
+    balance_[at(relation.node[1])] -= relation.gain[1] * lost;
+    if (relation.members() == 3) balance_[at(relation.node[2])] -= (1 + relation.gain[2]) * lost;
+  }
+}
+
+void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold* element_hold) {
+  const Model& m = *model_;
+  const double capacity = held.rest > 0 ? shaft_hold.high : shaft_hold.low;
+  if (capacity == 0) return;
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e) {
+    const std::size_t n = at(m.network.elements[e].node);
+    if (m.shaft_of_node[n] != held.shaft) continue;
+    const bool upwards = (held.rest > 0) == (m.gain_of_node[n] > 0);  // on the element's own shaft
+    balance_[n] -= held.rest / capacity * (upwards ? element_hold[e].high : element_hold[e].low);
+  }
+}
+
+void JointTorques::walk_to_the_roots() {
+  for (const Step& step : steps_) {
+    const double ratio = model_->network.joints[at(step.joint)].ratio, need = balance_[at(step.child)];
+    if (step.child_is_b) {
+      torque_[at(step.joint)] = need / ratio;
+      balance_[at(step.parent)] += need / ratio;
+    } else {
+      torque_[at(step.joint)] = -need;
+      balance_[at(step.parent)] += ratio * need;
+    }
+  }
+}
+
+// Gears that became joints of two shafts still push on the third, which stands: their torque flows on to the frame.
+void JointTorques::bear_reactions() {
+  const Model& m = *model_;
+  for (const GearTorque& gear : m.gear_torques) {
+    if (m.shafts[at(m.shaft_of_node[at(gear.node)])].prescribed < 0) continue;
+    double need = 0;
+    for (const GearTorque::Term& term : gear.terms)
+      if (term.joint >= 0) need -= term.taken * torque_[at(term.joint)];
+    if (need == 0) continue;
+    int node = gear.node;
+    for (const Step& step : steps_) {  // leaves first: the way to the root is in order
+      if (step.child != node) continue;
+      const double ratio = m.network.joints[at(step.joint)].ratio;
+      torque_[at(step.joint)] += step.child_is_b ? need / ratio : -need;
+      need = step.child_is_b ? need / ratio : ratio * need;
+      node = step.parent;
+    }
+    balance_[at(node)] += need;
+  }
+}
+
+}  // namespace kurbel

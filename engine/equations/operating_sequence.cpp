@@ -1,0 +1,97 @@
+// operating_sequence.cpp — steps are armed, fall due, and set commands.
+#include "engine/equations/operating_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double never = 1e300;
+
+std::string value_text(double to) { return to == 0 ? "off" : to == 1 ? "on" : fmt::format("{:.4g}", to); }
+
+}  // namespace
+
+bool OperatingSequence::begin(Modes& modes, double t, std::span<const double> y) const {
+  std::fill(modes.command.begin(), modes.command.end(), Command{});
+  modes.next_step = 0;
+  modes.last_step_time = t;
+  modes.armed_time = never;
+  if (!any()) return false;
+  arm(modes, t, y);
+  return modes.armed_time <= t;
+}
+
+void OperatingSequence::arm(Modes& modes, double t, std::span<const double> y) const {
+  const Sequence& sequence = model_->scene.sequence;
+  modes.armed_time = never;
+  if (modes.next_step >= sequence.steps.size()) return;
+  const SequenceStep& step = sequence.steps[modes.next_step];
+  if (step.when == SequenceStep::When::at) modes.armed_time = std::max(t, step.value);
+  if (step.when == SequenceStep::When::after) modes.armed_time = modes.last_step_time + step.value;
+  if (step.when == SequenceStep::When::angle) {
+    const double now = angle_with_turns(modes, at(model_->trigger_angle[modes.next_step]), y);
+    const double turn = 2 * std::numbers::pi, slack = 1e-9;
+    modes.armed_angle = step.value + turn * std::ceil((now + slack - step.value) / turn);
+  }
+}
+
+void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, EventLog* log) const {
+  const Sequence& sequence = model_->scene.sequence;
+  for (std::size_t taken = 0; taken <= sequence.steps.size() && modes.next_step < sequence.steps.size(); ++taken) {
+    const SequenceStep& step = sequence.steps[modes.next_step];
+    for (const std::string& component : step.set) {
+      const auto is = [&](const CommandTarget& target) { return target.component == component; };
+      const auto c = std::find_if(model_->commands.begin(), model_->commands.end(), is) - model_->commands.begin();
+      Command& command = modes.command[static_cast<std::size_t>(c)];
+      const double value = command.at(t);
+      if (step.over > 0 && value != step.to)
+        command = {value, (step.to - value) / step.over, t, t + step.over, step.to};
+      else
+        command = {.value = step.to, .to = step.to};
+      if (log)
+        log->push_back({t, component,
+                        step.over > 0 ? fmt::format("goes to {} within {:.4g} s", value_text(step.to), step.over)
+                                      : fmt::format("is set {}", value_text(step.to)),
+                        value_text(value)});
+    }
+    modes.last_step_time = t;
+    ++modes.next_step;
+    if (modes.next_step == sequence.steps.size() && sequence.repeat) modes.next_step = 0;
+    arm(modes, t, y);
+    if (modes.armed_time > t) break;
+  }
+}
+
+double OperatingSequence::guard(const Modes& modes, std::span<const double> y, const double* speed) const {
+  const Sequence& sequence = model_->scene.sequence;
+  if (modes.next_step >= sequence.steps.size()) return 1;
+  const SequenceStep& step = sequence.steps[modes.next_step];
+  if (step.when == SequenceStep::When::angle)
+    return std::min(1.0, modes.armed_angle - angle_with_turns(modes, at(model_->trigger_angle[modes.next_step]), y));
+  if (step.when != SequenceStep::When::speed_above && step.when != SequenceStep::When::speed_below) return 1;
+  const std::size_t node = at(model_->network.ports.at(step.of).in);
+  const double over = model_->gain_of_node[node] * speed[model_->shaft_of_node[node]] - step.value;
+  return (step.when == SequenceStep::When::speed_above ? -over : over) /
+         (model_->speed_scale * model_->scale_ratio[node]);
+}
+
+double OperatingSequence::next_edge(const Modes& modes) const {
+  double next = modes.armed_time;
+  for (const Command& command : modes.command)
+    if (command.rate != 0) next = std::min(next, command.until);
+  return next;
+}
+
+void OperatingSequence::end_ramps(Modes& modes, double t) const {
+  for (Command& command : modes.command)
+    if (command.rate != 0 && command.until <= t) command = {.value = command.to, .to = command.to};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,172 @@
+// model.h — a machine compiled into its smallest set of coordinates; never changes after it is made.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model/network.h"
+#include "engine/numerics/ode_system.h"
+#include "engine/scene/scene.h"
+
+namespace kurbel {
+
+// One coordinate: all nodes that are rigidly joined, reduced to one of them.
+struct Shaft {
+  int reference = 0;  // node whose speed is the shaft's speed ω
+  std::vector<int> nodes;
+  double inertia = 0;        // constant part, on the reference node [kg·m²]
+  double mean_inertia = 0;   // with the mean of the mechanisms
+  bool variable = false;     // carries a mechanism
+  bool directional = false;  // carries an element that opposes motion
+  int prescribed = -1;       // its speed is given
+  double speed_scale = 1;    // [rad/s]
+  double torque_scale = 1;   // [N·m]
+};
+
+// A joint that stayed elastic. θ = gain_a φ_A − gain_b φ_B over the merged shafts A, B.
+struct ElasticJoint {
+  int joint = 0;  // in the network
+  int shaft_a = 0, shaft_b = 0;
+  double gain_a = 1, gain_b = 1;
+  double twist_scale = 1e-4;  // [rad]
+  bool slips = false;         // a clutch: no spring
+  bool springless = false;    // a viscous film: no spring, no sticking
+  int loss_account = 0;
+};
+
+// Σ gain · ω over shafts.
+struct ShaftGain {
+  int shaft = 0;
+  double gain = 1;
+};
+
+// A relation of the network over the merged shafts.
+struct ShaftRelation {
+  int relation = 0;                // in the network
+  std::vector<ShaftGain> motion;   // Σ gain ω = 0
+  std::vector<ShaftGain> loss;     // torque on the shafts by a unit of loss L
+  std::vector<ShaftGain> sliding;  // speed that the loss opposes
+  GearLoss in_motion = {};         // the law of losses while it moves
+  int loss_account = -1;           // −1: none
+};
+
+// A torque on a shaft of a gear, by what carries it: relations, and joints that were relations.
+struct GearTorque {
+  struct Term {
+    int relation = -1, joint = -1;  // one of them; a joint stands for a relation without losses
+    double taken = 1, lost = 0;     // factors of λ (of the joint's torque) and of L
+  };
+  std::string name;  // "gearbox.out"
+  int node = 0;
+  std::vector<Term> terms;
+  double value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const;
+};
+
+// A state that an element brings along.
+struct OwnStatePlace {
+  std::string component;
+  OwnState state;
+};
+
+// A component that the operating sequence switches or sets.
+struct CommandTarget {
+  std::string component;
+  std::vector<int> switched;  // shaft elements that are merely on or off
+  std::vector<int> opened;    // shaft elements that are off while it is 0
+};
+
+// An angle that something depends on: turns are kept apart from the remainder.
+struct TrackedAngle {
+  int node = 0, shaft = 0;
+  double gain = 1;  // dφ/dt = gain · ω
+};
+
+// A coupling, whether it stayed elastic or was merged: its torque is a result of every run.
+struct TorqueJoint {
+  std::string component;
+  int joint = 0;
+  int elastic = -1;         // index of the elastic joint; −1: merged, torque by d'Alembert
+  double torque_scale = 1;  // [N·m]
+};
+
+struct WorkAccount {
+  std::string name;
+  Account kind;
+};
+
+// Where the derivatives of the elements go in the sparse Jacobian of the states (quadratures not counted).
+struct JacobianLayout {
+  SparsityPattern pattern;
+  std::vector<std::size_t> slot_position;                // per slot: stored entry; one past the end: no state
+  std::vector<std::pair<std::size_t, double>> constant;  // kinematic entries: stored entry, value
+  std::vector<int> row_shaft;                            // per stored entry: shaft of a speed's row, else −1
+  // Shafts whose accelerations mix while constraints hold; all their rows have all their columns.
+  struct Coupled {
+    std::vector<int> shafts, columns;
+    std::vector<std::size_t> position;  // stored entry of [column][shaft]
+  };
+  std::vector<Coupled> coupled;
+  // Rows of own states that move with the acceleration of a shaft: row += gain · row of the shaft's speed.
+  struct Follower {
+    std::size_t slot = 0;                                      // of the gain
+    std::vector<std::pair<std::size_t, std::size_t>> entries;  // stored entries: of the speed's row, of its own
+  };
+  std::vector<Follower> followers;
+};
+
+struct Model {
+  Scene scene;
+  Effects effects;
+  Network network;
+  std::vector<Shaft> shafts;  // free ones first, prescribed ones last
+  std::size_t free_shafts = 0;
+  std::vector<int> shaft_of_node;
+  std::vector<double> gain_of_node;  // ω_node = gain · ω_shaft
+  std::vector<double> node_ratio;    // ω_node / ω_reduction_link in the machine's usual motion, all turning together
+  std::vector<double> scale_ratio;   // its magnitude, never 0: 1 where a shaft usually stands
+  std::vector<ElasticJoint> elastic;
+  std::vector<TrackedAngle> angles;
+  std::vector<ShaftRelation> relations;
+  std::vector<GearTorque> gear_torques;
+  std::vector<OwnStatePlace> own_states;
+  std::vector<CommandTarget> commands;
+  std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it watches, −1: none
+  std::vector<TorqueJoint> torque_joints;
+  std::vector<WorkAccount> accounts;
+  std::vector<std::unique_ptr<ElementPool>> pools;
+  std::vector<Channel> pool_channels;
+  std::size_t mode_slots = 0;
+  std::vector<std::string> merged;  // what was merged and why, a line each
+
+  int reduction_node = 0;                    // crank of the first mechanism, else the line's first shaft
+  int reduction_angle = 0;                   // its tracked angle
+  double cycle = 0;                          // angle of one cycle of the reduction link [rad]; 0: none
+  int reduction_element = -1;                // first mechanism among the elements
+  double speed_scale = 1, torque_scale = 1;  // of the reduction link
+  JacobianLayout jacobian;
+
+  std::size_t angle_count() const { return angles.size(); }
+  std::size_t twist_count() const { return elastic.size(); }
+  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
+  // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
+  bool has_contacts() const;
+  std::string node_label(int node) const;
+  // What was merged, the coordinates, their inertias, and why.
+  std::string explain() const;
+};
+
+// Lets every element register its derivatives, and sorts them into a compressed-column pattern.
+JacobianLayout lay_out_jacobian(const Model& model);
+
+// Fills the network from a scene's components. Throws SceneError with everything that the components refuse.
+Network build_network(const Scene& scene);
+
+// Compiles a scene with the given effects. Throws SceneError where the equations would be singular.
+std::shared_ptr<const Model> compile(const Scene& scene, const Effects& effects);
+
+// Compiles a network made by hand (benches, library users); scene carries effects and run settings.
+std::shared_ptr<const Model> compile_network(Network network, const Scene& scene, const Effects& effects);
+
+}  // namespace kurbel

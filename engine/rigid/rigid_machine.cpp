@@ -1,0 +1,222 @@
+// rigid_machine.cpp — evaluates the rigid machine at angles and speeds, and finds where its torques' laws change.
+#include "engine/rigid/rigid_machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/period.h"
+#include "engine/run/run.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts as here
+constexpr double farthest = 1e-5;      // rad: where rounding hides what is ahead
+constexpr int cells_a_turn = 720;      // of the search for edges
+constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
+
+std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
+
+std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
+  if (!model->elastic.empty())
+    throw std::invalid_argument(fmt::format(
+        "the machine is elastic (effects: {}); one angle and its speed describe it only with elasticity off",
+        model->effects.describe()));
+  if (!model->relations.empty())
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" ties shafts only while the machine runs, so one angle does not describe it; simulate it with "
+        "kurbel run, or hold a shaft of a planetary gear (fixed)",
+        model->network.relations.front().component));
+  if (model->free_shafts != 1)
+    throw std::invalid_argument(
+        "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
+  if (!model->own_states.empty())
+    throw std::invalid_argument(fmt::format(
+        "the {} of \"{}\" is a state besides angle and speed, which this question leaves out; replace \"{}\" "
+        "by a motor or a load, or switch its effect off",
+        model->own_states.front().state.name, model->own_states.front().component,
+        model->own_states.front().component));
+  return model;
+}
+
+// Smallest of f within [a, b] by the golden section, to a part in 10⁴ of the interval or until it is negative.
+double lowest(const std::function<double(double)>& f, double a, double b) {
+  constexpr double part = 0.38196601125010515;
+  double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
+  for (int i = 0; i < 40 && fx >= below_zero && fy >= below_zero; ++i) {
+    if (fx < fy) {
+      b = y, y = x, fy = fx;
+      fx = f(x = a + part * (b - a));
+    } else {
+      a = x, x = y, fx = fy;
+      fy = f(y = b - part * (b - a));
+    }
+  }
+  return fx < fy ? x : y;
+}
+
+}  // namespace
+
+Effects rigid_effects() {
+  Effects effects;
+  effects.locked = true;
+  return effects;
+}
+
+RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rigid_effects())) {}
+
+RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
+    : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
+  for (const Network::ShaftElement& e : model_->network.elements)
+    if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[at_index(e.node)], e.phase});
+  const auto [cycle, periodic] = cycle_of(*model_);
+  cycle_ = cycle;
+  periodic_ = periodic;
+  set_modes(0, 1);
+  // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed.
+  const double whole = equations_.shaft_balance(0, 0, state_).inertia;
+  if (std::abs(constant_inertia() + mechanism_inertia(0).value - whole) > 1e-9 * whole)
+    throw std::logic_error("a mechanism tells its reduced inertia otherwise than its equations");
+}
+
+bool RigidMachine::uses_time() const {
+  const auto& elements = model_->network.elements;
+  return std::any_of(elements.begin(), elements.end(), [](const Network::ShaftElement& e) {
+    return e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop;
+  });
+}
+
+bool RigidMachine::uses_speed() const {
+  const auto& elements = model_->network.elements;
+  return std::any_of(elements.begin(), elements.end(),
+                     [](const Network::ShaftElement& e) { return e.element->uses_speed(); });
+}
+
+bool RigidMachine::edges_are_of_angle() const {
+  return std::all_of(model_->pools.begin(), model_->pools.end(),
+                     [](const auto& pool) { return pool->guards_are_of_angle(); });
+}
+
+double RigidMachine::constant_inertia() const { return model_->shafts[0].inertia; }
+
+// I = Σ i² I_own(i φ + ψ),  I′ = Σ i³ I′_own with i = ω_own/ω
+RigidMachine::Inertia RigidMachine::mechanism_inertia(double phi) const {
+  Inertia sum;
+  for (const auto& [maker, ratio, phase] : mechanisms_) {
+    const auto own = maker->inertia_at(ratio * phi + phase);
+    sum.value += ratio * ratio * own.value;
+    sum.slope += ratio * ratio * ratio * own.slope;
+  }
+  return sum;
+}
+
+void RigidMachine::fill_state(double phi, double omega) {
+  const Model& m = *model_;
+  for (std::size_t i = 0; i < m.angles.size(); ++i) state_[i] = m.angles[i].gain * phi;
+  state_[equations_.speed_index(0)] = omega;
+}
+
+void RigidMachine::set_modes(double phi, double omega) { look_ahead(phi, omega, ahead); }
+
+void RigidMachine::look_ahead(double phi, double omega, double distance) {
+  const double here = periodic_ ? place_within(phi, cycle_) : phi;
+  const double further = std::copysign(distance * std::max(1.0, std::abs(here)), omega);
+  state_ = equations_.modes_from_scratch(0, here + further, omega);
+}
+
+// M = Σ torques of the equations, which hold −½ I_r′ ω² for the mechanisms.
+RigidMachine::At RigidMachine::at(double phi, double omega, bool shares) {
+  fill_state(phi, omega);
+  const auto [torque, inertia] = equations_.shaft_balance(0, 0, state_, shares ? share_.data() : nullptr);
+  At result{inertia, mechanism_inertia(phi).slope, 0, {}};
+  result.torque = torque + 0.5 * result.slope * omega * omega;
+  if (shares) {
+    for (double& share : share_) share /= omega;
+    result.share = share_;
+  }
+  return result;
+}
+
+// Walks once round with the modes that hold; a guard that falls below zero marks an edge, also where it comes back
+// within the same cell.
+std::vector<double> RigidMachine::edges(int direction) {
+  const Model& m = *model_;
+  std::vector<std::size_t> watched;
+  std::size_t next = 0;
+  for (const auto& pool : m.pools) {
+    const auto count = static_cast<std::size_t>(pool->guard_count());
+    if (pool->guards_are_of_angle())
+      for (std::size_t i = 0; i < count; ++i) watched.push_back(next + i);
+    next += count;
+  }
+  std::vector<double> found, guard(equations_.guard_count());
+  if (watched.empty()) return found;
+  const double sign = direction >= 0 ? 1 : -1;
+  // s grows in the direction of motion; the search begins off the round angles where edges like to lie.
+  const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + cycle_;
+  const auto guards_at = [&](double s) -> const std::vector<double>& {
+    fill_state(sign * s, sign);
+    equations_.guards(0, state_, guard);
+    return guard;
+  };
+  const auto one = [&](std::size_t i) { return [&, i](double s) { return guards_at(s)[i]; }; };
+  set_modes(sign * begin, sign);
+  double here = begin, looked = ahead;
+  while (here < end) {
+    Deadline::check();
+    // On one grid all along, so that cells keep off the round angles behind an edge, too.
+    const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end),
+                 middle = 0.5 * (here + to);
+    const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
+    double edge = HUGE_VAL, value_here = 1;
+    for (const std::size_t i : watched) {
+      double below = HUGE_VAL;  // where the guard is negative, first guess
+      if (at_middle[i] < below_zero) {
+        below = middle;
+      } else if (at_to[i] < below_zero) {
+        below = to;
+      } else if (at_middle[i] < 1 && (at_middle[i] <= std::min(at_here[i], at_to[i]) ||
+                                      std::min(at_here[i], at_to[i]) < 0.1 * std::max(at_here[i], at_to[i]))) {
+        const double low = lowest(one(i), here, to);
+        if (guards_at(low)[i] < below_zero) below = low;
+      }
+      if (below == HUGE_VAL) continue;
+      const double from = at_here[i];
+      const double root = from > 0 ? find_root(one(i), here, from, below, guards_at(below)[i]) : here;
+      if (root < edge) value_here = from;
+      edge = std::min(edge, root);
+    }
+    if (edge == HUGE_VAL) {
+      here = to;
+      looked = ahead;
+      continue;
+    }
+    // Nothing but rounding above zero already here: at a dead centre the slider's place tells the piece only further
+    // on.
+    if (value_here < -below_zero && looked < farthest) {
+      looked *= 10;
+      look_ahead(sign * here, sign, looked);
+      continue;
+    }
+    looked = ahead;
+    edge = std::max(edge, here);
+    const double angle = periodic_ ? place_within(sign * edge, cycle_) : sign * edge;
+    found.push_back(cycle_ - angle < 1e-13 ? 0 : angle);
+    set_modes(sign * edge, sign);
+    here = std::max(edge, std::nextafter(here, end));
+    // Past the edge by what counts as here, so that its own guard is found above zero.
+    here += 2 * ahead * std::max(1.0, std::abs(here));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end(), [](double a, double b) { return b - a < 1e-12; }), found.end());
+  return found;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,102 @@
+// checkpoint.cpp — state, modes and the loop's memory as JSON, whose numbers are exact.
+#include "engine/run/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace kurbel {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Command, value, rate, from, until, to)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, direction, slip, loss_direction, loss_sign,
+                                   regularised, carries, capacity, turns, first_two_turns, command, next_step,
+                                   armed_time, armed_angle, last_step_time)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
+                                   last_step, recent, held_needed)
+
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const kind = "kurbel checkpoint 1";
+
+std::vector<std::string> names_of(const Equations& equations) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < equations.size() - equations.integral_count(); ++i)
+    names.push_back(equations.state_name(i));
+  return names;
+}
+
+// Every list as long as this machine needs it, every number a number, every sense a sense.
+void check(const Checkpoint& c, const Equations& equations) {
+  const auto all_finite = [](const std::vector<double>& list) {
+    return std::all_of(list.begin(), list.end(), [](double v) { return std::isfinite(v); });
+  };
+  const auto alike = [](const auto& a, const auto& b) { return a.size() == b.size(); };
+  const Modes &m = c.state.modes, &own = equations.modes();
+  const bool fits = alike(m.piece, own.piece) && alike(m.prescribed_piece, own.prescribed_piece) &&
+                    alike(m.active, own.active) && alike(m.direction, own.direction) && alike(m.slip, own.slip) &&
+                    alike(m.loss_direction, own.loss_direction) && alike(m.loss_sign, own.loss_sign) &&
+                    alike(m.regularised, own.regularised) && alike(m.carries, own.carries) &&
+                    alike(m.capacity, own.capacity) && alike(m.turns, own.turns) && alike(m.command, own.command);
+  if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
+  const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
+                     all_finite(m.capacity) && all_finite(m.turns) &&
+                     m.next_step <= equations.model().scene.sequence.steps.size();
+  const auto pieces = [](const std::vector<int>& list) {
+    constexpr int most = 10'000'000;  // of a table's rows
+    return std::all_of(list.begin(), list.end(), [](int v) { return v >= -most && v <= most; });
+  };
+  const auto senses = [](const std::vector<int>& list) {
+    return std::all_of(list.begin(), list.end(), [](int v) { return v >= -1 && v <= 1; });
+  };
+  if (!sound || !pieces(m.piece) || !pieces(m.prescribed_piece) || !senses(m.direction) || !senses(m.slip) ||
+      !senses(m.loss_direction) || !senses(m.loss_sign))
+    throw UnfitCheckpoint("holds values that no run leaves behind");
+}
+
+}  // namespace
+
+std::string text_of(const Checkpoint& checkpoint, const Equations& equations) {
+  const Json json{{"kind", kind},
+                  {"states", names_of(equations)},
+                  {"t", checkpoint.state.t},
+                  {"y", checkpoint.state.y},
+                  {"modes", checkpoint.state.modes},
+                  {"integrals", checkpoint.integrals},
+                  {"loop", checkpoint.loop}};
+  return json.dump(1) + "\n";
+}
+
+Checkpoint checkpoint_from(const std::string& text, const Equations& equations) {
+  Checkpoint c;
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("kind") != kind) throw UnfitCheckpoint("is no checkpoint that this program can read");
+    const auto names = json.at("states").get<std::vector<std::string>>();
+    const std::vector<std::string> own = names_of(equations);
+    for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i)
+      if (i >= names.size() || i >= own.size() || names[i] != own[i])
+        throw UnfitCheckpoint(fmt::format("is of another machine: its state {} is {}, here it is {}", i + 1,
+                                          i < names.size() ? names[i] : "missing",
+                                          i < own.size() ? own[i] : "missing"));
+    json.at("t").get_to(c.state.t);
+    json.at("y").get_to(c.state.y);
+    json.at("modes").get_to(c.state.modes);
+    json.at("integrals").get_to(c.integrals);
+    json.at("loop").get_to(c.loop);
+    if (c.state.y.size() != own.size()) throw UnfitCheckpoint("has not as many values as states");
+    if (!c.integrals.empty() && equations.audit() && c.integrals.size() != equations.integral_count())
+      throw UnfitCheckpoint("has other accounts of work than this scene");
+  } catch (const Json::exception& error) {
+    throw UnfitCheckpoint(fmt::format("cannot be read as a checkpoint ({})", error.what()));
+  }
+  check(c, equations);
+  return c;
+}
+
+}  // namespace kurbel

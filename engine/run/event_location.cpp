@@ -1,0 +1,214 @@
+// event_location.cpp — guards at both ends of a step, dips within it, and the way to the first that fires.
+#include "engine/run/event_location.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace kurbel {
+namespace {
+
+// A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
+constexpr double fired_below = -1e-11, at_root = 1e-13;
+
+// Guards of speeds and torques: those of angles cannot come back within a quarter turn.
+bool guards_beyond_angles(const Equations& equations) {
+  std::size_t of_angle = 0;
+  for (const auto& pool : equations.model().pools)
+    if (pool->guards_are_of_angle()) of_angle += pool->guard_count();
+  return equations.guard_count() > of_angle;
+}
+
+}  // namespace
+
+EventLocation::EventLocation(Equations& equations, const RunOptions& options, std::size_t states)
+    : equations_(equations),
+      options_(options),
+      states_(states),
+      guard_(equations.guard_count() + (options.stop ? 1 : 0)),
+      guard_before_(guard_.size()),
+      may_dip_(guards_beyond_angles(equations)) {}
+
+void EventLocation::begin(double t, std::span<const double> y) {
+  slopes_known_ = false;
+  find_guards(t, y, guard_before_);
+}
+
+std::vector<std::size_t> EventLocation::find() {
+  find_guards(stepper_->t(), stepper_->y(), guard_);
+  std::vector<std::size_t> fired = locate();
+  if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();
+  return fired;
+}
+
+void EventLocation::go_on() {
+  std::swap(guard_, guard_before_);
+  std::swap(guard_slope_, guard_slope_before_);
+}
+
+// The equations' guards, and behind them the one that ends the run.
+void EventLocation::find_guards(double t, std::span<const double> y, std::span<double> g) {
+  equations_.guards(t, y, g);
+  if (options_.stop) g.back() = options_.stop(t, y);
+}
+
+double EventLocation::guard_at(double t, std::size_t which) {
+  work_.resize(states_);
+  stepper_->interpolate(t, work_);
+  probe_.resize(guard_.size());
+  find_guards(t, work_, probe_);
+  return probe_[which];
+}
+
+// dg/dt from a small step along the slope.
+void EventLocation::find_guard_slopes(double t, std::span<const double> y, std::span<const double> ydot,
+                                      std::span<const double> g, double delta, std::vector<double>& slopes) {
+  work_.resize(y.size());
+  for (std::size_t i = 0; i < y.size(); ++i) work_[i] = y[i] + delta * ydot[i];
+  slopes.resize(guard_.size());
+  find_guards(t + delta, work_, slopes);
+  for (std::size_t i = 0; i < guard_.size(); ++i) slopes[i] = (slopes[i] - g[i]) / delta;
+}
+
+// Guards that are positive at both ends of the step but negative in between: where the cubic through values and
+// slopes dips towards zero, the dense output is asked.
+void EventLocation::add_dips(std::vector<Below>& below) {
+  if (!may_dip_ || stepper_->ends_on_edges()) return;
+  const double t0 = stepper_->t_previous(), h = stepper_->t() - t0;
+  if (!(h > 1e-9 * std::abs(t0))) return;
+  if (!slopes_known_)
+    find_guard_slopes(t0, stepper_->y_previous(), stepper_->ydot_previous(), guard_before_, 1e-5 * h,
+                      guard_slope_before_);
+  find_guard_slopes(stepper_->t(), stepper_->y(), stepper_->ydot(), guard_, -1e-5 * h, guard_slope_);
+  slopes_known_ = true;
+  for (std::size_t i = 0; i < guard_.size(); ++i) {
+    const double g0 = guard_before_[i], g1 = guard_[i], down = h * guard_slope_before_[i], up = h * guard_slope_[i];
+    if (!(g0 > at_root && g1 > at_root && down < 0 && up > 0)) continue;
+    // g0 + down x + (3 (g1 − g0) − 2 down − up) x² + (down + up − 2 (g1 − g0)) x³
+    const double b = 3 * (g1 - g0) - 2 * down - up, c = down + up - 2 * (g1 - g0);
+    const double root = std::sqrt(std::max(0.0, b * b - 3 * c * down));
+    double x = -down / (b + root);  // of its minimum
+    if (!(x > 0 && x < 1)) continue;
+    const double lowest = g0 + x * (down + x * (b + x * c));
+    if (lowest > 0.2 * (std::max(g0, g1) - lowest)) continue;  // far off, even for a step that the cubic is poor at
+    double value = guard_at(t0 + x * h, i);
+    // Towards the true minimum by parabolas.
+    for (int k = 0; k < 3 && value > fired_below; ++k) {
+      constexpr double dx = 1e-2;
+      const double before = guard_at(t0 + (x - dx) * h, i), after = guard_at(t0 + (x + dx) * h, i);
+      const double bend = before - 2 * value + after;
+      if (!(bend > 0)) break;
+      const double better = std::clamp(x + 0.5 * dx * (before - after) / bend, dx, 1 - dx);
+      if (std::abs(better - x) < 1e-6) break;
+      x = better;
+      value = guard_at(t0 + x * h, i);
+    }
+    if (value < fired_below) below.push_back({i, t0 + x * h, value});
+  }
+}
+
+// Goes back to the first guard that fired within the step; returns all that fire there, none if the step was smooth.
+std::vector<std::size_t> EventLocation::locate() {
+  std::vector<std::size_t> fired;
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Below> below;
+    for (std::size_t i = 0; i < guard_.size(); ++i)
+      if (guard_[i] < fired_below) below.push_back({i, stepper_->t(), guard_[i]});
+    add_dips(below);
+    if (below.empty()) return fired;
+    const double t0 = stepper_->t_previous(), t1 = stepper_->t();
+    // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was
+    // wrong from the step's begin: nothing to find, take the whole step back.
+    fired.clear();
+    std::vector<double> from(below.size(), t0), value(below.size());
+    for (std::size_t k = 0; k < below.size(); ++k) {
+      value[k] = guard_before_[below[k].guard];
+      for (const double part : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.6}) {
+        if (value[k] > at_root) break;
+        from[k] = t0 + part * (t1 - t0);
+        value[k] = guard_at(from[k], below[k].guard);
+      }
+      if (value[k] <= 0) fired.push_back(below[k].guard);
+    }
+    if (!fired.empty()) {
+      at_begin_ = true;
+      return fired;
+    }
+    double first = t1;
+    std::vector<double> root(below.size());
+    for (std::size_t k = 0; k < below.size(); ++k) {
+      const std::size_t i = below[k].guard;
+      root[k] =
+          find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], below[k].t, below[k].value, 1e-14);
+      first = std::min(first, root[k]);
+    }
+    for (std::size_t k = 0; k < below.size(); ++k)
+      if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k].guard);
+    if (!try_to_land_on(first, fired.front())) return {};
+    find_guards(stepper_->t(), stepper_->y(), guard_);
+    // What is at its root now counts as fired; another guard may have fired before it.
+    for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
+  }
+  return fired;
+}
+
+// The step ended on an edge of the angle: what is zero there and negative a little further on.
+std::vector<std::size_t> EventLocation::fired_at_edge() {
+  constexpr double here = 1e-9, further = 1e-7;  // guards are of order one per radian
+  std::vector<std::size_t> fired;
+  if (std::none_of(guard_.begin(), guard_.end(), [](double g) { return g < here; })) return fired;
+  work_.assign(stepper_->y().begin(), stepper_->y().end());
+  const Model& m = equations_.model();
+  for (std::size_t i = 0; i < m.angles.size(); ++i)
+    work_[i] += std::copysign(further, work_[equations_.speed_index(m.angles[i].shaft)]) * m.angles[i].gain;
+  probe_.resize(guard_.size());
+  equations_.guards(stepper_->t(), work_, probe_);
+  for (std::size_t i = 0; i < guard_.size(); ++i)
+    if (guard_[i] < here && probe_[i] < fired_below) fired.push_back(i);
+  return fired;
+}
+
+// False: a library's method finds no step that ends on the event, where the laws have a kink; then the step is cut to
+// a part before it, and what follows looks for the event anew.
+bool EventLocation::try_to_land_on(double t, std::size_t guard) {
+  const double t0 = stepper_->t_previous();
+  std::exception_ptr failure;
+  try {
+    land_on(t, guard);
+    return true;
+  } catch (const StepFailure&) {
+    if (!of_library_) throw;
+    failure = std::current_exception();
+  }
+  for (double part = 0.7; part > 1e-3; part *= 0.5) {
+    try {
+      stepper_->retake(t0 + part * (t - t0));
+      find_guards(stepper_->t(), stepper_->y(), guard_);
+      return false;
+    } catch (const StepFailure&) {  // shorter, then
+    }
+  }
+  std::rethrow_exception(failure);
+}
+
+// A true step onto the event, corrected by the secant until the guard is zero to round-off.
+void EventLocation::land_on(double t, std::size_t guard) {
+  const double t0 = stepper_->t_previous(), t1 = stepper_->t();
+  const double delta = 1e-4 * (t1 - t0);
+  const double slope = (guard_at(std::min(t + delta, t1), guard) - guard_at(std::max(t - delta, t0), guard)) /
+                       (std::min(t + delta, t1) - std::max(t - delta, t0));
+  double last = HUGE_VAL;
+  for (int i = 0; i < 4; ++i) {
+    if (!(t > t0)) t = std::nextafter(t0, t1);
+    stepper_->retake(t);
+    find_guards(stepper_->t(), stepper_->y(), guard_);
+    const double residual = guard_[guard];
+    if (std::abs(residual) < 1e-14 || std::abs(residual) > 0.1 * last || slope == 0) return;
+    last = std::abs(residual);
+    const double better = t - residual / slope;
+    if (!(better > t0) || better > t1) return;
+    t = better;
+  }
+}
+
+}  // namespace kurbel

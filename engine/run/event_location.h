@@ -1,0 +1,60 @@
+// event_location.h — which guards fall through zero within a step, and where: the step is taken anew to end on the
+// first.
+//
+// Guards are functions of (t, y) of order one, positive while their mode holds. They are looked at at both ends of each
+// step; those that may dip below zero and rise again are found by the cubic through values and slopes.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/run/run.h"
+
+namespace kurbel {
+
+class EventLocation {
+ public:
+  // Of the equations' guards, and behind them the run's own end.
+  EventLocation(Equations& equations, const RunOptions& options, std::size_t states);
+  std::size_t guard_count() const { return guard_.size(); }
+
+  // The steps are this one's. A library's method may find no step that ends on an event.
+  void watch(Stepper& stepper, bool of_library) { stepper_ = &stepper, of_library_ = of_library; }
+  // The stepper begins here.
+  void begin(double t, std::span<const double> y);
+  // After a step: the guards that fired, and the step ends on them; none if it was smooth. Throws StepFailure.
+  std::vector<std::size_t> find();
+  // What fired last had done so at the step's begin: the step was never there. Asked once.
+  bool at_begin() const { return at_begin_; }
+  bool take_at_begin() { return std::exchange(at_begin_, false); }
+  // The step stands; the next one goes on from its end.
+  void go_on();
+
+ private:
+  struct Below {  // a guard that is negative at a place within the step
+    std::size_t guard;
+    double t, value;
+  };
+  void find_guards(double t, std::span<const double> y, std::span<double> g);
+  double guard_at(double t, std::size_t which);
+  void find_guard_slopes(double t, std::span<const double> y, std::span<const double> ydot, std::span<const double> g,
+                         double delta, std::vector<double>& slopes);
+  void add_dips(std::vector<Below>& below);
+  std::vector<std::size_t> locate();
+  std::vector<std::size_t> fired_at_edge();
+  bool try_to_land_on(double t, std::size_t guard);
+  void land_on(double t, std::size_t guard);
+
+  Equations& equations_;
+  const RunOptions& options_;
+  std::size_t states_;
+  Stepper* stepper_ = nullptr;
+  bool of_library_ = false;
+  std::vector<double> guard_, guard_before_, guard_slope_, guard_slope_before_, probe_, work_;
+  bool slopes_known_ = false;  // guard_slope_before_ is that of the step's begin
+  bool may_dip_;               // some guard may fall below zero and rise again within a step
+  bool at_begin_ = false;
+};
+
+}  // namespace kurbel

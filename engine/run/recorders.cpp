@@ -1,0 +1,439 @@
+// recorders.cpp — what a run leaves behind.
+#include "engine/run/recorders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Peaks that differ by less are the same peak come again: the time of the first one counts.
+constexpr double same_peak = 1e-9;
+
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
+}
+
+// Both ends of a long machine stand for the rest.
+std::vector<std::string> default_components(const Model& model) {
+  const std::vector<std::string>& all = model.network.components;
+  if (all.size() <= 60) return {};
+  return {all.front(), all.back()};
+}
+
+}  // namespace
+
+std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
+  const std::vector<std::string> wanted = components.empty() ? default_components(model) : components;
+  std::vector<Channel> channels;
+  const auto motion = [&](const std::string& name, int node) {
+    const int shaft = model.shaft_of_node[at(node)];
+    const double gain = model.gain_of_node[at(node)];
+    channels.push_back({"angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; }});
+    channels.push_back(
+        {"speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; }});
+  };
+  for (const std::string& component : model.network.components) {
+    if (!is_wanted(wanted, component)) continue;
+    const Network::Ports& ports = model.network.ports.at(component);
+    if (ports.in == ports.out) {
+      motion(component, ports.in);
+    } else {
+      motion(component + ".in", ports.in);
+      motion(component + ".out", ports.out);
+      for (const auto& [name, node] : ports.others)
+        if (node != ports.in && node != ports.out) motion(component + "." + name, node);
+    }
+    std::vector<std::size_t> own;
+    for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+      if (model.network.elements[e].component == component && model.network.elements[e].element->cycle() == 0)
+        own.push_back(e);
+    if (!own.empty())
+      channels.push_back({"torque." + component, "N*m", [own](const Snapshot& s) {
+                            double sum = 0;
+                            for (const std::size_t e : own) sum += s.sums.element_torque[e];
+                            return sum;
+                          }});
+  }
+  for (const TorqueJoint& joint : model.torque_joints) {
+    if (!is_wanted(wanted, joint.component.substr(0, joint.component.find('.')))) continue;
+    const int j = joint.joint, e = joint.elastic;
+    channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
+    if (e < 0) continue;
+    if (model.elastic[at(e)].slips || model.elastic[at(e)].springless) {
+      const int a = model.elastic[at(e)].shaft_a, b = model.elastic[at(e)].shaft_b;
+      const double ga = model.elastic[at(e)].gain_a, gb = model.elastic[at(e)].gain_b;
+      channels.push_back({"slip." + joint.component, "rad/s",
+                          [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; }});
+      continue;
+    }
+    channels.push_back(
+        {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
+    channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
+  }
+  for (const GearTorque& torque : model.gear_torques)
+    if (is_wanted(wanted, torque.name.substr(0, torque.name.find('.'))))
+      channels.push_back({"torque." + torque.name, "N*m", [torque](const Snapshot& s) {
+                            return torque.value(s.joint_torque, s.relation_torque, s.relation_loss);
+                          }});
+  for (std::size_t k = 0; k < model.own_states.size(); ++k)
+    if (is_wanted(wanted, model.own_states[k].component))
+      channels.push_back({model.own_states[k].state.name + "." + model.own_states[k].component,
+                          model.own_states[k].state.unit, [k](const Snapshot& s) { return s.now.own[k]; }});
+  for (const Channel& channel : model.pool_channels)
+    if (is_wanted(wanted, channel.name.substr(channel.name.find('.') + 1))) channels.push_back(channel);
+  return channels;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+TrajectoryRecorder::TrajectoryRecorder(std::vector<Channel> channels, double until, int rows)
+    : channels_(std::move(channels)), until_(until), rows_(rows) {
+  time_.reserve(at(rows));
+  values_.reserve(at(rows) * channels_.size());
+}
+
+void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
+  time_.push_back(t);
+  for (const Channel& channel : channels_) values_.push_back(channel.value(snapshot));
+}
+
+void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  begin_ = t;
+  record(t, equations.snapshot(t, y));
+}
+
+void TrajectoryRecorder::step(StepView& view) {
+  while (time_.size() < at(rows_)) {
+    const double next = time_.size() + 1 == at(rows_)
+                            ? until_
+                            : begin_ + (until_ - begin_) * static_cast<double>(time_.size()) / (rows_ - 1);
+    if (next > view.t()) return;
+    record(next, view.snapshot(next));
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+std::vector<ExtremeOf> extremes_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  const auto shared = &model;  // outlives the run
+  for (const TorqueJoint& joint : model.torque_joints) {
+    const int j = joint.joint, e = joint.elastic;
+    ExtremeOf transmitted{.name = "peak_torque." + joint.component,
+                          .unit = "N*m",
+                          .scale = joint.torque_scale,
+                          .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
+                          .rate = {}};
+    ExtremeOf spring = transmitted;
+    spring.name = "peak_spring_torque." + joint.component;
+    const bool known = e >= 0 && model.network.joints[at(j)].element->knows_torque_rate();
+    if (e >= 0 && (model.elastic[at(e)].slips || model.elastic[at(e)].springless)) {
+      wanted.push_back(std::move(transmitted));  // no spring
+      continue;
+    }
+    if (e >= 0) {
+      const ElasticJoint elastic = model.elastic[at(e)];
+      if (known)
+        transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
+          const double acceleration =
+              elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
+          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
+        };
+      transmitted.slope = transmitted.rate;
+      spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+      // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
+      const ConnectionMaker& element = *model.network.joints[at(j)].element;
+      if (known && element.stiffness() > 0 && !element.has_modes())
+        spring.slope = [shared, e, j](const Snapshot& s) {
+          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);
+        };
+      else
+        transmitted.slope = {};
+      // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
+      if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
+    }
+    wanted.push_back(std::move(transmitted));
+    wanted.push_back(std::move(spring));
+  }
+  for (const GearTorque& torque : model.gear_torques)
+    wanted.push_back(
+        {.name = "peak_torque." + torque.name,
+         .unit = "N*m",
+         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
+         .value =
+             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
+         .rate = {}});
+  const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
+  const double gain = model.gain_of_node[at(node)];
+  const std::string link = model.network.nodes[at(node)].component;
+  ExtremeOf speed{.name = "max_speed." + link,
+                  .unit = "rad/s",
+                  .scale = model.speed_scale,
+                  .which = ExtremeOf::Which::maximum,
+                  .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
+                  .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
+  speed.slope = speed.rate;
+  wanted.push_back(speed);
+  speed.name = "min_speed." + link;
+  speed.which = ExtremeOf::Which::minimum;
+  wanted.push_back(std::move(speed));
+  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
+    const auto& [component, state] = model.own_states[k];
+    if (state.peak)
+      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
+                        .unit = state.unit,
+                        .scale = state.scale,
+                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
+                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
+  }
+  for (const Channel& channel : model.pool_channels) {
+    const std::string quantity = channel.name.substr(0, channel.name.find('.'));
+    if (quantity == "position") continue;
+    wanted.push_back({.name = "peak_" + channel.name, .unit = channel.unit, .value = channel.value, .rate = {}});
+  }
+  return wanted;
+}
+
+double ExtremeRecorder::merit(std::size_t i, double value) const {
+  switch (wanted_[i].which) {
+    case ExtremeOf::Which::largest_magnitude:
+      return std::abs(value);
+    case ExtremeOf::Which::maximum:
+      return value;
+    case ExtremeOf::Which::minimum:
+      return -value;
+  }
+  return value;
+}
+
+void ExtremeRecorder::consider(std::size_t i, double t, double value) {
+  Found& found = found_[i];
+  const double merit_now = merit(i, value);
+  if (found.any && merit_now <= merit(i, found.value)) return;
+  if (found.any && found.time < first_.t && merit_now <= found.merit_then + same_peak * std::abs(value)) {
+    // Of either sign where magnitudes count: the sign is that of the time.
+    found.value = wanted_[i].which == ExtremeOf::Which::largest_magnitude ? std::copysign(value, found.value) : value;
+    return;
+  }
+  found = {value, t, true, merit_now};
+}
+
+void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) const {
+  out.t = t;
+  out.value.resize(wanted_.size());
+  out.rate.resize(wanted_.size());
+  out.slope.resize(wanted_.size());
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    out.value[i] = wanted_[i].value(snapshot);
+    out.rate[i] = wanted_[i].rate ? wanted_[i].rate(snapshot) : 0;
+    out.slope[i] = wanted_[i].slope ? wanted_[i].slope(snapshot) : HUGE_VAL;
+  }
+}
+
+void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  sample(equations.snapshot(t, y), t, last_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) consider(i, t, last_.value[i]);
+}
+
+void ExtremeRecorder::step(StepView& view) {
+  const double t0 = view.t_previous(), t1 = view.t();
+  if (view.begins_anew() || last_.t != t0)
+    sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
+  else
+    std::swap(first_, last_);
+  sample(view.snapshot(t1), t1, last_);
+  bool any = false;
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    consider(i, t0, first_.value[i]);
+    consider(i, t1, last_.value[i]);
+    any = any || may_be_beaten(i);
+  }
+  if (!any) return;
+  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+  for (std::size_t i = 0; i < wanted_.size(); ++i)
+    if (may_be_beaten(i)) search(view, i);
+}
+
+// A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far
+// lies half a turn of a sine between two of its zeros.
+bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
+  const double reach = (last_.t - first_.t) * (std::abs(first_.slope[i]) + std::abs(last_.slope[i]));
+  return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
+}
+
+// Looks for an extreme within the step, but only where it could beat what is known already.
+void ExtremeRecorder::search(StepView& view, std::size_t i) {
+  const double h = last_.t - first_.t;
+  const double a = first_.value[i], m = middle_.value[i], b = last_.value[i];
+  const double bend = a - 2 * m + b, tilt = b - a;
+  // The parabola through the three samples reaches at most this far beyond the middle one.
+  const double reach = std::abs(bend) + std::abs(tilt);
+  if (std::max({merit(i, a), merit(i, m), merit(i, b)}) + reach <= merit(i, found_[i].value)) return;
+  const auto rate = [&](double t) {
+    if (wanted_[i].rate) return wanted_[i].rate(view.snapshot(t));
+    const double delta = 1e-3 * h;
+    const double after = wanted_[i].value(view.snapshot(std::min(t + delta, last_.t)));
+    return after - wanted_[i].value(view.snapshot(std::max(t - delta, first_.t)));
+  };
+  const double r0 = wanted_[i].rate ? first_.rate[i] : rate(first_.t);
+  const double rm = wanted_[i].rate ? middle_.rate[i] : rate(middle_.t);
+  const double r1 = wanted_[i].rate ? last_.rate[i] : rate(last_.t);
+  const auto look = [&](double ta, double ra, double tb, double rb) {
+    if (ra == 0 || rb == 0 || (ra > 0) == (rb > 0)) return;
+    const double t = find_root(rate, ta, ra, tb, rb);
+    consider(i, t, wanted_[i].value(view.snapshot(t)));
+  };
+  look(first_.t, r0, middle_.t, rm);
+  look(middle_.t, rm, last_.t, r1);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void CycleRecorder::begin(double, std::span<const double> y, Equations& equations) {
+  const Model& m = equations.model();
+  cycle_ = m.cycle;
+  if (cycle_ == 0) return;
+  const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
+  const double nearest = cycle_ * std::round(angle / cycle_);
+  if (std::abs(nearest - angle) < 1e-9) {  // starts on the boundary
+    open_ = true;
+    begin_ = 0;
+    work_at_begin_.assign(m.accounts.size(), 0.0);
+    low_ = nearest - cycle_;
+    high_ = nearest + cycle_;
+  } else {
+    low_ = cycle_ * std::floor(angle / cycle_);
+    high_ = low_ + cycle_;
+  }
+  const double omega =
+      m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  max_ = min_ = omega;
+}
+
+void CycleRecorder::see_speed(double omega) {
+  max_ = std::max(max_, omega);
+  min_ = std::min(min_, omega);
+}
+
+void CycleRecorder::pass(double t, int sense, StepView& view) {
+  const Model& m = view.equations().model();
+  const Snapshot& s = view.snapshot(t);
+  std::vector<double> work(m.accounts.size(), 0.0);
+  if (s.quadrature) std::copy(s.quadrature, s.quadrature + work.size(), work.begin());
+  const double omega = m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  see_speed(omega);
+  if (open_ && (sense_ == 0 || sense == sense_)) {
+    CycleRecord record{begin_, t, max_, min_, work};
+    for (std::size_t k = 0; k < work.size(); ++k) record.work[k] -= work_at_begin_[k];
+    cycles_.push_back(std::move(record));
+  }
+  open_ = true;
+  begin_ = t;
+  max_ = min_ = omega;
+  work_at_begin_ = std::move(work);
+  sense_ = sense;
+  const double here = sense > 0 ? high_ : low_;
+  low_ = sense > 0 ? here : here - cycle_;
+  high_ = low_ + cycle_;
+}
+
+void CycleRecorder::step(StepView& view) {
+  if (cycle_ == 0) return;
+  Equations& equations = view.equations();
+  const Model& m = equations.model();
+  const std::size_t tracked = at(m.reduction_angle);
+  const int shaft = m.shaft_of_node[at(m.reduction_node)];
+  const double gain = m.angles[tracked].gain;
+  double from = view.t_previous();
+  const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
+  const auto speed = [&](double time) { return gain * view.snapshot(time).now.speed[shaft]; };
+  const auto peak_between = [&](double ta, double aa, double tb, double ab) {
+    if (aa != 0 && ab != 0 && (aa > 0) != (ab > 0)) see_speed(speed(find_root(alpha, ta, aa, tb, ab)));
+  };
+  // An even number of extremes leaves the signs at the ends as they are: the middle is asked wherever the speed could
+  // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
+  const auto extreme_until = [&](double t) {
+    see_speed(speed(t));
+    if (t > from) {
+      const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
+      const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
+      if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
+        const double middle = 0.5 * (from + t), am = alpha(middle);
+        see_speed(speed(middle));
+        peak_between(from, a0, middle, am);
+        peak_between(middle, am, t, a1);
+      }
+    }
+    from = t;
+  };
+  // What was passed last is passed again, backwards, only when it is left behind for good.
+  constexpr double left_behind = 1e-9;
+  const auto beyond = [&](double t, int sense) {
+    const double angle = equations.angle_with_turns(tracked, view.at(t));
+    return sense > 0 ? angle - high_ - (sense_ < 0 ? left_behind : 0) : low_ - angle - (sense_ > 0 ? left_behind : 0);
+  };
+  for (const int sense : {1, -1})
+    while (beyond(view.t(), sense) >= 0) {
+      Deadline::check();
+      const auto above = [&](double t) { return beyond(t, sense); };
+      const double b0 = above(from), b1 = above(view.t());
+      const double crossing = b0 < 0 ? find_root(above, from, b0, view.t(), b1) : from;
+      extreme_until(crossing);
+      pass(crossing, sense, view);
+    }
+  extreme_until(view.t());
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void EnergyAudit::check(double t, std::span<const double> y, Equations& equations) {
+  const double reduced = equations.kinetic_energy(t, y), bodies = equations.kinetic_energy_of_bodies(t, y);
+  const double stored = equations.stored_energy(t, y);
+  const std::size_t accounts = equations.model().accounts.size();
+  std::vector<double> now(accounts, 0.0);
+  for (std::size_t k = 0; k < accounts && equations.audit(); ++k) now[k] = y[equations.work_index(k)];
+  double sum = 0;
+  for (std::size_t k = 0; k < accounts; ++k) {
+    sum += now[k];
+    turnover += std::abs(now[k] - (work.empty() ? 0.0 : work[k]));
+  }
+  if (checked == 0) {
+    kinetic_start = bodies;
+    stored_start = stored;
+    start_ = bodies + stored;
+  }
+  kinetic_end = bodies;
+  stored_end = stored;
+  largest_kinetic = std::max(largest_kinetic, bodies);
+  largest_residual = std::max(largest_residual, std::abs(bodies + stored - start_ - sum));
+  if (bodies > 1e-9 * largest_kinetic)
+    reduction_residual = std::max(reduction_residual, std::abs(reduced / bodies - 1));
+  work = std::move(now);
+  ++checked;
+}
+
+void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) { check(t, y, equations); }
+
+// At the end of the step in which checks fall due: dense output is of a lower order than the steps it lies between.
+void EnergyAudit::step(StepView& view) {
+  const auto due = [&](int k) { return k + 1 == checks_ ? until_ : until_ * k / (checks_ - 1); };
+  int next = checked;
+  while (next < checks_ && due(next) <= view.t()) ++next;
+  if (next == checked) return;
+  check(view.t(), view.y(), view.equations());
+  checked = next;  // counts those that fell due together
+}
+
+double EnergyAudit::relative() const {
+  const double scale = std::max(turnover, largest_kinetic);
+  return scale > 0 ? largest_residual / scale : 0;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,136 @@
+// recorders.h — observers of a run: the trajectory, extremes of chosen quantities, cycles, and the energy balance.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/run.h"
+
+namespace kurbel {
+
+// All that can be recorded of a model, under dotted names. Components restrict the list; empty: all of a small machine,
+// both ends of a long one.
+std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components);
+
+// Values of channels at equidistant times.
+class TrajectoryRecorder final : public Observer {
+ public:
+  TrajectoryRecorder(std::vector<Channel> channels, double until, int rows);
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+
+  const std::vector<Channel>& channels() const { return channels_; }
+  const std::vector<double>& time() const { return time_; }
+  // Row-major: one row per time, one column per channel.
+  const std::vector<double>& values() const { return values_; }
+  double value(std::size_t row, std::size_t channel) const { return values_[row * channels_.size() + channel]; }
+
+ private:
+  void record(double t, const Snapshot& snapshot);
+  std::vector<Channel> channels_;
+  double begin_ = 0, until_;
+  int rows_;
+  std::vector<double> time_, values_;
+};
+
+// A quantity whose extreme is wanted, located on the continuous solution by a root of its rate.
+struct ExtremeOf {
+  enum class Which { largest_magnitude, maximum, minimum };
+  std::string name, unit;
+  double scale = 0;  // for its error
+  Which which = Which::largest_magnitude;
+  std::function<double(const Snapshot&)> value;
+  std::function<double(const Snapshot&)> rate;  // vanishes at the extreme; empty: by central differences of the value
+  // d value/dt, where it bounds what the value does between two points of a step; empty: unknown.
+  std::function<double(const Snapshot&)> slope = {};
+};
+
+// Peaks of torques in all couplings, of the reduction link's speed, and of the mechanisms' motion and force.
+std::vector<ExtremeOf> extremes_of(const Model& model);
+
+class ExtremeRecorder final : public Observer {
+ public:
+  struct Found {
+    double value = 0, time = 0;
+    bool any = false;
+    double merit_then = 0;  // at that time: what is a little larger later on is the same peak
+  };
+  explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+  const std::vector<ExtremeOf>& wanted() const { return wanted_; }
+  const std::vector<Found>& found() const { return found_; }
+
+ private:
+  struct Sample {
+    double t;
+    std::vector<double> value, rate, slope;
+  };
+  double merit(std::size_t i, double value) const;
+  void consider(std::size_t i, double t, double value);
+  void sample(const Snapshot& snapshot, double t, Sample& out) const;
+  bool may_be_beaten(std::size_t i) const;
+  void search(StepView& view, std::size_t i);
+
+  std::vector<ExtremeOf> wanted_;
+  std::vector<Found> found_;
+  Sample first_, middle_, last_;
+};
+
+// One cycle of the reduction link.
+struct CycleRecord {
+  double begin = 0, end = 0;            // [s]
+  double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
+  std::vector<double> work;             // per account [J]
+  double mean_speed() const { return 0.5 * (omega_max + omega_min); }
+  // δ (theory 2.6), whichever way it turns
+  double delta() const { return (omega_max - omega_min) / std::abs(mean_speed()); }
+};
+
+// A cycle lies between two multiples of its angle that are passed one after the other in the same sense; where the
+// link turns round it begins anew.
+class CycleRecorder final : public Observer {
+ public:
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+  const std::vector<CycleRecord>& cycles() const { return cycles_; }
+
+ private:
+  void see_speed(double omega);
+  void pass(double t, int sense, StepView& view);
+  std::vector<CycleRecord> cycles_;
+  double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, the one passed last among them [rad]
+  int sense_ = 0;                          // of that passing; 0: none yet
+  bool open_ = false;                      // a cycle began at a multiple of its angle
+  double begin_ = 0, max_ = 0, min_ = 0;
+  std::vector<double> work_at_begin_;
+};
+
+// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r.
+class EnergyAudit final : public Observer {
+ public:
+  EnergyAudit(double until, int checks) : until_(until), checks_(checks) {}
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+
+  double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0;
+  double largest_residual = 0;    // [J]
+  double reduction_residual = 0;  // largest relative difference of T from bodies and from I_r
+  double turnover = 0;            // Σ |work| between checks [J]
+  double largest_kinetic = 0;
+  int checked = 0;
+  std::vector<double> work;  // per account at the last check [J]
+  // Residual over max(turnover, largest T); 0 for a machine that never had energy.
+  double relative() const;
+
+ private:
+  void check(double t, std::span<const double> y, Equations& equations);
+  double until_;
+  int checks_;
+  double start_ = 0;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,581 @@
+// run.cpp — the event loop: step, look at the guards, go back to the first event, change modes, go on.
+#include "engine/run/run.h"
+
+#include <fmt/format.h>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/numerics/deadline.h"
+#include "engine/run/diagnosis.h"
+#include "engine/run/event_location.h"
+#include "engine/rigid/work_stepper.h"
+
+namespace kurbel {
+namespace {
+
+// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
+// run they count as zero.
+class FlushDenormals {
+ public:
+#if defined(__SSE2__)
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }  // flush to zero, denormals are zero
+  ~FlushDenormals() { _mm_setcsr(before_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned before_;
+#endif
+};
+
+constexpr int most_events_at_once = 100;
+// So many at one instant, and no mode goes on from there: the motion jams. Far more than contacts that change together.
+constexpr int events_of_a_jam = 20;
+// An implicit method comes only near to a jam; so many explicit steps may go there.
+constexpr int steps_to_a_jam = 500;
+// So many events while the machine turns by no more than this find no rest of themselves: bouncing that dies away,
+// a contact that flickers. Their elements then follow laws without events.
+constexpr std::size_t restless_events = 60;
+constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
+
+// Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
+// ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
+// Counted in steps, not in seconds, so that a run repeats bit for bit.
+const int held_steps_before_trial = LoopMemory{}.held_needed;
+constexpr int trial_warm_up = 30, trial_length = 60;
+constexpr double implicit_step_cost = 3;
+
+// Turns after which the work equation has earned its search for the edges.
+constexpr double turns_to_pay = 3;
+
+class Loop {
+ public:
+  Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
+      : equations_(equations),
+        options_(options),
+        observers_(observers),
+        system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
+        view_(equations, system_.size()),
+        location_(equations, options, system_.size()) {}
+
+  RunOutcome run() {
+    begin_ = processor_time();
+    choose_method();
+    try {
+      const Deadline deadline(options_.budget, options_.interrupted);
+      start();
+      while (!out_.stopped && stepper_->t() < options_.until && advance_or_jam()) {
+      }
+      out_.complete = !broken_;
+    } catch (const OutOfTime& over) {
+      stop_at(over);
+    } catch (const StepFailure& failure) {
+      broken_ = {failure.not_finite ? Breakdown::Kind::not_finite : Breakdown::Kind::collapse, failure.time,
+                 failure.what(), failure.state};
+    } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
+      broken_ = {.t = stepper_ ? stepper_->t() : 0, .why = error.what()};
+    }
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  void choose_method() {
+    if (options_.elsewhere) explicit_ = Method::verner_65, implicit_ = Method::esdirk_54;
+    method_ = options_.method == "auto" ? explicit_ : method_named(options_.method);
+    std::string& reason = out_.statistics.reason;
+    if (options_.method != "auto") {
+      reason = "asked for";
+      if (method_ == Method::work_equation && (options_.checkpoint || options_.to_go_on))
+        refuse_method("it goes over the angle, and keeps no state to go on from");
+      if (method_ == Method::work_equation)
+        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty()) refuse_method(why);
+      if (method_ == Method::fehlberg_87)
+        if (const std::string why = rates_of_time_alone(); !why.empty()) refuse_method(why);
+    } else if (work_equation_pays()) {
+      method_ = Method::work_equation;
+      reason = "rigid, torques of angle and speed: load edges lie at known angles";
+    } else if (equations_.model().elastic.empty() && equations_.model().own_states.empty()) {
+      reason = "rigid: nothing is stiff, and a high order takes the longest steps";
+    } else {
+      reason = "explicit while its steps are held by accuracy, not by stability";
+    }
+    out_.statistics.method = std::string(name_of(method_));
+  }
+
+  // With its place where the scene asks for it.
+  [[noreturn]] void refuse_method(const std::string& why) const {
+    const Scene& scene = equations_.model().scene;
+    const std::string text = fmt::format("method \"{}\": {}", options_.method, why);
+    if (scene.run.method != options_.method || scene.run.method_at.line == 0) throw std::invalid_argument(text);
+    throw SceneError({{scene.file, scene.run.method_at, text}});
+  }
+
+  // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
+  std::string rates_of_time_alone() const {
+    const Model& m = equations_.model();
+    const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
+    if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
+    for (const Network::ShaftElement& e : m.network.elements)
+      if (e.element->uses_time())
+        return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
+    return {};
+  }
+
+  // Where inertia or torques vary with the angle, over more than a few turns.
+  bool work_equation_pays() const {
+    const Model& m = equations_.model();
+    if (options_.from || options_.checkpoint || options_.to_go_on) return false;
+    if (options_.stop || options_.extension || options_.elsewhere) return false;
+    if (!m.elastic.empty() || m.free_shafts != 1) return false;
+    if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
+    if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
+    return options_.work_tables || WorkTables::refusal(equations_.shared_model()).empty();
+  }
+
+  void start() {
+    if (options_.checkpoint) return go_on(*options_.checkpoint);
+    const double t = options_.from ? options_.from->t : 0;
+    const std::vector<double> y = options_.from ? options_.from->y : equations_.start(0);
+    out_.limits.begin(system_.size(), location_.guard_count());
+    make(method_, t, y);
+    for (Observer* observer : observers_) observer->begin(t, stepper_->y(), equations_);
+  }
+
+  void go_on(const Checkpoint& checkpoint) {
+    const double first_two_turns = equations_.modes().first_two_turns;
+    equations_.bind(checkpoint.state.modes);
+    equations_.keep_angles_from(first_two_turns);
+    std::vector<double> y = checkpoint.state.y;
+    y.insert(y.end(), checkpoint.integrals.begin(), checkpoint.integrals.end());
+    y.resize(system_.size());
+    equations_.wrap(y);  // angles may be kept elsewhere now
+    memory_ = checkpoint.loop;
+    if (options_.method == "auto" && memory_.implicit) method_ = implicit_;
+    out_.limits.begin(system_.size(), location_.guard_count());
+    make(method_, checkpoint.state.t, y);
+    for (Observer* observer : observers_) observer->begin(checkpoint.state.t, stepper_->y(), equations_);
+  }
+
+  Checkpoint checkpoint() const {
+    Checkpoint here{{out_.t, out_.state, equations_.modes()}, {}, memory_};
+    const std::size_t states = equations_.size() - (equations_.audit() ? equations_.integral_count() : 0);
+    here.integrals.assign(out_.state.begin() + static_cast<std::ptrdiff_t>(states), out_.state.end());
+    here.state.y.resize(states);
+    here.loop.implicit = options_.method == "auto" && before_jam_.value_or(method_) == implicit_;
+    return here;
+  }
+
+  void make(Method method, double t, std::span<const double> y) {
+    if (stepper_) add_statistics();
+    ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
+                                              : equations_.error_control(options_.tolerance);
+    if (is_of_library(method)) control_quadratures(control);
+    if (method == Method::work_equation) {
+      stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
+    } else {
+      stepper_ = make_stepper(method, system_, control);
+    }
+    method_ = method;
+    view_.watch(*stepper_);
+    location_.watch(*stepper_, is_of_library(method));
+    restart(t, y);
+  }
+
+  static bool is_of_library(Method method) {
+    return method == Method::esdirk_32 || method == Method::esdirk_43 || method == Method::esdirk_54 ||
+           method == Method::bdf || method == Method::adams;
+  }
+
+  // Newton's iteration leaves off when the states that are under control stand still, with quadratures one iterate
+  // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
+  void control_quadratures(ErrorControl& control) const {
+    if (!equations_.audit()) return;
+    constexpr double rough = 100;  // squares grow far beyond that of the rated torque, as in resonance
+    const Model& m = equations_.model();
+    for (std::size_t k = 0; k < m.accounts.size(); ++k) {
+      double& scale = control.scale[equations_.work_index(k)];
+      if (scale == 0) scale = m.torque_scale;  // per radian
+    }
+    for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
+      for (const bool spring : {false, true}) {
+        double& scale = control.scale[equations_.square_index(i, spring)];
+        if (scale == 0) scale = rough * std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
+      }
+  }
+
+  void restart(double t, std::span<const double> y) {
+    state_.assign(y.begin(), y.end());
+    stepper_->start(t, state_);
+    view_.set_anew(true);
+    location_.begin(t, state_);
+    edge_ = equations_.next_edge(t);
+  }
+
+  // A step may come to where joints jam and be whole itself; then what looks at it finds out.
+  bool advance_or_jam() {
+    try {
+      return advance();
+    } catch (const Jam&) {
+      if (!stop_by_jam()) throw;
+      return true;
+    }
+  }
+
+  // One step with all that happens at its end. False: the run ends here.
+  bool advance() {
+    look_at_time();
+    const double until = memory_.shortened > 0 ? std::min(limit(), stepper_->t() + memory_.shortened) : limit();
+    try {
+      stepper_->step(until);
+    } catch (const StepFailure& failure) {
+      if (equations_.jam() && pass_jam()) return true;
+      if (failure.not_finite || !leave_implicit(failure.what())) throw;
+      return true;
+    }
+    if (equations_.jam()) equations_.forget_jam();  // a trial step was too long, no more
+    const StepLimit limited_by = stepper_->limited_by();
+    memory_.last_step = stepper_->t() - stepper_->t_previous();
+    const std::vector<std::size_t> fired = location_.find();
+    if (fired.empty()) {
+      memory_.shortened = 0;
+      out_.limits.count(limited_by, stepper_->at_edge() ? StepLimits::Bound::edge : bound_);
+    } else {
+      out_.limits.count_event(fired.front());
+    }
+    if (!location_.at_begin() && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
+      for (Observer* observer : observers_) observer->step(view_);
+      view_.set_anew(false);
+    }
+    const double t = stepper_->t();
+    if (!fired.empty()) return pass_event(t, fired);
+    if (t < until && !stepper_->at_edge()) note_step(t - stepper_->t_previous());
+    if (t >= edge_) {
+      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      const std::size_t known = out_.events.size();
+      equations_.pass_edge(t, y, out_.events);
+      note_angle(known, y);
+      equations_.wrap(y);
+      restart(t, y);
+      return true;
+    }
+    if (equations_.needs_wrap(stepper_->y())) {
+      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      equations_.wrap(y);
+      restart(t, y);
+      return true;
+    }
+    location_.go_on();
+    if (before_jam_ && ++steps_to_jam_ > steps_to_a_jam) return resume();
+    watch_stiffness();
+    return true;
+  }
+
+  void note_step(double h) {
+    double& smallest = out_.statistics.smallest_step;
+    if (smallest == 0 || h < smallest) smallest = h;
+  }
+
+  // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back
+  // unseen.
+  double limit() {
+    double t = std::min(options_.until, edge_);
+    bound_ = edge_ <= options_.until ? StepLimits::Bound::edge : StepLimits::Bound::until;
+    if (stepper_->ends_on_edges()) return t;
+    const Model& m = equations_.model();
+    for (const TrackedAngle& angle : m.angles) {
+      const auto shaft = static_cast<std::size_t>(angle.shaft);
+      if ((!m.shafts[shaft].variable && equations_.guard_count() == 0) || shaft >= m.free_shafts) continue;
+      const double omega = std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
+      const double turned = stepper_->t() + (options_.elsewhere ? 0.4 : 0.5) * M_PI / omega;
+      if (!(omega > 0) || !(turned < t)) continue;
+      t = turned;
+      bound_ = StepLimits::Bound::turn;
+    }
+    return t;
+  }
+
+  bool pass_event(double t, std::vector<std::size_t> fired) {
+    const bool at_begin = location_.take_at_begin();
+    if (options_.stop && fired.back() == equations_.guard_count()) {
+      out_.stopped = true;
+      if (at_begin) {
+        const std::vector<double> before(stepper_->y_previous().begin(), stepper_->y_previous().end());
+        restart(stepper_->t_previous(), before);
+      }
+      return false;
+    }
+    const double time = at_begin ? stepper_->t_previous() : t;
+    const std::span<const double> source = at_begin ? stepper_->y_previous() : stepper_->y();
+    std::vector<double> y(source.begin(), source.end());
+    memory_.events_here =
+        time - memory_.last_event <= 1e-13 * std::max(1.0, std::abs(time)) ? memory_.events_here + 1 : 0;
+    memory_.last_event = time;
+    ++out_.statistics.events;
+    // A motion that ends as soon as it began may be one that a coarse step goes over: it is tried again, shorter.
+    if (at_begin && memory_.events_here >= 2)
+      memory_.shortened = std::max(0.1 * memory_.last_step, 1e-12 * std::max(1.0, std::abs(time)));
+    if (memory_.events_here == events_of_a_jam && !options_.extension) {
+      const std::size_t known = out_.events.size();
+      if (equations_.stop_jam(time, y, fired, out_.events)) {
+        note_angle(known, y);
+        equations_.wrap(y);
+        restart(time, y);
+        return true;
+      }
+    }
+    if (memory_.events_here > most_events_at_once) {
+      const std::string owner = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : "";
+      broken_ = {
+          .kind = Breakdown::Kind::restless,
+          .t = time,
+          .why = fmt::format("\"{}\" can neither stay as it is nor change: no set of pieces and senses of motion "
+                             "fits its laws here. Smooth the load's edge (rise) or its friction",
+                             owner),
+          .element = owner};
+      return false;
+    }
+    if (options_.extension) options_.extension->before_event(time, y, fired);
+    if (is_restless(time, fired)) calm(time, fired);
+    const std::size_t known = out_.events.size();
+    if (!fired.empty()) equations_.fire(time, y, fired, out_.events);
+    note_angle(known, y);
+    if (options_.extension) options_.extension->after_event(time, y);
+    equations_.wrap(y);
+    restart(time, y);
+    return true;
+  }
+
+  // Joints in whose friction law the motion finds no way on. The jam lies within round-off of an explicit step's begin;
+  // a library's method gives up earlier, and explicit steps go the rest of the way.
+  bool pass_jam() {
+    if (options_.extension) return false;
+    if (is_of_library(method_)) {
+      const double t = stepper_->t();
+      const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      before_jam_ = method_;
+      steps_to_jam_ = 0;
+      make(Method::dormand_prince_853, t, y);
+      return true;
+    }
+    return stop_by_jam();
+  }
+
+  bool stop_by_jam() {
+    const double t = stepper_->t();
+    std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    memory_.jams_here = t - memory_.last_jam <= 1e-13 * std::max(1.0, std::abs(t)) ? memory_.jams_here + 1 : 0;
+    memory_.last_jam = t;
+    const std::size_t known = out_.events.size();
+    if (options_.extension || memory_.jams_here > events_of_a_jam) return false;
+    if (!equations_.stop_jam(t, y, {}, out_.events)) return false;
+    equations_.forget_jam();
+    ++out_.statistics.events;
+    note_angle(known, y);
+    equations_.wrap(y);
+    restart(t, y);
+    return before_jam_ ? resume() : true;
+  }
+
+  // Back to the method that was asked for.
+  bool resume() {
+    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    make(*std::exchange(before_jam_, std::nullopt), stepper_->t(), y);
+    return true;
+  }
+
+  void note_angle(std::size_t first, std::span<const double> y) {
+    const auto link = static_cast<std::size_t>(equations_.model().reduction_angle);
+    for (std::size_t k = first; k < out_.events.size(); ++k)
+      out_.events[k].angle = equations_.angle_with_turns(link, y);
+  }
+
+  bool is_restless(double time, const std::vector<std::size_t>& fired) {
+    memory_.recent.push_back({time, fired});
+    if (memory_.recent.size() <= restless_events) return false;
+    memory_.recent.pop_front();
+    return (time - memory_.recent.front().time) * equations_.model().speed_scale < restless_angle;
+  }
+
+  // The guards that fired most often in the restless stretch lose their events, those that fire now among them.
+  void calm(double time, std::vector<std::size_t>& fired) {
+    constexpr int most_for_one = static_cast<int>(restless_events / 10);
+    std::map<std::size_t, int> times;
+    for (const LoopMemory::Recent& event : memory_.recent)
+      for (const std::size_t guard : event.fired)
+        if (guard < equations_.guard_count()) ++times[guard];
+    std::vector<std::size_t> restless;
+    for (const auto& [guard, count] : times)
+      if (count > most_for_one) restless.push_back(guard);
+    const double span = time - memory_.recent.front().time;
+    memory_.recent.clear();
+    const std::string what = equations_.regularise(restless);
+    if (what.empty()) return;
+    out_.events.push_back({time, what,
+                           fmt::format("{} events within {:.2g} s find no rest: a law without events from here on",
+                                       restless_events, span)});
+    out_.regularised.push_back(what);
+    std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
+  }
+
+  // From explicit to implicit when stability holds the steps down, and back if that did not pay.
+  void watch_stiffness() {
+    const Model& m = equations_.model();
+    if (options_.method != "auto" || (m.elastic.empty() && m.own_states.empty()) || method_ == Method::work_equation)
+      return;
+    const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
+    const double t = stepper_->t();
+    if (method_ == explicit_) {
+      held_ = stepper_->held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
+      if (held_ < memory_.held_needed || left < 5 * held_steps_before_trial * h) return;
+      explicit_step_ = h;
+      implicit_steps_ = held_ = 0;
+      change_method(implicit_,
+                    fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
+      return;
+    }
+    // After the trial the check goes on, over ever new windows of steps.
+    if (++implicit_steps_ == trial_warm_up) trial_begin_ = t;
+    if (implicit_steps_ < trial_warm_up + trial_length) return;
+    const double mean = (t - trial_begin_) / trial_length;
+    trial_begin_ = t;
+    implicit_steps_ = trial_warm_up;
+    if (mean >= implicit_step_cost * explicit_step_) return;
+    memory_.held_needed *= 4;
+    change_method(explicit_,
+                  fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s",
+                              mean, explicit_step_));
+  }
+
+  // Implicit steps that were only tried give way to explicit ones, for good, where they fail. False: none were tried.
+  bool leave_implicit(const std::string& why) {
+    if (options_.method != "auto" || method_ != implicit_) return false;
+    memory_.held_needed = std::numeric_limits<int>::max();
+    change_method(explicit_, fmt::format("implicit steps failed: {}", why));
+    return true;
+  }
+
+  void change_method(Method method, const std::string& reason) {
+    const double t = stepper_->t();
+    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    make(method, t, y);
+    ++changes_;
+    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(explicit_), name_of(method),
+                                         changes_, changes_ == 1 ? "" : "s");
+    out_.statistics.reason = fmt::format("at {:.4g} s: {}", t, reason);
+  }
+
+  // Between steps. What takes long within one asks for itself.
+  void look_at_time() {
+    if (options_.interrupted && options_.interrupted->load()) throw OutOfTime(0);
+    if (++checks_ % 64 != 0) return;
+    if (options_.progress) options_.progress(stepper_->t() / options_.until);
+    Deadline::check();
+  }
+  void stop_at(const OutOfTime& over) {
+    const double t = stepper_ ? stepper_->t() : 0;
+    if (over.interrupted())
+      broken_ = {.t = t, .why = over.what()};
+    else
+      broken_ = {
+          .kind = Breakdown::Kind::budget,
+          .t = t,
+          .why = fmt::format("{}{}. Raise `budget`, loosen `accuracy`, or switch an effect off", over.what(),
+                             memory_.last_step > 0 ? fmt::format(" (steps of {:.3g} s at the end)", memory_.last_step)
+                                                   : " before any step")};
+  }
+
+  void add_statistics() {
+    const StepperStatistics& s = stepper_->statistics();
+    StepperStatistics& sum = out_.statistics.stepper;
+    sum.steps += s.steps;
+    sum.rejected += s.rejected;
+    sum.flow_calls += s.flow_calls;
+    sum.jacobian_calls += s.jacobian_calls;
+    sum.factorisations += s.factorisations;
+    sum.restarts += s.restarts;
+  }
+
+  void finish() {
+    if (stepper_) {
+      add_statistics();
+      out_.t = stepper_->t();
+      out_.state.assign(stepper_->y().begin(), stepper_->y().end());
+    }
+    if (out_.complete && !options_.extension && method_ != Method::work_equation) out_.checkpoint = checkpoint();
+    if (out_.complete && !options_.extension) out_.held = equations_.held(out_.t, out_.state);
+    out_.statistics.cpu_seconds = processor_time() - begin_;
+    if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
+  }
+
+  Equations& equations_;
+  const RunOptions& options_;
+  const std::vector<Observer*>& observers_;
+  OdeSystem& system_;
+  StepView view_;
+  EventLocation location_;
+  std::unique_ptr<Stepper> stepper_;
+  Method method_ = Method::dormand_prince_853;
+  Method explicit_ = Method::dormand_prince_853, implicit_ = Method::esdirk_43;  // that "auto" takes
+  RunOutcome out_;
+  std::optional<Breakdown> broken_;
+  StepLimits::Bound bound_ = StepLimits::Bound::until;
+  std::vector<double> state_;
+  LoopMemory memory_;
+  double begin_ = 0, edge_ = 0;
+  int held_ = 0, implicit_steps_ = 0, changes_ = 0;
+  double explicit_step_ = 0, trial_begin_ = 0;
+  std::optional<Method> before_jam_;  // explicit steps go to the jam; this method goes on
+  int steps_to_jam_ = 0;
+  std::int64_t checks_ = 0;
+};
+
+}  // namespace
+
+std::span<const double> StepView::at(double time) {
+  if (time >= stepper_->t()) return stepper_->y();
+  if (time <= stepper_->t_previous()) return stepper_->y_previous();
+  scratch_.resize(size_);
+  stepper_->interpolate(time, scratch_);
+  return scratch_;
+}
+
+double StepView::at(double time, std::size_t state) {
+  if (time >= stepper_->t()) return stepper_->y()[state];
+  if (time <= stepper_->t_previous()) return stepper_->y_previous()[state];
+  return stepper_->interpolate(time, state);
+}
+
+double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough) {
+  for (int i = 0; i < 100; ++i) {
+    if (fb == 0 || std::abs(fb) <= enough) return b;
+    double c = (fa * b - fb * a) / (fa - fb);
+    if (!(c > std::min(a, b) && c < std::max(a, b))) c = 0.5 * (a + b);
+    if (c == a || c == b || std::abs(b - a) <= 4e-16 * std::max(std::abs(a), std::abs(b))) return b;
+    const double fc = f(c);
+    if ((fc > 0) == (fb > 0)) {
+      fa *= 0.5;  // Illinois: keeps the far end from standing still
+    } else {
+      a = b;
+      fa = fb;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
+}
+
+RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers) {
+  const FlushDenormals flush;
+  return Loop(equations, options, observers).run();
+}
+
+}  // namespace kurbel

@@ -1,0 +1,193 @@
+// speed_history.cpp — stretches of the speed, and the last time outside a band among them.
+#include "engine/run/speed_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t last_point = BandHistory::points - 1;
+
+// −1 … 1
+const std::array<double, BandHistory::points>& chebyshev() {
+  static const auto made = [] {
+    std::array<double, BandHistory::points> x{};
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = -std::cos(static_cast<double>(k) * std::numbers::pi / last_point);
+    x[last_point / 2] = 0;
+    return x;
+  }();
+  return made;
+}
+
+// Minima that differ by less are the same one come again: the later one counts.
+constexpr double same_extreme = 1e-9;
+
+// Time of the least value near a point: thirds, to where round-off hides the difference.
+template <class F>
+double lowest_between(const F& f, double a, double b) {
+  for (int i = 0; i < 40; ++i) {
+    const double c = a + (b - a) / 3, d = b - (b - a) / 3;
+    (f(c) < f(d) ? b : a) = f(c) < f(d) ? d : c;
+  }
+  return 0.5 * (a + b);
+}
+
+// Where g ≥ 0 for good within the stretch, if g(inside_out) < 0 at a known time. The end where it is negative there.
+template <class G>
+double enters(const BandHistory::Stretch& s, const G& g, double negative_at) {
+  if (g(s.end) < 0) return s.end;
+  constexpr int places = 32;
+  double right = s.end, value = g(right);
+  for (int k = places - 1; k >= 0; --k) {
+    double t = s.begin + (s.end - s.begin) * k / places;
+    if (t < negative_at && right > negative_at) t = negative_at;
+    const double there = g(t);
+    if (there < 0) return find_root(g, t, there, right, value);
+    right = t;
+    value = there;
+  }
+  return s.begin;
+}
+
+}  // namespace
+
+double BandHistory::Stretch::time(std::size_t point) const {
+  return point == 0            ? begin
+         : point == last_point ? end
+                               : 0.5 * (begin + end) + 0.5 * (end - begin) * chebyshev()[point];
+}
+
+// Barycentric: weights ±1, half at the ends (Berrut, Trefethen 2004).
+double BandHistory::Stretch::at(double t) const {
+  if (t >= end) return value[last_point];
+  if (t <= begin) return value[0];
+  const double x = (2 * t - begin - end) / (end - begin);
+  double above = 0, below = 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    const double distance = x - chebyshev()[k];
+    if (distance == 0) return value[k];
+    const double weight = (k % 2 == 0 ? 1.0 : -1.0) * (k == 0 || k == last_point ? 0.5 : 1.0) / distance;
+    above += weight * value[k];
+    below += weight;
+  }
+  return above / below;
+}
+
+void BandHistory::Stretch::find_extremes() {
+  const auto extreme = [&](double sign, double& value_there, double& time_there) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < points; ++k)
+      if (sign * value[k] < sign * value[best]) best = k;
+    value_there = value[best];
+    time_there = time(best);
+    // Towards an end only where the curve's next point does not rise as fast as it did before.
+    if (begin == end) return;
+    const double from = time(best == 0 ? 0 : best - 1), to = time(best == last_point ? last_point : best + 1);
+    const double inside = best == 0 ? time(0) + 1e-3 * (to - time(0)) : time(best) - 1e-3 * (time(best) - from);
+    if ((best == 0 || best == last_point) && sign * at(inside) >= sign * value[best]) return;
+    const double t = lowest_between([&](double x) { return sign * at(x); }, from, to), found = at(t);
+    if (sign * found < sign * value_there) {
+      value_there = found;
+      time_there = t;
+    }
+  };
+  extreme(1, lowest, lowest_at);
+  extreme(-1, highest, highest_at);
+}
+
+void BandHistory::add(const Stretch& s) {
+  const double slack = same_extreme * std::max(std::abs(s.lowest), std::abs(s.highest));
+  while (!low_.empty() && low_.back().lowest >= s.lowest - slack) low_.pop_back();
+  while (!high_.empty() && high_.back().highest <= s.highest + slack) high_.pop_back();
+  low_.push_back(s);
+  high_.push_back(s);
+}
+
+void BandHistory::append(const BandHistory& later) {
+  if (later.empty()) return;
+  while (!low_.empty() && low_.back().lowest >= later.low_.front().lowest) low_.pop_back();
+  while (!high_.empty() && high_.back().highest <= later.high_.front().highest) high_.pop_back();
+  low_.insert(low_.end(), later.low_.begin(), later.low_.end());
+  high_.insert(high_.end(), later.high_.begin(), later.high_.end());
+}
+
+void BandHistory::clear() {
+  low_.clear();
+  high_.clear();
+}
+
+std::optional<double> BandHistory::last_outside(double low, double high) const {
+  std::optional<double> last;
+  const auto below = std::partition_point(low_.begin(), low_.end(), [&](const Stretch& s) { return s.lowest < low; });
+  if (below != low_.begin()) {
+    const Stretch& s = *std::prev(below);
+    last = enters(
+        s, [&](double t) { return s.at(t) - low; }, s.lowest_at);
+  }
+  const auto above =
+      std::partition_point(high_.begin(), high_.end(), [&](const Stretch& s) { return s.highest > high; });
+  if (above != high_.begin()) {
+    const Stretch& s = *std::prev(above);
+    const double t = enters(
+        s, [&](double x) { return high - s.at(x); }, s.highest_at);
+    last = std::max(t, last.value_or(t));
+  }
+  return last;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  const Model& m = equations.model();
+  const auto node = static_cast<std::size_t>(m.reduction_node);
+  shaft_ = static_cast<std::size_t>(m.shaft_of_node[node]);
+  gain_ = m.gain_of_node[node];
+  angle_ = static_cast<std::size_t>(m.reduction_angle);
+  free_ = shaft_ < m.free_shafts;
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+    if (m.network.elements[e].element->account() == Account::driving) driving_.push_back(e);
+  for (const Network::Node& n : m.network.nodes)
+    if (n.prescribed >= 0 && !m.network.prescribed[static_cast<std::size_t>(n.prescribed)].is_nothing())
+      prescribed_somewhere_ = true;
+  if (m.cycle == 0 && t == 0) angles_.push_back(equations.angle_with_turns(angle_, y));
+}
+
+// Elements are switched between steps only, at events and edges.
+bool SpeedRecorder::is_driven(StepView& view) const {
+  if (prescribed_somewhere_ || driving_.empty()) return true;
+  if (!view.begins_anew()) return on_;
+  const char* active = view.snapshot(view.t()).now.active;
+  return std::any_of(driving_.begin(), driving_.end(), [&](std::size_t e) { return active[e] != 0; });
+}
+
+double SpeedRecorder::speed_at(StepView& view, double t) const {
+  if (!free_) return gain_ * view.snapshot(t).now.speed[shaft_];
+  return gain_ * view.at(t, view.equations().speed_index(static_cast<int>(shaft_)));
+}
+
+BandHistory::Stretch SpeedRecorder::stretch_of(StepView& view) const {
+  BandHistory::Stretch s{.begin = view.t_previous(), .end = view.t()};
+  for (std::size_t k = 0; k < BandHistory::points; ++k) s.value[k] = speed_at(view, s.time(k));
+  s.find_extremes();
+  return s;
+}
+
+void SpeedRecorder::step(StepView& view) {
+  on_ = is_driven(view);
+  if (on_ && off_since_) {  // the pause belongs to the drive's time
+    driven_.append(coasting_);
+    coasting_.clear();
+    off_since_.reset();
+  }
+  if (!on_ && !off_since_) off_since_ = view.t_previous();
+  (on_ ? driven_ : coasting_).add(stretch_of(view));
+  while (!angles_.empty() && angles_.size() <= grid) {
+    const double t = angles_.size() == grid ? until_ : interval() * static_cast<double>(angles_.size());
+    if (t > view.t()) break;
+    angles_.push_back(view.equations().angle_with_turns(angle_, view.at(t)));
+  }
+}
+
+}  // namespace kurbel

@@ -1,0 +1,87 @@
+// scene.h — a machine as its file describes it: plain values in SI, each with its place in the file.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/effects.h"
+#include "engine/scene/keys.h"
+#include "engine/scene/messages.h"
+
+namespace kurbel {
+
+// Start of one component: what is not given follows from the others.
+struct ComponentStart {
+  std::optional<double> angle = {}, speed = {}, twist = {};  // rad, rad/s, rad
+  Location at;
+};
+
+struct StartSettings {
+  bool equilibrium = false;  // twists balance the loads
+  double angle = 0, speed = 0;
+  std::string on;  // component that angle and speed belong to; empty: the reduction link
+  std::map<std::string, ComponentStart> components;
+  Location at;
+};
+
+struct RunSettings {
+  StartSettings start;
+  double until = 1;        // s
+  double accuracy = 1e-6;  // measured error of every figure over its scale
+  std::string method = "auto";
+  std::string model = "reduced";
+  Location method_at = {}, model_at = {};  // where the file says so; else of [run]
+  int samples = 1000;                      // rows of the trajectory
+  std::vector<std::string> output;         // components in the trajectory; empty: all (both ends of long chains)
+  double budget = 300;                     // s of CPU time for one integration
+};
+
+// One step of an operating sequence: when it happens, what it sets.
+struct SequenceStep {
+  enum class When { at, after, angle, speed_above, speed_below };
+  When when = When::after;
+  double value = 0;              // s, s, rad, rad/s, rad/s
+  std::string of = {};           // the component whose angle or speed it waits for
+  std::vector<std::string> set;  // components
+  double to = 1;                 // 1 on, 0 off, between: part; −1: reversed
+  double over = 0;               // ramp [s]
+  Location at = {};
+};
+struct Sequence {
+  std::vector<SequenceStep> steps;  // each waits for the one before it
+  bool repeat = false;
+};
+
+// A row of components along a shaft, beginning at a component of another line ("" for the main line).
+struct Line {
+  std::string from = {};  // "gearbox.out"
+  std::vector<std::string> names = {};
+  Location at = {};
+  std::vector<Location> name_at = {};
+};
+
+struct Scene {
+  std::string file, title, text;
+  std::vector<Line> lines;          // main line first, branches in canonical order
+  std::vector<Section> components;  // canonical order: along the lines, then by name
+  Effects effects;
+  Sequence sequence;
+  RunSettings run;
+
+  const Section* find(const std::string& name) const;
+};
+
+// Reads a scene; `kinds` lists the components that a line may hold. Throws SceneError with all errors of the file.
+Scene read_scene(const std::string& path, const std::vector<Kind>& kinds);
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds);
+
+// Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.
+const std::vector<std::string>& methods_of(const std::string& model);
+void check_method(const std::string& method, const std::string& model);
+
+// Keys of [run], for the docs.
+const std::vector<Key>& run_keys();
+
+}  // namespace kurbel

@@ -1,0 +1,162 @@
+// sequence_reader.cpp — steps of an operating sequence: when, what, to which value.
+#include "engine/scene/sequence_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/scene/section_reader.h"
+
+namespace kurbel {
+namespace {
+
+using Type = DocumentValue::Type;
+
+std::vector<std::string> names_in(const DocumentValue& value) {
+  if (value.type == Type::text) return {value.text};
+  std::vector<std::string> names;
+  if (value.type == Type::list)
+    for (const DocumentValue& item : value.items)
+      if (item.type == Type::text) names.push_back(item.text);
+  return names;
+}
+
+class StepReader {
+ public:
+  StepReader(const std::vector<std::string>& components, const std::function<bool(const std::string&)>& is_component,
+             Messages& messages)
+      : components_(components), is_component_(is_component), messages_(messages) {}
+
+  SequenceStep read(const DocumentValue& table, const std::string& what) {
+    static const Kind kind{.name = "step", .keys = sequence_step_keys()};
+    const Section section = read_section(table, kind, "", what, messages_, {"set"});
+    SequenceStep step;
+    step.to = section.number("to");
+    step.over = section.number("over");
+    step.at = table.at;
+    read_trigger(section, step, what);
+    const DocumentEntry* set = table.find("set");
+    if (!set) {
+      messages_.add(table.at,
+                    fmt::format("{}: \"set\" is missing; name the component or components that it sets", what));
+      return step;
+    }
+    step.set = names_in(set->value);
+    if (step.set.empty())
+      messages_.add(set->value.at, fmt::format("{}: set = {}; must be a component or a list of components", what,
+                                               set->value.describe()));
+    for (const std::string& name : step.set) check(name, set->value.at, what + ": set");
+    return step;
+  }
+
+ private:
+  void check(const std::string& name, Location at, const std::string& what) {
+    if (!is_component_(name))
+      messages_.add(at, fmt::format("{}: \"{}\" is no component{}; allowed: {}", what, name,
+                                    suggestion(name, components_), shortened_list(components_)));
+  }
+  void read_trigger(const Section& section, SequenceStep& step, const std::string& what) {
+    using When = SequenceStep::When;
+    const std::pair<const char*, When> triggers[] = {{"at", When::at},
+                                                     {"after", When::after},
+                                                     {"angle", When::angle},
+                                                     {"speed_above", When::speed_above},
+                                                     {"speed_below", When::speed_below}};
+    int given = 0;
+    for (const auto& [key, when] : triggers) {
+      if (!section.given(key)) continue;
+      step.when = when;
+      step.value = section.number(key);
+      ++given;
+    }
+    if (given > 1)
+      messages_.add(step.at, fmt::format("{}: waits for {} things; keep one of \"at\", \"after\", \"angle\", "
+                                         "\"speed_above\", \"speed_below\"",
+                                         what, given));
+    const bool watches = given == 1 && step.when != When::at && step.when != When::after;
+    if (section.given("of")) {
+      step.of = section.text("of");
+      check(step.of, section.where("of"), what + ": of");
+    }
+    if (given <= 1 && watches == step.of.empty())
+      messages_.add(step.at,
+                    watches ? fmt::format("{}: \"of\" is missing: whose angle or speed?", what)
+                            : fmt::format("{}: \"of\" belongs to \"angle\", \"speed_above\" or \"speed_below\"", what));
+  }
+
+  const std::vector<std::string>& components_;
+  const std::function<bool(const std::string&)>& is_component_;
+  Messages& messages_;
+};
+
+}  // namespace
+
+const std::vector<Key>& sequence_step_keys() {
+  static const std::vector<Key> keys = {
+      {.name = "at", .unit = "s", .domain = not_negative, .doc = "happens at this time, or once its turn comes"},
+      {.name = "after", .unit = "s", .domain = not_negative, .doc = "happens so long after the step before it"},
+      {.name = "angle",
+       .unit = "rad",
+       .doc = "happens when the component `of` next passes this angle, whatever the turn"},
+      {.name = "speed_above", .unit = "rad/s", .doc = "happens when the component `of` is faster than this"},
+      {.name = "speed_below", .unit = "rad/s", .doc = "happens when the component `of` is slower than this"},
+      {.name = "of", .type = KeyType::text, .doc = "the component that is watched"},
+      {.name = "to",
+       .fallback = "1",
+       .domain = {.low = -1, .high = 10},
+       .doc = "1 on, 0 off, between them part (pressure of a clutch, voltage of a motor), −1 a motor reversed"},
+      {.name = "over", .unit = "s", .fallback = "\"0 s\"", .domain = not_negative, .doc = "ramp from the value before"},
+  };
+  return keys;
+}
+
+Sequence read_sequence(const DocumentValue& table, const std::vector<std::string>& components,
+                       const std::function<bool(const std::string&)>& is_component, Messages& messages) {
+  Sequence sequence;
+  if (table.type != Type::table) {
+    messages.add(table.at, fmt::format("sequence = {}; must be a table with \"steps\"", table.describe()));
+    return sequence;
+  }
+  StepReader reader(components, is_component, messages);
+  bool any = false;
+  for (const DocumentEntry& entry : table.entries) {
+    if (entry.key == "repeat") {
+      if (entry.value.type == Type::flag)
+        sequence.repeat = entry.value.flag;
+      else
+        messages.add(entry.value.at,
+                     fmt::format("[sequence]: repeat = {}; must be true or false", entry.value.describe()));
+    } else if (entry.key == "steps") {
+      any = true;
+      if (entry.value.type != Type::list) {
+        messages.add(entry.value.at,
+                     fmt::format("[sequence]: steps = {}; must be a list of tables, e.g. [{{ at = \"1 s\", "
+                                 "set = \"clutch\", to = 0 }}]",
+                                 entry.value.describe()));
+        continue;
+      }
+      for (std::size_t i = 0; i < entry.value.items.size(); ++i) {
+        const DocumentValue& item = entry.value.items[i];
+        const std::string what = fmt::format("[sequence]: steps[{}]", i + 1);
+        if (item.type == Type::table)
+          sequence.steps.push_back(reader.read(item, what));
+        else
+          messages.add(item.at, fmt::format("{} = {}; must be a table", what, item.describe()));
+      }
+    } else {
+      messages.add(entry.at, fmt::format("[sequence]: unknown key {}{}; allowed: \"steps\" and \"repeat\"",
+                                         in_quotes(entry.key), suggestion(entry.key, {"steps", "repeat"})));
+    }
+  }
+  const auto waits = [](const SequenceStep& step) {
+    return step.when != SequenceStep::When::at && !(step.when == SequenceStep::When::after && step.value == 0);
+  };
+  if (sequence.repeat && !sequence.steps.empty() && std::none_of(sequence.steps.begin(), sequence.steps.end(), waits))
+    messages.add(table.at,
+                 "[sequence]: repeat = true, but no step waits for anything when its turn comes again; give "
+                 "one an \"after\" > 0 s, an angle or a speed");
+  if (!any) messages.add(table.at, "[sequence]: \"steps\" is missing");
+  return sequence;
+}
+
+}  // namespace kurbel

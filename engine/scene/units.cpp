@@ -1,0 +1,340 @@
+// units.cpp — a table of units and a small parser over it.
+#include "engine/scene/units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/messages.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct UnitEntry {
+  std::string_view symbol;
+  double factor;
+  std::array<int, 5> exponent;  // kg m s rad A
+  bool prefixes;                // takes SI prefixes (k, M, m, …)
+};
+
+// clang-format off
+constexpr UnitEntry unit_table[] = {
+    {"kg",   1,            {1, 0, 0, 0, 0}, false}, {"g",    1e-3,        {1, 0, 0, 0, 0}, false},
+    {"t",    1000,         {1, 0, 0, 0, 0}, false}, {"lb",   0.45359237,  {1, 0, 0, 0, 0}, false},
+    {"m",    1,            {0, 1, 0, 0, 0}, true},  {"in",   0.0254,      {0, 1, 0, 0, 0}, false},
+    {"ft",   0.3048,       {0, 1, 0, 0, 0}, false}, {"s",    1,           {0, 0, 1, 0, 0}, true},
+    {"min",  60,           {0, 0, 1, 0, 0}, false}, {"h",    3600,        {0, 0, 1, 0, 0}, false},
+    {"Hz",   1,            {0, 0, -1, 0, 0}, true}, {"rad",  1,           {0, 0, 0, 1, 0}, true},
+    {"deg",  pi / 180,     {0, 0, 0, 1, 0}, false}, {"°",    pi / 180,    {0, 0, 0, 1, 0}, false},
+    {"rev",  2 * pi,       {0, 0, 0, 1, 0}, false}, {"rpm",  pi / 30,     {0, 0, -1, 1, 0}, false},
+    {"N",    1,            {1, 1, -2, 0, 0}, true}, {"lbf",  4.4482216152605, {1, 1, -2, 0, 0}, false},
+    {"J",    1,            {1, 2, -2, 0, 0}, true}, {"Nm",   1,           {1, 2, -2, 0, 0}, true},
+    {"W",    1,            {1, 2, -3, 0, 0}, true}, {"hp",   745.69987158227022, {1, 2, -3, 0, 0}, false},
+    {"PS",   735.49875,    {1, 2, -3, 0, 0}, false},{"Pa",   1,           {1, -1, -2, 0, 0}, true},
+    {"bar",  1e5,          {1, -1, -2, 0, 0}, true},{"psi",  6894.757293168361, {1, -1, -2, 0, 0}, false},
+    {"A",    1,            {0, 0, 0, 0, 1}, true},  {"V",    1,           {1, 2, -3, 0, -1}, true},
+    {"Ohm",  1,            {1, 2, -3, 0, -2}, true},{"Ω",    1,           {1, 2, -3, 0, -2}, true},
+    {"Ω",    1,            {1, 2, -3, 0, -2}, true},  // the ohm sign; above the Greek letter
+    {"H",    1,            {1, 2, -2, 0, -2}, true},{"l",    1e-3,        {0, 3, 0, 0, 0}, false},
+    {"%",    0.01,         {0, 0, 0, 0, 0}, false}, {"1",    1,           {0, 0, 0, 0, 0}, false},
+};
+constexpr std::pair<std::string_view, double> prefix_table[] = {
+    {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"μ", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"d", 1e-1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9},
+};
+// clang-format on
+
+// The symbol as it stands, else with a prefix: "mm" is a millimetre, "min" a minute.
+std::optional<Unit> look_up(std::string_view symbol) {
+  for (const UnitEntry& entry : unit_table)
+    if (entry.symbol == symbol) return Unit{entry.factor, {entry.exponent}};
+  for (const auto& [prefix, scale] : prefix_table) {
+    if (!symbol.starts_with(prefix)) continue;
+    for (const UnitEntry& entry : unit_table)
+      if (entry.prefixes && entry.symbol == symbol.substr(prefix.size()))
+        return Unit{scale * entry.factor, {entry.exponent}};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> all_symbols() {
+  std::vector<std::string> symbols;
+  for (const UnitEntry& entry : unit_table) symbols.emplace_back(entry.symbol);
+  for (const char* common : {"mm", "cm", "kN", "kNm", "kW", "MW", "kPa", "MPa", "GPa", "ms", "kJ", "mH", "mrad"})
+    symbols.emplace_back(common);
+  return symbols;
+}
+
+// Reads one unit expression from left to right.
+class UnitParser {
+ public:
+  UnitParser(std::string_view text, UnitError& error) : text_(text), error_(error) {}
+
+  std::optional<Unit> parse() {
+    Unit product;
+    int sign = 1;
+    skip_blanks();
+    while (at_ < text_.size()) {
+      const std::optional<Unit> factor = read_factor();
+      if (!factor) return std::nullopt;
+      product.factor *= sign > 0 ? factor->factor : 1 / factor->factor;
+      for (std::size_t i = 0; i < 5; ++i) product.dimension.exponent[i] += sign * factor->dimension.exponent[i];
+      const bool blank = skip_blanks();
+      if (at_ >= text_.size()) return product;
+      if (take("/")) {
+        sign = -1;
+      } else if (take("*") || take("·") || take("⋅") || blank) {
+        sign = 1;
+      } else {
+        return fail_unexpected();
+      }
+      skip_blanks();
+      if (at_ >= text_.size()) return fail("the unit ends in an operator");
+    }
+    return product;
+  }
+
+ private:
+  std::optional<Unit> fail(std::string text) {
+    error_ = {std::move(text), at_};
+    return std::nullopt;
+  }
+  std::optional<Unit> fail_unexpected() {
+    if (text_[at_] == ',') return fail("unexpected comma; decimals are written with a point");
+    return fail(fmt::format("unexpected {} in a unit", in_quotes(text_.substr(at_))));
+  }
+  bool take(std::string_view token) {
+    if (!text_.substr(at_).starts_with(token)) return false;
+    at_ += token.size();
+    return true;
+  }
+  bool skip_blanks() {
+    const std::size_t before = at_;
+    while (take(" ") || take("\t") || take("\u00a0") || take("\u202f")) {
+    }
+    return at_ > before;
+  }
+
+  std::optional<Unit> read_factor() {
+    if (take("1")) return Unit{};
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_end_of_symbol()) ++at_;
+    const std::string_view symbol = text_.substr(begin, at_ - begin);
+    std::optional<Unit> unit = look_up(symbol);
+    if (!unit) {
+      at_ = begin;
+      if (symbol.empty() || symbol[0] == ',') return fail_unexpected();
+      const auto near = suggest(symbol);
+      return fail(fmt::format("unknown unit {}{}", in_quotes(symbol),
+                              near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
+    }
+    const std::optional<int> power = read_exponent();
+    if (!power) return fail("an exponent must be a whole number from -9 to 9");
+    unit->factor = std::pow(unit->factor, *power);
+    for (int& e : unit->dimension.exponent) e *= *power;
+    return unit;
+  }
+  bool is_end_of_symbol() const {
+    const std::string_view rest = text_.substr(at_);
+    const char c = rest[0];
+    return c == ' ' || c == '\t' || rest.starts_with("\u00a0") || rest.starts_with("\u202f") || c == '*' || c == '/' ||
+           c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') || rest.starts_with("·") ||
+           rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
+  }
+  std::optional<int> read_exponent() {
+    if (take("²")) return 2;
+    if (take("³")) return 3;
+    const bool caret = take("^");
+    int power = 1;
+    const auto [end, status] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), power);
+    if (status == std::errc::invalid_argument) return caret ? std::nullopt : std::optional<int>(1);
+    if (status != std::errc{} || std::abs(power) > 9) return std::nullopt;
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return power;
+  }
+
+  // "kgm" is "kg*m" with its product sign forgotten; else the nearest symbol.
+  static std::optional<std::string> suggest(std::string_view symbol) {
+    for (std::size_t i = symbol.size() - 1; i > 0 && symbol.size() < 8; --i)
+      if (look_up(symbol.substr(0, i)) && look_up(symbol.substr(i)))
+        return fmt::format("{}*{}", symbol.substr(0, i), symbol.substr(i));
+    return symbol.size() < 20 ? nearest(symbol, all_symbols()) : std::nullopt;
+  }
+
+  std::string_view text_;
+  UnitError& error_;
+  std::size_t at_ = 0;
+};
+
+struct NamedDimension {
+  std::string_view unit, name;
+};
+constexpr NamedDimension named_dimensions[] = {
+    {"rad/s", "an angular velocity"},
+    {"rad", "an angle"},
+    {"N*m/rad", "a torsional stiffness"},
+    {"N*m*s/rad", "a torsional damping"},
+    {"kg*m2", "an inertia"},
+    {"m", "a length"},
+    {"kg", "a mass"},
+    {"s", "a time"},
+    {"N*m", "a torque or energy"},
+    {"N", "a force"},
+    {"W", "a power"},
+    {"Pa", "a pressure"},
+    {"1/s", "a frequency"},
+    {"m/s", "a velocity"},
+    {"m/s2", "an acceleration"},
+    {"kg/m3", "a density"},
+    {"N/m", "a linear stiffness"},
+    {"N*s/m", "a linear damping"},
+    {"A", "a current"},
+    {"V", "a voltage"},
+    {"Ohm", "a resistance"},
+    {"rad/s2", "an angular acceleration"},
+    {"m2", "an area"},
+    {"m3", "a volume"},
+};
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Levenshtein, with a swap of neighbours counted as one slip.
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::optional<Unit> parse_unit(std::string_view text, UnitError& error) { return UnitParser(text, error).parse(); }
+
+std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) {
+  std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) begin = text.size();
+  std::size_t digits = begin;
+  if (text.substr(begin).starts_with("\u2212")) {
+    error = {"the minus sign must be the plain \"-\"", begin};
+    return std::nullopt;
+  }
+  if (text.substr(begin).starts_with('+') && !text.substr(begin).starts_with("+-")) ++digits;  // unknown to from_chars
+  double number = 0;
+  const auto [end, status] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
+  if (status != std::errc{}) {
+    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)"
+                                                      : "a number must come first",
+             begin};
+    return std::nullopt;
+  }
+  if (!std::isfinite(number)) {
+    error = {"the number must be finite", begin};
+    return std::nullopt;
+  }
+  const auto after = static_cast<std::size_t>(end - text.data());
+  const std::optional<Unit> unit = parse_unit(text.substr(after), error);
+  if (!unit) {
+    error.column += after;
+    return std::nullopt;
+  }
+  const double value = number * unit->factor;
+  if (!std::isfinite(value)) {
+    error = {"the number is out of range (1e-308 … 1e308)", begin};
+    return std::nullopt;
+  }
+  return Quantity{value, unit->dimension};
+}
+
+std::string examples_of(std::string_view si_unit) {
+  static constexpr std::pair<std::string_view, std::string_view> table[] = {
+      {"rad/s", "\"1500 rpm\", \"157 rad/s\", \"25 rev/s\""},
+      {"rad", "\"30 deg\", \"0.5 rad\""},
+      {"N*m/rad", "\"4 kN*m/rad\", \"70 N*m/deg\""},
+      {"N*m*s/rad", "\"2 N*m*s/rad\""},
+      {"N*m*s2/rad2", "\"0.02 N*m*s2/rad2\""},
+      {"kg*m2", "\"0.5 kg*m2\""},
+      {"m", "\"120 mm\", \"0.12 m\""},
+      {"kg", "\"3 kg\""},
+      {"s", "\"3 s\", \"20 ms\""},
+      {"N*m", "\"200 N*m\", \"1.2 kN*m\""},
+      {"N", "\"630 kN\""},
+      {"W", "\"11 kW\", \"15 hp\""},
+      {"Pa", "\"80 GPa\", \"6 bar\""},
+      {"Hz", "\"5 Hz\""},
+      {"", "0.05, \"5 %\""},
+  };
+  for (const auto& [unit, examples] : table)
+    if (unit == si_unit) return std::string(examples);
+  return fmt::format("\"1 {}\"", si_unit);
+}
+
+std::string name_of(const Dimension& dimension) {
+  if (dimension == Dimension{}) return "a plain number";
+  UnitError error;
+  for (const NamedDimension& named : named_dimensions)
+    if (parse_unit(named.unit, error)->dimension == dimension)
+      return fmt::format("{} ({})", named.name, pretty_unit(named.unit));
+  static constexpr std::string_view base[] = {"kg", "m", "s", "rad", "A"};
+  std::string text;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const int e = dimension.exponent[i];
+    if (e != 0) text += fmt::format("{}{}{}", text.empty() ? "" : "·", base[i], e == 1 ? "" : fmt::format("^{}", e));
+  }
+  return "a quantity in " + text;
+}
+
+std::string pretty_unit(std::string_view unit) {
+  std::string pretty;
+  for (const char c : unit) {
+    if (c == '*') {
+      pretty += "·";
+    } else if (c == '^') {
+      continue;
+    } else if (c == '2') {
+      pretty += "²";
+    } else if (c == '3') {
+      pretty += "³";
+    } else {
+      pretty += c;
+    }
+  }
+  return pretty;
+}
+
+std::string with_unit(double value, std::string_view unit, int digits) {
+  const std::string number = fmt::format("{:.{}g}", value, digits);
+  return unit.empty() ? number : fmt::format("{} {}", number, pretty_unit(unit));
+}
+
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.empty() || word.size() > 60) return std::nullopt;
+  for (const std::string& candidate : candidates)
+    if (equal_but_for_case(word, candidate)) return candidate;
+  std::optional<std::string> best;
+  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance && distance < candidate.size()) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace kurbel

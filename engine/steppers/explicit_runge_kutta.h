@@ -1,0 +1,79 @@
+// explicit_runge_kutta.h — Stepper by an explicit embedded Runge–Kutta method; no allocation and no copy in a step.
+#pragma once
+
+#include <array>
+
+#include "engine/steppers/butcher_tables.h"
+#include "engine/steppers/stepper.h"
+
+namespace kurbel {
+
+class ExplicitRungeKutta final : public Stepper {
+ public:
+  ExplicitRungeKutta(const EmbeddedTable& table, OdeSystem& system, const ErrorControl& control);
+
+  void start(double t, std::span<const double> y) override;
+  void step(double t_limit) override;
+  void retake(double t) override;
+  void interpolate(double t, std::span<double> y) override;
+  double interpolate(double t, std::size_t state) override;
+
+  double t() const override { return t_; }
+  double t_previous() const override { return t_previous_; }
+  std::span<const double> y() const override { return {y_, size_}; }
+  std::span<const double> y_previous() const override { return {y_previous_, size_}; }
+  std::span<const double> ydot() const override { return {slope_[table_.stages], size_}; }
+  std::span<const double> ydot_previous() const override { return {slope_[0], size_}; }
+  bool held_by_stability() const override { return stiff_steps_ >= stiff_steps_to_tell; }
+  StepLimit limited_by() override { return {limit_, worst_}; }
+
+ private:
+  static constexpr int stiff_steps_to_tell = 15;  // in a row, and
+  static constexpr int mild_steps_to_forget = 6;  // that many in a row to forget it (Hairer–Wanner II, section IV.2)
+
+  struct Aim {
+    double t, h;
+    bool cut;  // shorter than accuracy asks, for the sake of t_limit
+  };
+
+  double first_step(double longest);
+  void search_step(double t_limit);
+  Aim aim(double h, double t_limit) const;
+  void evaluate(double t, const double* y, std::size_t stage);
+  void take(double h);          // stages and solution, from y_previous_ and slope_[0] to y_
+  double error_norm(double h);  // ≤ 1 is good; not finite if any value of the step is not
+  bool end_slope_is_finite() const;
+  void adapt(double error, const Aim& done, bool after_rejection);
+  void watch_stability(double h);
+  void prepare_dense_output();
+  double dense_value(double x, std::size_t state) const;  // at the part x of the step
+  void stand_still();
+  [[noreturn]] void fail(double h, double error) const;
+
+  const EmbeddedTable& table_;
+  OdeSystem& system_;
+  std::size_t size_;
+  std::vector<double> weight_;  // 1/(tolerance · scale), 0 for states out of control
+  double tolerance_;
+  double stiff_from_ = 0;  // h·ρ
+  bool error_needs_end_slope_;
+
+  std::vector<double> storage_;  // all that follows points into it
+  double* y_;
+  double* y_previous_;
+  double* stage_y_;  // argument of the last stage but the end slope
+  std::array<double*, most_stages> slope_{};
+  std::array<double*, 4> dense_{};
+  bool dense_is_ready_ = false;
+
+  double t_ = 0, t_previous_ = 0;
+  double step_end_ = 0;  // of the last step as it was accepted
+  double h_next_ = 0;    // 0: not known yet
+  double previous_error_ = 1e-4;
+  std::size_t worst_ = 0;  // state with the largest error in the last step tried
+  StepLimit::By limit_ = StepLimit::By::end;
+  int stiff_steps_ = 0, mild_steps_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,10 @@
+// kinds.cpp — gathers the mechanisms.
+#include "mechanisms/kinds/kinds.h"
+
+namespace kurbel {
+
+std::vector<Kind> mechanism_kinds() {
+  return {slider_crank_kind(), four_bar_kind(), quick_return_kind(), knuckle_press_kind()};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,18 @@
+// kinds.h — the executive mechanisms as a scene may name them, each with its table of keys.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/keys.h"
+
+namespace kurbel {
+
+std::vector<Kind> mechanism_kinds();
+
+// One file each.
+Kind four_bar_kind();
+Kind knuckle_press_kind();
+Kind quick_return_kind();
+Kind slider_crank_kind();
+
+}  // namespace kurbel

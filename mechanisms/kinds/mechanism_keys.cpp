@@ -1,0 +1,106 @@
+// mechanism_keys.cpp — keys of links, and the element of a mechanism from its data.
+#include "mechanisms/kinds/mechanism_keys.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "engine/numerics/deadline.h"
+#include "mechanisms/kinds/load_kinds.h"
+
+namespace kurbel {
+namespace {
+
+std::vector<Key> link_keys(const std::string& name, const std::string& com_doc, const std::string& inertia_doc) {
+  return {mass_key(name + "_mass", "mass of the " + name),
+          {.name = name + "_com", .unit = "m", .doc = com_doc},
+          {.name = name + "_inertia",
+           .unit = "kg*m2",
+           .fallback = "\"0 kg*m2\"",
+           .domain = not_negative,
+           .doc = inertia_doc}};
+}
+
+// "crank 2 kg, rod 1 kg"
+std::string masses_of(const Section& s) {
+  std::string text;
+  for (const Key& key : s.kind->keys)
+    if (key.name.ends_with("_mass"))
+      text += fmt::format("{}{} {:g} kg", text.empty() ? "" : ", ", key.name.substr(0, key.name.size() - 5),
+                          s.number(key.name));
+  return text;
+}
+
+}  // namespace
+
+Key mass_key(const std::string& name, const std::string& doc) {
+  return {.name = name, .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = doc};
+}
+
+std::vector<Key> pivoted_link_keys(const std::string& name, const std::string& from) {
+  std::vector<Key> keys = link_keys(name, "its centre of mass " + from, "about its fixed bearing");
+  keys[1].fallback = "\"0 m\"";
+  return keys;
+}
+
+std::vector<Key> floating_link_keys(const std::string& name, const std::string& from) {
+  return link_keys(name, "its centre of mass " + from + "; default: half the length", "about its centre of mass");
+}
+
+LinkBody read_link(const Section& s, const std::string& name, double default_com) {
+  return {s.number(name + "_mass"), s.number_or(name + "_com", default_com), s.number(name + "_inertia")};
+}
+
+Key gravity_key() {
+  return {.name = "gravity",
+          .unit = "m/s2",
+          .fallback = "\"0 m/s2\"",
+          .domain = not_negative,
+          .doc = "0: weight is neglected",
+          .effect = "gravity"};
+}
+Key phase_key() {
+  return {.name = "phase",
+          .unit = "rad",
+          .fallback = "\"0 deg\"",
+          .doc = "crank angle ahead of the shaft's angle (several cylinders)"};
+}
+Key load_key(const std::string& doc, const std::vector<Kind>& kinds) {
+  return {.name = "load", .type = KeyType::sections, .doc = doc, .nested = &kinds};
+}
+
+std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts) {
+  std::vector<Key> keys;
+  for (const std::vector<Key>& part : parts) keys.insert(keys.end(), part.begin(), part.end());
+  return keys;
+}
+
+void build_mechanism(const Section& s, const MechanismData& data, const DataFaults& faults, Network& net,
+                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints, Deformation deformation) {
+  const int node = net.add_node(s.name, "", 0);
+  net.ports[s.name] = {node, node};
+  for (const DataFault& fault : faults)
+    messages.add(s.where(fault.key), fmt::format("{} \"{}\": {}", s.kind->name, s.name, fault.text));
+  if (!faults.empty()) return;
+  std::optional<Mechanism> mechanism;
+  try {
+    mechanism.emplace(s.name, data);
+  } catch (const OutOfTime&) {
+    throw;
+  } catch (const std::exception&) {  // Simbody's own checks, which speak of matrices
+    messages.add(s.at, fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be computed "
+                                   "together ({}); check their units",
+                                   s.kind->name, s.name, masses_of(s)));
+    return;
+  }
+  mechanism->phase = s.number("phase");
+  mechanism->joints = std::move(joints);
+  mechanism->clearances = std::move(deformation.clearances);
+  mechanism->flexibility = deformation.flexibility;
+  read_loads(s, *mechanism, messages);
+  const double phase = mechanism->phase;
+  net.put_made(node, s.name, std::make_shared<MechanismMaker>(std::move(*mechanism)), {}, phase);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,59 @@
+// data_fault.h — what is wrong with a mechanism's data, in words, and the checks that mechanisms share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanisms/linkages/mechanism_bodies.h"
+
+namespace kurbel {
+
+struct DataFault {
+  std::string key;   // of a scene
+  std::string text;  // what, got, allowed, next step
+};
+using DataFaults = std::vector<DataFault>;
+
+// Collects faults of the values one by one.
+class DataChecks {
+ public:
+  void finite(const char* key, double value, const char* unit);
+  void positive(const char* key, double value, const char* unit);
+  void not_negative(const char* key, double value, const char* unit);
+  // Mass, centre of mass and inertia; keys are name_mass, name_com, name_inertia.
+  void pivoted(const std::string& name, const LinkBody& link);                            // inertia about its bearing
+  void floating(const std::string& name, const LinkBody& link, double carried_mass = 0);  // central inertia
+  void add(const std::string& key, std::string text) { faults_.push_back({key, std::move(text)}); }
+
+  bool sound() const { return faults_.empty(); }
+  DataFaults take() { return std::move(faults_); }
+
+ private:
+  DataFaults faults_;
+};
+
+// Links of the loop crank – coupler – rocker – ground; the names are those of a scene's keys.
+struct CrankRockerLoop {
+  double crank, coupler, rocker, ground;  // [m], > 0
+  const char *crank_name, *coupler_name, *rocker_name, *ground_name;
+};
+// The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < the sum of the two left.
+void check_crank_rocker(const CrankRockerLoop& loop, DataChecks& checks);
+
+// Throws std::invalid_argument with the first fault.
+void throw_if_any(const char* mechanism, const DataFaults& faults);
+
+// "12.5 mm"
+std::string in_mm(double metres);
+
+// Least and greatest sine of the angles from … to (from ≤ to).
+struct Range {
+  double least, greatest;
+};
+Range sine_range(double from, double to);
+
+// Where two links of lengths a from A and b from B meet, left of the directed line A → B or right of it. The circles
+// must cut each other.
+PlanePoint meeting_point(PlanePoint a, double a_length, PlanePoint b, double b_length, bool left);
+
+}  // namespace kurbel

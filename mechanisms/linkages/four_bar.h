@@ -1,0 +1,35 @@
+// four_bar.h — the four-bar linkage as a crank–rocker: crank, coupler, rocker on the ground link.
+//
+//                B             O  crank axis, origin       A  crank pin, OA = crank
+//             ,·´ `.           D  rocker's bearing, OD = ground along +x
+//         A ,·´     `.         B  coupler pin, AB = coupler, DB = rocker
+//          ´. φ     ψ `.
+//            O──────────D── x  output: the rocker's angle ψ from +x, counter-clockwise
+//
+// φ is measured from +x to OA, counter-clockwise. Branches: open, B left of the line A → D (0 < ψ < π); crossed, B
+// right of it (−π < ψ < 0), which is the mirror image run backwards.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mechanisms/linkages/data_fault.h"
+#include "mechanisms/linkages/mechanism_bodies.h"
+
+namespace kurbel {
+
+struct FourBarData {
+  double crank = 0, coupler = 0, rocker = 0, ground = 0;  // lengths [m], > 0
+  bool crossed = false;
+  LinkBody crank_body, coupler_body, rocker_body;  // com from O towards A, from A towards B, from D towards B
+  double gravity = 0;                              // [m/s²], ≥ 0
+  double ground_angle = 0;                         // of +x above the horizontal [rad]; +y is 90° ahead of +x
+};
+
+DataFaults faults_of(const FourBarData& data);
+std::vector<double> values_of(const FourBarData& data);  // all of them
+
+// Bodies: crank, coupler, rocker. Joints: O, A, B, D. Throws std::invalid_argument with the first fault.
+std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& data);
+
+}  // namespace kurbel

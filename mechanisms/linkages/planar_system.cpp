@@ -1,0 +1,180 @@
+// planar_system.cpp — samples the reduced functions of any mechanism from its Simbody model (C++17 island).
+#include "mechanisms/linkages/planar_system.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace kurbel {
+
+using SimTK::Inertia;
+using SimTK::MassProperties;
+using SimTK::MobilizedBody;
+using SimTK::State;
+using SimTK::UnitVec3;
+using SimTK::Vec3;
+
+namespace {
+
+// Only the moment about z matters; half of it about x and y keeps Simbody content.
+Inertia flat(double about_z) { return Inertia(about_z / 2, about_z / 2, about_z); }
+
+class SampledBodies final : public MechanismBodies {
+ public:
+  explicit SampledBodies(std::unique_ptr<PlanarSystem> planar)
+      : planar_(std::move(planar)), state_(planar_->realize_topology()) {}
+
+  ReducedSample sample(double phi) override { return sample_of(reduce_at(phi)); }
+  ReducedSample sample_from(double phi, const std::vector<double>& start) override {
+    return sample_of(planar_->reduce_at(state_, within_a_turn(phi), start));
+  }
+
+  double kinetic_energy(double phi, double omega) override {
+    state_.updU() = omega * reduce_at(phi).q1;
+    planar_->system.realize(state_, SimTK::Stage::Velocity);
+    return planar_->matter.calcKineticEnergy(state_);
+  }
+
+  double potential_energy(double phi) override {
+    const Reduction reduced = reduce_at(phi);
+    double energy = 0;
+    for (const PlanarSystem::Weight& weight : planar_->weights)
+      energy += weight.mass * planar_->gravity * SimTK::dot(planar_->up(), reduced.points[weight.point].position);
+    return energy;
+  }
+
+  std::vector<double> turn_ratios(double phi) override {
+    reduce_at(phi);  // leaves the velocity ratios in the state
+    std::vector<double> ratios;
+    for (SimTK::MobilizedBodyIndex k(1); k < planar_->matter.getNumBodies(); ++k)
+      ratios.push_back(planar_->matter.getMobilizedBody(k).getBodyAngularVelocity(state_)[2]);
+    return ratios;
+  }
+
+  std::vector<PlanePoint> joints(double phi) override {
+    const Reduction reduced = reduce_at(phi);
+    std::vector<PlanePoint> joints;
+    for (const std::size_t k : planar_->joint_points)
+      joints.push_back({reduced.points[k].position[0], reduced.points[k].position[1]});
+    return joints;
+  }
+
+ private:
+  Reduction reduce_at(double phi) { return planar_->reduce_at(state_, within_a_turn(phi)); }
+
+  ReducedSample sample_of(const Reduction& reduced) const {
+    ReducedSample sample{};
+    sample.inertia = reduced.inertia;
+    sample.inertia_slope = reduced.slope;
+    sample.inertia_curvature = reduced.curvature;
+    sample.closure_determinant = planar_->determinant_sign * reduced.determinant;
+    if (const int q = planar_->output_coordinate; q >= 0) {
+      sample.output_position = state_.getQ()[q];
+      sample.output_velocity_ratio = reduced.q1[q];
+      sample.output_acceleration_ratio = reduced.q2[q];
+    } else {
+      const PointMotion& output = reduced.points[planar_->output_point];
+      sample.output_position = output.position[0];
+      sample.output_velocity_ratio = output.velocity_ratio[0];
+      sample.output_acceleration_ratio = output.acceleration_ratio[0];
+    }
+    // Power of the weights at ω = 1 (theory 2.2).
+    const Vec3 weight_per_mass = -planar_->gravity * planar_->up();
+    for (const PlanarSystem::Weight& weight : planar_->weights) {
+      const PointMotion& point = reduced.points[weight.point];
+      sample.gravity_torque += weight.mass * SimTK::dot(weight_per_mass, point.velocity_ratio);
+      sample.gravity_torque_slope += weight.mass * SimTK::dot(weight_per_mass, point.acceleration_ratio);
+      sample.gravity_torque_scale += weight.mass * planar_->gravity * point.velocity_ratio.norm();
+    }
+    return sample;
+  }
+
+  std::unique_ptr<PlanarSystem> planar_;
+  State state_;
+};
+
+}  // namespace
+
+std::size_t PlanarSystem::track(const MobilizedBody& body, const Vec3& station) {
+  points.push_back({body.getMobilizedBodyIndex(), station});
+  return points.size() - 1;
+}
+
+void PlanarSystem::add_weight(double mass, const MobilizedBody& body, const Vec3& station) {
+  weights.push_back({mass, track(body, station)});
+}
+
+void PlanarSystem::add_joint(const MobilizedBody& body, const Vec3& station) {
+  joint_points.push_back(track(body, station));
+}
+
+void PlanarSystem::set_output(const MobilizedBody& body, const Vec3& station) { output_point = track(body, station); }
+
+State PlanarSystem::realize_topology() {
+  system.realizeTopology();
+  reduction = std::make_unique<SimbodyReduction>(system, matter, 0, points);
+  const State& state = system.getDefaultState();
+  for (SimTK::MobilizedBodyIndex k(1); k < matter.getNumBodies(); ++k)
+    if (matter.getMobilizedBody(k).getFirstQIndex(state) != k - 1)
+      throw std::logic_error("planar_system: coordinates are not in the order of the bodies");
+  return state;
+}
+
+Reduction PlanarSystem::reduce_at(State& state, double phi) const { return reduce_at(state, phi, start(phi)); }
+
+Reduction PlanarSystem::reduce_at(State& state, double phi, const std::vector<double>& start_from) const {
+  state.updQ()[0] = phi;
+  for (std::size_t k = 0; k < start_from.size(); ++k) state.updQ()[int(k) + 1] = start_from[k];
+  reduction->close(state);
+  Reduction reduced = reduction->reduce(state);
+  if (!(determinant_sign * reduced.determinant > 0))
+    throw std::runtime_error(
+        fmt::format("{} on the wrong branch at phi = {:.17g} rad: determinant of its closures = {:.6g}, must be > 0 "
+                    "(closure error {:.3g} m)",
+                    kind, phi, determinant_sign * reduced.determinant, reduced.closure_error));
+  return reduced;
+}
+
+std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {
+  return std::make_unique<SampledBodies>(std::move(planar));
+}
+
+// Simbody moves moments to the centre of mass and refuses what rounding leaves below nothing there, by an absolute
+// bound that heavy links pass (1e-16 of m l² is more than its 2e-14 kg·m² from 100 kg·m² on). So much is added to
+// those.
+MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin) {
+  const double moment = about_origin.getMoments()[2];
+  if (moment < 10 || moment > 1e9) return MassProperties(mass, com, about_origin);  // beyond, units are wrong
+  return MassProperties(mass, com, about_origin + Inertia(16 * std::numeric_limits<double>::epsilon() * moment));
+}
+
+SimTK::Body::Rigid pivoted_link(const LinkBody& link) {
+  const double central = std::fmax(0, link.inertia - link.mass * link.com * link.com);
+  if (link.mass == 0) return SimTK::Body::Rigid(MassProperties(1, Vec3(0), flat(central)));
+  const Vec3 com(link.com, 0, 0);
+  return SimTK::Body::Rigid(massive(link.mass, com, flat(central) + Inertia(com, link.mass)));
+}
+
+SimTK::Body::Rigid floating_link(const LinkBody& link, const char* what, double point_mass, double end_x) {
+  const Vec3 com(link.com, 0, 0), end(end_x, 0, 0);
+  const double mass = link.mass + point_mass;
+  if (mass == 0 && link.inertia == 0) return SimTK::Body::Rigid(MassProperties(0, Vec3(0), Inertia(0)));
+  if (mass == 0)
+    throw std::invalid_argument(fmt::format("{} = {} kg m2 without any mass; give it a mass", what, link.inertia));
+  return SimTK::Body::Rigid(massive(mass, (link.mass * com + point_mass * end) / mass,
+                                    flat(link.inertia) + Inertia(com, link.mass) + Inertia(end, point_mass)));
+}
+
+void close_pin(MobilizedBody& plane_body, const Vec3& place, MobilizedBody& follower, const Vec3& station) {
+  SimTK::Constraint::PointInPlane(plane_body, UnitVec3(1, 0, 0), place[0], follower, station);
+  SimTK::Constraint::PointInPlane(plane_body, UnitVec3(0, 1, 0), place[1], follower, station);
+}
+
+double within_a_turn(double phi) {
+  const long double turn = 2 * std::acos(-1.0L);
+  return double(std::remainder(static_cast<long double>(phi), turn));
+}
+
+}  // namespace kurbel

@@ -1,0 +1,98 @@
+// rounded_profile.h — straight pieces with their edges rounded: no jumps, no kinks, no events, the same work.
+//
+//     f_w = f ∗ κ,   κ(u) = 35/(32 w) (1 − u²)³ for |u| = |d/w| ≤ 1          three times differentiable
+//         = f(d) + Σ_k [jump_k (S − H)(u_k) + w kink_k (P − u_k H)(u_k)],   u_k = (d − d_k)/w,  S = ∫κ, P = ∫S
+// The convolution moves no area, but what lies within w of the ends of the travel.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/numerics/curve.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+class RoundedProfile {
+ public:
+  struct Knot {
+    double at = 0;                // d_k [m] or [rad]
+    double jump = 0, kink = 0;    // of the value and of the slope
+    double value = 0, slope = 0;  // of the piece that begins here
+  };
+
+  RoundedProfile() = default;
+  // Straight pieces between ascending knots, left[i] to right[i] on piece i; before and after them the given values.
+  RoundedProfile(const std::vector<double>& knot, const std::vector<double>& left, const std::vector<double>& right,
+                 double before, double after, double width)
+      : before_(before), width_(width) {
+    double value = before, slope = 0;
+    for (std::size_t i = 0; i < knot.size(); ++i) {
+      const bool last = i + 1 == knot.size();
+      const double begin = last ? after : left[i];
+      const double rise = last ? 0 : (right[i] - left[i]) / (knot[i + 1] - knot[i]);
+      knots_.push_back({knot[i], begin - value, rise - slope, begin, rise});
+      value = last ? after : right[i];
+      slope = rise;
+    }
+  }
+  // A table of straight pieces; a period repeats it.
+  RoundedProfile(const Curve& curve, double width) : width_(width), period_(curve.period()) {
+    const std::vector<double>&x = curve.x(), &y = curve.y();
+    std::vector<double> left(y.begin(), y.end() - 1), right(y.begin() + 1, y.end());
+    *this = RoundedProfile(x, left, right, y.front(), y.back(), width);
+    period_ = curve.period();
+    if (period_ == 0) return;
+    // The last point is the first again: one knot, and the pieces next to it seen from both sides.
+    knots_.front().kink = knots_.front().slope - (right.back() - left.back()) / (x.back() - x[x.size() - 2]);
+    knots_.pop_back();
+  }
+
+  bool empty() const { return knots_.empty(); }
+  double width() const { return width_; }
+  double greatest() const {
+    double most = std::abs(before_);
+    for (const Knot& k : knots_) most = std::max({most, std::abs(k.value), std::abs(k.value - k.jump)});
+    return most;
+  }
+
+  template <class T>
+  T value(const T& given) const {
+    T d = given;
+    if (period_ > 0) {
+      const double begin = knots_.front().at, here = value_of(given);
+      d = d + (begin + place_within(here - begin, period_) - here);
+    }
+    const double x = value_of(d);
+    const auto next =
+        std::upper_bound(knots_.begin(), knots_.end(), x, [](double a, const Knot& k) { return a < k.at; });
+    T sum = next == knots_.begin() ? T(before_) : (next - 1)->value + (next - 1)->slope * (d - (next - 1)->at);
+    for (auto k = next; k != knots_.begin() && x - (k - 1)->at < width_; --k) sum = sum + rounded(*(k - 1), d, 0);
+    for (auto k = next; k != knots_.end() && k->at - x < width_; ++k) sum = sum + rounded(*k, d, 0);
+    if (period_ > 0) {  // knots of the turn before and after
+      for (auto k = knots_.end(); k != knots_.begin() && x + period_ - (k - 1)->at < width_; --k)
+        sum = sum + rounded(*(k - 1), d, period_);
+      for (auto k = knots_.begin(); k != knots_.end() && k->at + period_ - x < width_; ++k)
+        sum = sum + rounded(*k, d, -period_);
+    }
+    return sum;
+  }
+
+ private:
+  // What rounding adds near a knot, at d + moved.
+  template <class T>
+  T rounded(const Knot& k, const T& d, double moved) const {
+    const T u = (d + (moved - k.at)) / width_;
+    const double side = value_of(u) >= 0 ? 1 : 0;
+    const T s = u * u;
+    const T step = 0.5 + 35.0 / 32 * u * (1 - s * (1 - s * (0.6 - s / 7.0)));
+    const T ramp = 0.5 * u + 35.0 / 32 * s * (0.5 - s * (0.25 - s * (0.1 - s / 56.0))) + 35.0 / 256;
+    return k.jump * (step - side) + (width_ * k.kink) * (ramp - side * u);
+  }
+
+  double before_ = 0, width_ = 0, period_ = 0;
+  std::vector<Knot> knots_;
+};
+
+}  // namespace kurbel

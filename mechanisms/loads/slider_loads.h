@@ -1,0 +1,328 @@
+// slider_loads.h — forces on a mechanism's output, each a page of physics over the output's motion.
+//
+// Written for a slider; on an output that rocks read angle [rad] for position and N·m for N.
+// F is positive along +x, towards the extended end (the greatest x; the folded end is the least). Tables and profiles
+// are given over the distance d to the working end and are positive where they push the slider away from it; d = x_end
+// − x at an extended working end, x − x_end at a folded one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/elements/element.h"
+#include "engine/elements/piece_guard.h"
+#include "engine/numerics/curve.h"
+#include "engine/numerics/dual.h"
+#include "mechanisms/loads/compressor_force.h"
+#include "mechanisms/loads/rounded_profile.h"
+#include "mechanisms/loads/slider_state.h"
+
+namespace kurbel {
+
+// F = F₀
+struct ConstantForce {
+  double force = 0;  // [N]
+  template <class T>
+  T value(const SliderState<T>&) const {
+    return T(force);
+  }
+  bool uses_speed() const { return false; }
+};
+
+// F = −F₀ sgn v; holds the slider at standstill with up to F₀.
+struct OpposingForce {
+  static constexpr bool directional = true;
+  double force = 0;  // [N], ≥ 0
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return T(-force * s.travel);
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>&) const { return {-force, force}; }
+};
+
+// F = −(c v + q v |v|): resistance of the medium.
+struct MediumResistance {
+  double viscous = 0;    // c [N·s/m], ≥ 0
+  double quadratic = 0;  // q [N·s²/m²], ≥ 0
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    using std::abs;
+    return -(viscous + quadratic * abs(s.v)) * s.v;
+  }
+  bool uses_speed() const { return viscous != 0 || quadratic != 0; }
+};
+
+// Straight pieces with jumps between them; numbered as a Curve's.
+struct Profile {
+  std::vector<double> knot;         // ascending [m]
+  std::vector<double> left, right;  // value at the begin and at the end of each inner piece [N]
+
+  int piece(double d) const {
+    return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1;
+  }
+  double piece_begin(int p) const { return p < 0 ? -HUGE_VAL : knot[static_cast<std::size_t>(p)]; }
+  double piece_end(int p) const {
+    return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(p + 1)];
+  }
+  template <class T>
+  T value_in(int p, const T& d) const {
+    if (p < 0 || p + 1 >= static_cast<int>(knot.size())) return T(0.0);
+    const auto i = static_cast<std::size_t>(p);
+    return left[i] + (right[i] - left[i]) / (knot[i + 1] - knot[i]) * (d - knot[i]);
+  }
+  // On a knot, the greater of both sides: an edge is a wall that holds whatever lies in its jump.
+  double greatest_at(double d, double near) const {
+    return std::max(value_in(piece(d - near), d), value_in(piece(d + near), d));
+  }
+};
+
+// A position this near to an edge, over the stroke, lies on it: rounding decides no piece.
+inline constexpr double on_edge = 1e-12;
+
+// The piece after the sense of travel has changed: it stays where it holds to round-off, so that an edge just passed is
+// not passed again.
+template <class Law>
+int piece_kept(const Law& law, const SliderState<double>& s, int pieces) {
+  if (s.mode < -1 || s.mode > pieces) return law.first_mode(s);
+  const double d = law.end.distance(s.x), near = on_edge * law.stroke;
+  const bool holds = d >= law.piece_begin(s) - near && d <= law.piece_end(s) + near;
+  return holds ? s.mode : law.first_mode(s);
+}
+
+// Press force over travel: the nominal force within the last millimetres before the working end, on the working stroke
+// only; then break-through. It resists and never drives, and holds the slider against motion towards the end.
+struct PressForce {
+  static constexpr bool directional = true;
+  WorkingEnd end;
+  Profile profile;  // over the distance to the working end
+  double stroke = 1;
+
+  // nominal force F from d = travel on, reached within `rise`; drops to zero over `drop` from d = breakthrough on.
+  static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough,
+                         double drop) {
+    PressForce press{end, {}, stroke};
+    const auto add = [&](double from, double to, double at_from, double at_to) {
+      if (to <= from) return;
+      if (press.profile.knot.empty()) press.profile.knot.push_back(from);
+      press.profile.knot.push_back(to);
+      press.profile.left.push_back(at_from);
+      press.profile.right.push_back(at_to);
+    };
+    // From the end outwards; beyond the end itself the force just holds.
+    const double inner = breakthrough > 0 ? breakthrough : -stroke;
+    if (breakthrough > 0) add(breakthrough - drop, breakthrough, 0, force);
+    add(inner, travel - rise, force, force);
+    add(travel - rise, travel, force, 0);
+    return press;
+  }
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    if (!end.approached(s.travel)) return T(0.0);
+    return -static_cast<double>(end.side) * profile.value_in(s.mode, end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    const double force = profile.greatest_at(end.distance(s.x), on_edge * stroke);
+    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
+  }
+  double piece_begin(const SliderState<double>& s) const { return profile.piece_begin(s.mode); }
+  double piece_end(const SliderState<double>& s) const { return profile.piece_end(s.mode); }
+  void guard(const SliderState<double>& s, double* g) const {
+    g[0] = g[1] = 1;
+    if (!end.approached(s.travel)) return;
+    g[0] = std::min(1.0, (end.distance(s.x) - piece_begin(s)) / stroke);
+    g[1] = std::min(1.0, (piece_end(s) - end.distance(s.x)) / stroke);
+  }
+  int first_mode(const SliderState<double>& s) const { return profile.piece(end.distance(s.x)); }
+  int turned_mode(const SliderState<double>& s) const {
+    return piece_kept(*this, s, static_cast<int>(profile.knot.size()) - 1);
+  }
+  int next_mode(const SliderState<double>& s, int which) const {
+    return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
+  }
+  std::string mode_name(const SliderState<double>& s) const {
+    const double middle = 0.5 * (profile.piece_begin(s.mode) + profile.piece_end(s.mode));
+    if (!std::isfinite(middle) || profile.value_in(s.mode, middle) == 0) return "load ends";
+    return "load edge";
+  }
+  double greatest() const {
+    return std::max(*std::max_element(profile.left.begin(), profile.left.end()),
+                    *std::max_element(profile.right.begin(), profile.right.end()));
+  }
+};
+
+// Force over travel by table, with a branch of its own for the return stroke where one is given. At standstill it has
+// the value of that branch, and holds what the approaching one resists more, as gas between its valves does: the true
+// force then lies anywhere between the branches.
+struct TravelForce {
+  WorkingEnd end;
+  Curve approach, retreat;  // over the distance to the working end; retreat may be empty
+  double stroke = 1;
+
+  const Curve& branch(int travel) const { return retreat.empty() || end.approached(travel) ? approach : retreat; }
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return -static_cast<double>(end.side) * branch(s.travel).value_in(s.mode, end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    if (retreat.empty()) return {};
+    const double d = end.distance(s.x);
+    const double more = approach.value(d) - retreat.value(d);
+    if (more <= 0) return {};
+    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+  }
+  void guard(const SliderState<double>& s, double* g) const {
+    PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
+  }
+  int first_mode(const SliderState<double>& s) const { return branch(s.travel).piece(end.distance(s.x)); }
+  double piece_begin(const SliderState<double>& s) const { return branch(s.travel).piece_begin(s.mode); }
+  double piece_end(const SliderState<double>& s) const { return branch(s.travel).piece_end(s.mode); }
+  int turned_mode(const SliderState<double>& s) const {
+    return piece_kept(*this, s, static_cast<int>(branch(s.travel).x().size()) - 1);
+  }
+  int next_mode(const SliderState<double>& s, int which) const {
+    return PieceGuard::next(branch(s.travel), s.mode, which);
+  }
+  std::string mode_name(const SliderState<double>&) const { return {}; }
+};
+
+// Force over the crank angle: indicator diagram of a two-stroke (period 360°) or four-stroke (720°) machine.
+struct AngleForce {
+  WorkingEnd end;
+  Curve curve;  // periodic [rad] → [N]
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    const double moved = PieceGuard::near_piece(curve, s.mode, value_of(s.phi)) - value_of(s.phi);
+    return -static_cast<double>(end.side) * curve.value_in(s.mode, s.phi + moved);
+  }
+  bool uses_speed() const { return false; }
+  void guard(const SliderState<double>& s, double* g) const {
+    PieceGuard::guard(curve, s.mode, value_of(s.phi), 1.0, g);
+  }
+  int first_mode(const SliderState<double>& s) const { return PieceGuard::first(curve, s.phi); }
+  int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(curve, s.mode, which); }
+  std::string mode_name(const SliderState<double>&) const { return {}; }
+};
+
+// PressForce with its edges rounded: the effect load_edges is off.
+struct RoundedPressForce {
+  static constexpr bool directional = true;
+  WorkingEnd end;
+  RoundedProfile profile;
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    if (!end.approached(s.travel)) return T(0.0);
+    return -static_cast<double>(end.side) * profile.value(end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    const double force = profile.value(end.distance(s.x));
+    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
+  }
+};
+
+// TravelForce or AngleForce with its edges rounded.
+struct RoundedTableForce {
+  WorkingEnd end;
+  RoundedProfile approach, retreat;  // retreat may be empty
+  double period = 0;                 // > 0: over the crank angle
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    const RoundedProfile& branch = retreat.empty() || end.approached(s.travel) ? approach : retreat;
+    return -static_cast<double>(end.side) * branch.value(period > 0 ? s.phi : end.distance(s.x));
+  }
+  bool uses_speed() const { return false; }
+  Hold hold(const SliderState<double>& s) const {
+    if (retreat.empty()) return {};
+    const double more = approach.value(end.distance(s.x)) - retreat.value(end.distance(s.x));
+    if (more <= 0) return {};
+    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+  }
+};
+
+struct SliderLoad {
+  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
+               RoundedPressForce, RoundedTableForce>
+      law;
+  std::string name;  // "press.load"
+  Account account = Account::useful;
+  double rounding = 0;  // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
+
+  bool can_be_rounded() const;  // straight pieces, and a width is given
+  SliderLoad rounded() const;
+
+  bool depends_on_travel() const {  // on the sign of the slider's speed
+    return std::visit(
+        [](const auto& l) {
+          using L = std::decay_t<decltype(l)>;
+          if constexpr (std::is_same_v<L, TravelForce> || std::is_same_v<L, RoundedTableForce>)
+            return !l.retreat.empty();
+          if constexpr (std::is_same_v<L, CompressorForce>) return true;
+          return Directional<L>;
+        },
+        law);
+  }
+  bool directional() const {
+    return std::visit([](const auto& l) { return Directional<std::decay_t<decltype(l)>>; }, law);
+  }
+  bool uses_speed() const {
+    return std::visit([](const auto& l) { return depends_on_speed(l); }, law);
+  }
+  double period() const {
+    if (const auto* over_angle = std::get_if<AngleForce>(&law)) return over_angle->curve.period();
+    const auto* rounded_table = std::get_if<RoundedTableForce>(&law);
+    return rounded_table ? rounded_table->period : 0;
+  }
+  double greatest_force() const;
+};
+
+inline bool SliderLoad::can_be_rounded() const {
+  if (!(rounding > 0)) return false;
+  if (const auto* l = std::get_if<TravelForce>(&law)) return l->approach.form() == Curve::Form::linear;
+  if (const auto* l = std::get_if<AngleForce>(&law)) return l->curve.form() == Curve::Form::linear;
+  return std::holds_alternative<PressForce>(law);
+}
+
+inline SliderLoad SliderLoad::rounded() const {
+  SliderLoad smooth = *this;
+  if (!can_be_rounded()) return smooth;
+  if (const auto* l = std::get_if<PressForce>(&law)) {
+    smooth.law =
+        RoundedPressForce{l->end, RoundedProfile(l->profile.knot, l->profile.left, l->profile.right, 0, 0, rounding)};
+  } else if (const auto* table = std::get_if<TravelForce>(&law)) {
+    smooth.law =
+        RoundedTableForce{table->end, RoundedProfile(table->approach, rounding),
+                          table->retreat.empty() ? RoundedProfile() : RoundedProfile(table->retreat, rounding)};
+  } else if (const auto* over_angle = std::get_if<AngleForce>(&law)) {
+    smooth.law =
+        RoundedTableForce{over_angle->end, RoundedProfile(over_angle->curve, rounding), {}, over_angle->curve.period()};
+  }
+  return smooth;
+}
+
+inline double SliderLoad::greatest_force() const {
+  struct Greatest {
+    double operator()(const ConstantForce& l) const { return std::abs(l.force); }
+    double operator()(const OpposingForce& l) const { return l.force; }
+    double operator()(const MediumResistance&) const { return 0; }
+    double operator()(const PressForce& l) const { return l.greatest(); }
+    double operator()(const TravelForce& l) const { return std::max(l.approach.max_abs(), l.retreat.max_abs()); }
+    double operator()(const AngleForce& l) const { return l.curve.max_abs(); }
+    double operator()(const CompressorForce& l) const { return l.greatest(); }
+    double operator()(const RoundedPressForce& l) const { return l.profile.greatest(); }
+    double operator()(const RoundedTableForce& l) const {
+      return std::max(l.approach.greatest(), l.retreat.greatest());
+    }
+  };
+  return std::visit(Greatest{}, law);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,115 @@
+// deforming_mechanism.h — a slider-crank with clearance in joints or a flexible rod as an element: its further degrees
+// of freedom are own states that are coupled to the crank by inertia (equations: slider_crank_dynamics.h).
+//     (m₁₁ − m₁₂ m₂₂⁻¹ m₂₁) α = Q₁ − m₁₂ m₂₂⁻¹ Q₂        what the crank's shaft feels
+//     q̈ = m₂₂⁻¹ (Q₂ − m₂₁ α)                            once its acceleration α is known
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/model/model.h"
+#include "mechanisms/reduced/mechanism.h"
+#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+
+namespace kurbel {
+
+class DeformingMechanismMaker final : public MechanismMaker {
+ public:
+  // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
+  explicit DeformingMechanismMaker(Mechanism mechanism);
+
+  const SliderCrankDynamics& dynamics() const { return *dynamics_; }
+
+  bool directional() const override { return false; }
+  double least_inertia() const override { return least_inertia_; }
+  bool uses_speed() const override { return true; }
+  std::vector<OwnState> own_states() const override;
+  std::shared_ptr<ShaftElementMaker> with(const Effects&) const override { return nullptr; }
+  std::string describe() const override;
+  int mode_count() const override;
+  std::vector<std::pair<std::string, Account>> further_accounts() const override;
+  void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
+
+ private:
+  std::shared_ptr<const SliderCrankDynamics> dynamics_;
+  double least_inertia_ = 0;
+};
+
+// Degrees of freedom of a model that mechanisms have besides their cranks.
+std::size_t further_coordinates(const Model& model);
+
+// Modes of a placed one: sign of the slider's speed (or that it creeps), the piece of each load, each contact.
+class DeformingMechanismPool final : public ElementPool {
+ public:
+  void place(Mechanism mechanism, std::shared_ptr<const SliderCrankDynamics> dynamics, const ShaftPorts& at);
+
+  void add(const Instant& now, Sums& sums) const override;
+  bool follows() const override { return true; }
+  void follow(const Instant& now, const double* alpha, double* own_rate) const override;
+  void balance(const Instant& now, const double* alpha, double* own) const override;
+  double further_kinetic_energy(const Instant& now) const override;
+  double kinetic_energy_of_bodies(const Instant& now) const override;
+  double energy(const Instant& now) const override;
+  void register_jacobian(JacobianPattern& pattern) override;
+  void add_jacobian(const Instant& now, const double* alpha, double* slots) const override;
+  int guard_count() const override { return static_cast<int>(owners_.size()); }
+  void guards(const Instant& now, double* g) const override;
+  void fire(const Instant& now, int guard, int* mode) const override;
+  GuardLabel label(int guard, const Instant& now) const override;
+  void first_modes(const Instant& now, int* mode) const override;
+  bool regularise(int guard, int* mode) const override;
+  void first_states(const Instant& now, double* own) const override;
+  void add_channels(std::vector<Channel>& channels) const override;
+
+ private:
+  using Motion = SliderCrankMotion<double>;
+  using Vector = SliderCrankDynamics::Vector;
+  struct Placed {
+    Mechanism mechanism;
+    std::shared_ptr<const SliderCrankDynamics> dynamics;
+    ShaftPorts at;
+    bool watches_travel = false;       // some load depends on the direction of travel
+    std::vector<int> own_slot = {};    // per free coordinate but φ, and input: of its rate's rate
+    std::vector<int> shaft_slot = {};  // per input
+    std::vector<int> rate_slot = {}, follower_slot = {};
+
+    std::size_t further() const { return dynamics->free().size() - 1; }
+    std::size_t inputs() const { return 2 * dynamics->free().size(); }
+    int contact_mode() const { return at.mode + 1 + static_cast<int>(mechanism.loads.size()); }
+    int contact_account() const { return at.account + 1 + static_cast<int>(mechanism.loads.size()); }
+    int rod_account() const { return contact_account() + (mechanism.clearances.empty() ? 0 : 1); }
+  };
+  struct GuardOwner {
+    enum class Kind { travel, load, contact } kind;
+    std::size_t placed;
+    std::size_t index;  // of the load or contact
+    int which;
+  };
+  struct Solved {
+    double inertia, torque;  // felt by the crank
+    Vector free, by_alpha;   // accelerations of the further coordinates at α = 0, and what α takes from them
+  };
+  // Places of the k-th further coordinate and of its rate among all own states.
+  static int at_own(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(k); }
+  static int at_rate(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(p.further() + k); }
+  Vector coordinates(const Placed& p, const Instant& now) const;
+  Vector rates(const Placed& p, const Instant& now) const;
+  Motion motion(const Placed& p, const Instant& now) const;
+  Vector acceleration(const Placed& p, const Snapshot& s) const;
+  Vector reactions(const Placed& p, const Snapshot& s) const;
+  template <class T>
+  SliderState<T> slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
+  static double creep_speed(const Placed& p);  // [m/s]
+  template <class T>
+  T force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
+  template <class T>
+  T load_force(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m) const;
+  Solved solve(const Placed& p, const Instant& now, const Motion& m) const;
+  void add_work(const Placed& p, const Instant& now, const Motion& m, double* work_rate) const;
+
+  std::vector<Placed> placed_;
+  std::vector<GuardOwner> owners_;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,154 @@
+// mechanism.h — a mechanism of one degree of freedom as an element: variable inertia, weight and the loads on its
+// output reduced to its crank.
+//     M = −½ I_r′ ω² + M_g(φ) + Σ F x′(φ),   and I_r(φ) adds to the shaft's inertia            (theory 2.1, 2.2, 2.4)
+// The output slides (x [m], loads in N) or rocks (x is its angle [rad], loads in N·m).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model/network.h"
+#include "mechanisms/loads/slider_loads.h"
+#include "mechanisms/reduced/reduced_mechanism.h"
+#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
+
+namespace kurbel {
+
+// What a turn of the crank does, read off the tables.
+struct TravelOfTurn {
+  double least = 0, greatest = 0;              // of the output's position [m] or [rad]
+  std::vector<double> reversals;               // crank angles where the output turns round, ascending [rad]
+  double mean_inertia = 0, least_inertia = 0;  // of I_r [kg·m²]
+};
+TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);
+
+struct Mechanism {
+  // Extracts the tables and finds the ends of the output's travel. Throws as make_bodies and MechanismBodies do.
+  Mechanism(std::string component, const MechanismData& what, Extraction from = Extraction::first);
+
+  std::string name;
+  MechanismData data;
+  Extraction extraction = Extraction::first;
+  std::shared_ptr<const ReducedMechanism> reduced;
+  std::shared_ptr<MechanismBodies> bodies;  // for the independent kinetic energy
+  TravelOfTurn travel;
+  std::vector<SliderLoad> loads;
+  double phase = 0;                                  // added to the shaft's angle [rad]
+  std::shared_ptr<const SliderCrankStatics> joints;  // of a slider-crank whose joints have friction; else null
+  bool joint_friction = false;                       // is an effect that is on
+  bool weightless = false;                           // the effect gravity is off
+  bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
+  bool in_the_loop = false;                          // its bodies are evaluated at every step: the effect multibody
+  std::vector<JointClearance> clearances = {};       // of a slider-crank, as the scene gives them
+  std::optional<RodFlexibility> flexibility = {};    // of its rod
+
+  bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
+  bool has_weight() const;
+  double stroke() const { return travel.greatest - travel.least; }
+  double output_scale() const { return 0.5 * stroke(); }  // of x′
+
+  // The same with its tables, its travel and the ends that its loads count from taken from there.
+  Mechanism extracted_from(Extraction from) const;
+};
+
+// A network with all its mechanisms extracted from there: to be compiled for a run that confirms another,
+//     compile_network(extracted_from(build_network(scene), Extraction::second), scene, effects)
+// has the same coordinates, states, modes, channels and figures as compile(scene, effects), and no error of tables in
+// common. Costs 1 … 20 ms a mechanism, once for equal data.
+Network extracted_from(Network network, Extraction from);
+
+// Some mechanism works from tables; without, a second extraction would confirm nothing.
+bool has_tables(const Network& network);
+
+class MechanismMaker : public ShaftElementMaker {
+ public:
+  explicit MechanismMaker(Mechanism mechanism) : mechanism_(std::move(mechanism)) {}
+  const Mechanism& mechanism() const { return mechanism_; }
+
+  bool uses_angle() const override { return true; }
+  bool directional() const override;
+  Rated rated() const override;
+  Account account() const override { return Account::weight; }
+  double mean_inertia() const override { return mechanism_.travel.mean_inertia; }
+  double least_inertia() const override { return mechanism_.travel.least_inertia; }
+  double cycle() const override;
+  InertiaAt inertia_at(double angle) const override {
+    if (mechanism_.mean_inertia) return {mechanism_.travel.mean_inertia, 0};
+    const auto [value, slope] = mechanism_.reduced->inertia(angle);
+    return {value, slope};
+  }
+  double angle_period() const override { return cycle(); }
+  bool uses_time() const override { return false; }
+  bool uses_speed() const override;
+  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const override;
+  std::string describe() const override;
+  int mode_count() const override { return 1 + static_cast<int>(mechanism_.loads.size()); }
+  std::vector<std::pair<std::string, Account>> further_accounts() const override;
+  void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
+
+ private:
+  Mechanism mechanism_;
+};
+
+// Modes of a placed mechanism: the sign of x′ first, then the piece of each load.
+class MechanismPool final : public ElementPool {
+ public:
+  void place(Mechanism mechanism, ShaftPorts at);
+
+  void add(const Instant& now, Sums& sums) const override;
+  void register_jacobian(JacobianPattern& pattern) override;
+  void add_jacobian(const Instant& now, const double* alpha, double* slots) const override;
+  bool reacts() const override { return reacts_; }
+  std::unique_ptr<Memory> make_memory() const override;
+  void add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const override;
+  int guard_count() const override { return guards_; }
+  bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
+  void guards(const Instant& now, double* g) const override;
+  void fire(const Instant& now, int guard, int* mode) const override;
+  GuardLabel label(int guard, const Instant& now) const override;
+  void first_modes(const Instant& now, int* mode) const override;
+  void follow_directions(const Instant& now, int* mode) const override;
+  void add_holds(const Instant& now, Hold* shaft, Hold* element) const override;
+  double kinetic_energy_of_bodies(const Instant& now) const override;
+  void add_channels(std::vector<Channel>& channels) const override;
+
+ private:
+  struct Placed {
+    Mechanism mechanism;
+    ShaftPorts at;
+    int slot_angle = 0, slot_rate = 0;
+    bool has_weight = false;
+    double output_scale = 1;
+    bool watches_travel = false;  // some load depends on the direction of travel
+  };
+  struct GuardOwner {
+    std::size_t placed;
+    int load;  // −1: the sign of x′
+    int which;
+  };
+  // What acts at an angle: from the tables, or from the bodies.
+  struct Reduced {
+    double inertia, inertia_slope, position, ratio, weight;
+  };
+  static Reduced reduced_at(const Placed& p, double phi);
+  SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
+  double load_force(const Placed& p, const Instant& now) const;
+  double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
+  struct FrictionMemory;
+  static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state,
+                                                            SliderCrankStatics::Memory* memory);
+  CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
+  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
+  Hold load_hold(const Placed& p, const Instant& now) const;
+  Hold friction_hold(const Placed& p, const Instant& now) const;
+
+  std::vector<Placed> placed_;
+  std::vector<GuardOwner> owners_;
+  int guards_ = 0;
+  bool reacts_ = false;
+};
+
+}  // namespace kurbel

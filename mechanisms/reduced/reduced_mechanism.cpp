@@ -1,0 +1,155 @@
+// reduced_mechanism.cpp — tabulates the reduced functions of a mechanism and keeps the tables that were made.
+#include "mechanisms/reduced/reduced_mechanism.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "engine/numerics/deadline.h"
+#include "mechanisms/reduced/closed_forms.h"
+
+namespace kurbel {
+
+namespace {
+
+std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& noise) {
+  using enum ErrorScale;
+  return {{"inertia", own_value, 10 * noise.inertia},
+          {"inertia_slope", own_maximum, noise.inertia},
+          {"inertia_curvature", own_maximum, noise.inertia},
+          {"output_position", own_maximum, 0},
+          {"output_velocity_ratio", own_maximum, 0},
+          {"output_acceleration_ratio", own_maximum, 0},
+          {"gravity_torque", own_maximum, noise.gravity_torque},
+          {"gravity_torque_slope", own_maximum, noise.gravity_torque}};
+}
+
+void write_channels(const ReducedSample& sample, std::span<double> values) {
+  using enum ReducedMechanism::Channel;
+  values[inertia_channel] = sample.inertia;
+  values[inertia_slope] = sample.inertia_slope;
+  values[inertia_curvature] = sample.inertia_curvature;
+  values[output_position_channel] = sample.output_position;
+  values[output_velocity_ratio] = sample.output_velocity_ratio;
+  values[output_acceleration_ratio] = sample.output_acceleration_ratio;
+  values[gravity_torque_channel] = sample.gravity_torque;
+  values[gravity_torque_slope] = sample.gravity_torque_slope;
+}
+
+// Rounding leaves 1e-16 of the inertia in I_r′ and of the weights' torques in M_g even where these vanish identically
+// (masses balanced, weights carried by the guide).
+ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler) {
+  constexpr int n = 16;
+  ReducedMechanism::NoiseScales noise;
+  for (int i = 0; i < n; ++i) {
+    const ReducedSample sample = sampler(PeriodicTable::period * (i + 0.5) / n);
+    noise.inertia += 1e-4 * sample.inertia / n;
+    noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
+  }
+  return noise;
+}
+
+using CacheKey = std::vector<double>;
+
+CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_pieces, Extraction extraction) {
+  CacheKey key = std::visit([](const auto& d) { return values_of(d); }, data);
+  key.insert(key.end(), {static_cast<double>(data.index()), tolerance, static_cast<double>(max_pieces),
+                         static_cast<double>(extraction)});
+  return key;
+}
+
+// Tables that were asked for lately. Each is made once, without a lock: who asks for another one does not wait.
+class TableCache {
+ public:
+  using Table = std::shared_ptr<const ReducedMechanism>;
+
+  template <class Make>
+  Table get(const CacheKey& key, const Make& make) {
+    std::unique_lock lock(mutex_);
+    for (; in_work_.count(key); Deadline::check()) done_.wait_for(lock, std::chrono::milliseconds(20));
+    if (const auto found = entries_.find(key); found != entries_.end()) {
+      found->second.asked = ++asked_;
+      return found->second.table;
+    }
+    in_work_.insert(key);
+    lock.unlock();
+    Table table;
+    try {
+      table = make();
+    } catch (...) {  // whoever waited tries it, too
+      finish(key, nullptr);
+      throw;
+    }
+    finish(key, table);
+    return table;
+  }
+
+ private:
+  struct Entry {
+    Table table;
+    std::uint64_t asked;
+  };
+
+  void finish(const CacheKey& key, Table table) {
+    const std::scoped_lock lock(mutex_);
+    in_work_.erase(key);
+    if (table) {
+      const auto longest_ago = [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; };
+      if (entries_.size() >= capacity) entries_.erase(std::min_element(entries_.begin(), entries_.end(), longest_ago));
+      entries_[key] = {std::move(table), ++asked_};
+    }
+    done_.notify_all();
+  }
+
+  static constexpr std::size_t capacity = 256;  // a table is 20 kB … 1 MB
+  std::mutex mutex_;
+  std::condition_variable done_;
+  std::map<CacheKey, Entry> entries_;
+  std::set<CacheKey> in_work_;
+  std::uint64_t asked_ = 0;
+};
+
+std::atomic<bool> rough_tables{false};
+constexpr double rough_tolerance = 1e-3;
+constexpr std::size_t rough_pieces = 16;
+
+}  // namespace
+
+void take_rough_tables(bool rough) { rough_tables = rough; }
+
+ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
+                                   double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut)
+    : table_(PeriodicTable::build([&](double phi, std::span<double> values) { write_channels(sampler(phi), values); },
+                                  channel_specs(noise), tolerance, max_pieces, cut)) {}
+
+ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
+                                   Extraction extraction) {
+  const std::unique_ptr<MechanismBodies> bodies = make_bodies(data);  // finds the data's faults in either case
+  const bool first = extraction == Extraction::first;
+  const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
+  return ReducedMechanism(sampler, noise_scales(sampler), first ? tolerance : second_tolerance * tolerance, max_pieces,
+                          first ? PeriodicTable::Cut() : second_cut);
+}
+
+std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,
+                                                         std::size_t max_pieces, Extraction extraction) {
+  if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::second;
+  const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
+  for (const double value : key)
+    if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key
+  static TableCache cache;
+  return cache.get(key, [&] {
+    return std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces, extraction));
+  });
+}
+
+}  // namespace kurbel

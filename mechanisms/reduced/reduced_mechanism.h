@@ -1,0 +1,109 @@
+// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody,
+// or, for runs that confirm others, from the loop equations in closed form.
+//
+// Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
+// digits.
+//     M_d − M_c = I_r ε + ½ ω² I_r′ (theory 2.4)        power of a force F on the output: F x′ ω
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "mechanisms/reduced/extraction.h"
+#include "mechanisms/reduced/mechanism_data.h"
+#include "mechanisms/reduced/periodic_table.h"
+
+namespace kurbel {
+
+class ReducedMechanism {
+ public:
+  enum Channel : std::size_t {
+    inertia_channel,            // I_r [kg·m²]
+    inertia_slope,              // I_r′ [kg·m²/rad]
+    inertia_curvature,          // I_r″ [kg·m²/rad²]
+    output_position_channel,    // x [m], or ψ [rad] of an output that rocks; so with the next two
+    output_velocity_ratio,      // x′ [m/rad]
+    output_acceleration_ratio,  // x″ [m/rad²]
+    gravity_torque_channel,     // M_g [N·m], positive when it drives
+    gravity_torque_slope,       // M_g′ [N·m/rad]
+    channel_count
+  };
+
+  // Magnitudes that mark a channel as rounding noise: a channel smaller than these is tabulated relative to them.
+  struct NoiseScales {
+    double inertia = 0;  // for I_r′ and I_r″; ten times it for I_r, which may vanish in a dead centre [kg·m²]
+    double gravity_torque = 0;  // for M_g and M_g′ [N·m]
+  };
+
+  // The mechanism at one angle; each pair costs two polynomials.
+  class At {
+   public:
+    At(const PeriodicTable& table, double phi) : cursor_(table.locate(phi)) {}
+    double value(Channel channel) const { return PeriodicTable::value(cursor_, channel); }
+    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                  // I_r, I_r′
+    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }         // I_r′, I_r″
+    ValueAndSlope<double> output_position() const { return pair(output_position_channel); }  // x, x′
+    ValueAndSlope<double> output_velocity() const { return pair(output_velocity_ratio); }    // x′, x″
+    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }    // M_g, M_g′
+
+   private:
+    ValueAndSlope<double> pair(std::size_t first) const {
+      return {PeriodicTable::value(cursor_, first), PeriodicTable::value(cursor_, first + 1)};
+    }
+    PeriodicTable::Cursor cursor_;
+  };
+
+  // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report().
+  ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
+                   std::size_t max_pieces, const PeriodicTable::Cut& cut = {});
+
+  At at(double phi) const { return At(table_, phi); }
+  ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
+  ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
+  ValueAndSlope<double> output_position(double phi) const { return at(phi).output_position(); }
+  ValueAndSlope<double> output_velocity(double phi) const { return at(phi).output_velocity(); }
+  ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
+
+  double mean(Channel channel) const { return table_.mean(channel); }
+
+  // Pieces, samples and the measured error of every channel.
+  const TableReport& report() const { return table_.report(); }
+
+ private:
+  PeriodicTable table_;
+};
+
+// Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what
+// may lie between the check points.
+inline constexpr double table_tolerance = 0.5e-12;
+inline constexpr std::size_t table_max_pieces = 4096;
+
+// Simbody's model of any mechanism. Throws std::invalid_argument for data outside its domain.
+inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) {
+  return std::visit([](const auto& d) { return make_bodies(d); }, data);
+}
+
+// The second extraction: no seam is one of the first's, the polynomials are of another degree, and its errors so far
+// below the first's that the difference of two runs is the first's.
+inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};
+inline constexpr double second_tolerance = 0.04;  // of the first's
+
+// A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs a sample), the second from
+// the closed forms (closed_forms.h, 1 … 3 µs a sample) with seams and polynomials of its own, so that the two have no
+// error in common. Kept for the life of the process and shared by all who ask with equal data. Throws as make_bodies
+// and MechanismBodies do. Safe to call from several threads.
+std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
+                                                         std::size_t max_pieces = table_max_pieces,
+                                                         Extraction extraction = Extraction::first);
+
+// For programs that compile scenes by the thousand and run none of them: tables of a few pieces of the closed forms in
+// place of all that are asked for, until told otherwise. For the whole process.
+void take_rough_tables(bool rough);
+
+// The same, always extracted afresh.
+ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance = table_tolerance,
+                                   std::size_t max_pieces = table_max_pieces,
+                                   Extraction extraction = Extraction::first);
+
+}  // namespace kurbel

@@ -1,0 +1,93 @@
+// joint_contact.h — the contact of two surfaces in a joint with clearance: a force over depth and approach speed.
+//
+//     N = k c (δ/c)ⁿ (1 + λ δ̇), never less than 0        δ depth > 0, c the joint's gap       (Hunt and Crossley,
+//     T = μ N tanh(v_t/v₀)                               v_t speed of sliding                 J. Appl. Mech. 42, 1975)
+// k is the stiffness at the depth c, so that it is N/m for every n (Hertz: n = 3/2, a line of contact: n = 1).
+// In a normal impact of speed v in and v′ out, both > 0, whatever n, k and the mass:
+//     λ v − ln(1 + λ v) = −λ v′ − ln(1 − λ v′)                                                                     (1)
+// Modes: in flight, touching, parting (they leave each other faster than the force could follow: no pulling).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+struct JointContact {
+  enum Mode : int { flight = 0, touching = 1, parting = 2, without_events = 3 };
+  static constexpr int guards = 2;
+  double gap = 0;             // c [m], > 0
+  double stiffness = 0;       // k [N/m], > 0
+  double exponent = 1.5;      // n, ≥ 1
+  double damping = 0;         // λ [s/m], ≥ 0
+  double friction = 0;        // μ, ≥ 0
+  double friction_speed = 0;  // v₀ [m/s], > 0 where μ > 0
+
+  // k c (δ/c)ⁿ
+  template <class T>
+  T elastic(const T& depth) const {
+    if (exponent == 1) return stiffness * depth;
+    if (value_of(depth) <= 0) return T(0.0);
+    using std::pow;
+    return stiffness * gap * pow(depth / gap, exponent);
+  }
+  template <class T>
+  T normal(int mode, const T& depth, const T& rate) const {
+    if (mode == without_events) mode = value_of(depth) > 0 && 1 + damping * value_of(rate) > 0 ? touching : flight;
+    if (mode != touching) return T(0.0);
+    return elastic(depth) * (1.0 + damping * rate);
+  }
+  template <class T>
+  T tangential(const T& normal, const T& sliding) const {
+    if (friction == 0) return T(0.0);
+    using std::tanh;
+    return friction * normal * tanh(sliding / friction_speed);
+  }
+  double stored(int mode, double depth) const {
+    return mode == flight || depth <= 0 ? 0 : elastic(depth) * depth / (exponent + 1);
+  }
+
+  int first_mode(double depth, double rate) const {
+    if (depth <= 0) return flight;
+    return 1 + damping * rate < 0 ? parting : touching;
+  }
+  void guard(int mode, double depth, double rate, double* g) const {
+    g[0] = g[1] = 1;
+    if (mode == without_events) return;
+    g[0] = mode == flight ? -depth / gap : depth / gap;
+    if (mode != flight && damping > 0) g[1] = mode == touching ? 1 + damping * rate : -(1 + damping * rate);
+  }
+  int next_mode(int mode, int which) const {
+    if (mode == flight) return touching;
+    if (which == 0) return flight;
+    return mode == touching ? parting : touching;
+  }
+
+  // v′ of (1) by Newton's method, which comes from one side as the right hand side is convex.
+  double rebound(double speed) const {
+    const double wanted = damping * speed - std::log1p(damping * speed);
+    const auto out = [](double u) { return -u - std::log1p(-u); };
+    double u = std::min(damping * speed, 1 - 1e-12);
+    for (int i = 0; i < 200; ++i) {
+      const double next = u - (out(u) - wanted) * (1 - u) / std::max(u, 1e-300);
+      if (!(next < u) || next <= 0) break;
+      u = next;
+    }
+    return damping > 0 ? u / damping : speed;
+  }
+  // λ for v′ = e v at the speed v: (1) over λ v, by bisection.
+  static double damping_for(double restitution, double speed) {
+    if (restitution >= 1) return 0;
+    const auto surplus = [&](double u) { return u - std::log1p(u) + restitution * u + std::log1p(-restitution * u); };
+    double low = 0, high = 1 / std::max(restitution, 1e-9) * (1 - 1e-15);
+    for (int i = 0; i < 200; ++i) {
+      const double middle = 0.5 * (low + high);
+      (surplus(middle) > 0 ? low : high) = middle;
+    }
+    return 0.5 * (low + high) / speed;
+  }
+};
+
+}  // namespace kurbel

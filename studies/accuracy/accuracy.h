@@ -1,0 +1,96 @@
+// accuracy.h — what accuracy costs: error bought per second, over integrators, tolerances and levels of modelling.
+//
+// Every level of the model gets a reference by two independent methods at the tightest tolerance; what they differ by
+// is the least error that is ever stated. Then each method climbs the ladder of tolerances.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace kurbel {
+
+struct AccuracyOptions {
+  std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+  std::vector<std::string> methods = {};  // of the reduced model; empty: all that apply
+  bool multibody = true;
+  std::string figure = {};            // the one that questions are about; empty: the first
+  std::optional<double> within = {};  // "how cheap is an error of at most this?" relative, against the fullest model
+  std::optional<double> budget = {};  // "how exact is what this much processor time buys?" [s]
+  double time = 60;                   // processor time that the whole study may take, about [s]
+  int most_repetitions = 9;
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress = {};
+  std::function<void(const std::string&)> log = {};
+};
+
+// A figure whose error is followed; all errors of figures are relative to the reference's value.
+struct FollowedFigure {
+  std::string name, unit;
+};
+
+// One level of modelling with its converged answer.
+struct ModelLevel {
+  std::string name = {};     // "energy method", "rigid", "elastic: main_coupling", "elastic", "multibody"
+  std::string effects = {};  // of the model
+  std::size_t coordinates = 0;
+  std::string first = {}, second = {};  // methods of the reference
+  double tolerance = 0;                 // of both
+  double agreement = 0;                 // of the two trajectories, over scales: no error below it is told from it
+  std::vector<double> value = {},
+                      floor = {};  // per followed figure; NaN: the level does not yield it. floor: relative agreement
+  std::vector<double> model_error = {};  // per followed figure: reference against that of the fullest level
+};
+
+// One method at one tolerance on one level.
+struct MeasuredSetting {
+  std::size_t level = 0;
+  std::string method;
+  double tolerance = 0;                 // 0: the method has none
+  double trajectory_error = 0;          // largest of angles [rad], speeds and twists over their own largest value
+  std::vector<double> numerical_error;  // per followed figure, against the level's reference; at least its floor
+  std::vector<double> total_error;      // against the fullest model
+  double seconds = 0, fastest = 0, slowest = 0;  // processor time: median and spread
+  int repetitions = 0;
+  std::int64_t steps = 0, rejected = 0, flow_calls = 0, jacobian_calls = 0, events = 0;
+  double energy_drift = 0;      // residual of the energy balance over the energy turned over
+  bool on_level_front = false;  // no setting of the level has a smaller trajectory error in less time
+  bool on_front = false;        // no setting at all has a smaller total error in the key figure in less time
+};
+
+struct Omission {
+  std::string what, why;
+};
+
+struct AccuracyStudy {
+  std::string title, scene_file, scene_text;
+  std::vector<FollowedFigure> figures;
+  std::size_t key = 0;             // of the figures
+  std::vector<ModelLevel> levels;  // cheap ones first; `fullest` is the one that the others are judged by
+  std::size_t fullest = 0;
+  std::vector<MeasuredSetting> settings;
+  std::vector<Omission> omissions;
+  std::vector<std::string> findings;  // sentences from the data; the first is the conclusion
+  std::vector<std::string> answers;   // to --within and --budget
+  double seconds = 0;                 // of the whole study
+  bool complete = true;
+  std::string diagnosis;
+
+  std::string name_of(const MeasuredSetting& s) const;  // "elastic, esdirk at 1e-05"
+};
+
+// Throws SceneError where the scene makes no machine, std::invalid_argument where the question names no figure of it.
+AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& options);
+
+// What the settings say: fronts, findings, answers. Part of measure_accuracy().
+void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options);
+
+// Places of the settings that no other beats in both error (by more than a tenth) and time, cheapest first.
+std::vector<std::size_t> pareto_front(const std::vector<double>& error, const std::vector<double>& seconds);
+
+}  // namespace kurbel

@@ -1,0 +1,278 @@
+// advise.cpp — screens order the effects by how little they seem to matter; runs decide.
+#include "studies/advise/advise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+
+#include "engine/scene/units.h"
+#include "studies/advise/advise_screens.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t tried_completely = 5;  // units: 2⁵ sets are run one and all
+constexpr double held_out_step = 0.2;        // loads and speeds ± 20 %
+
+// A set that leaves out less than its cost's noise is no gain.
+constexpr double same_time = 0.97;
+
+class Adviser {
+ public:
+  Adviser(const Scene& scene, const AdviseOptions& options) : scene_(scene), options_(options) {
+    simulate_ = options.simulate;
+    simulate_.progress = {};
+    simulate_.traces = false;
+  }
+
+  Advice run() {
+    a_.title = scene_.title.empty() ? scene_.file : scene_.title;
+    a_.scene_file = scene_.file;
+    a_.scene_text = scene_.text;
+    a_.tolerance = options_.within;
+    a_.figures = options_.figures;
+    a_.units = effect_units(scene_);
+    if (a_.units.empty())
+      throw std::invalid_argument("this scene has parameters for no effect, so there is nothing to choose between");
+    say("all effects", 0);
+    const EffectSet all(a_.units.size(), true);
+    a_.full = simulate(scene_, effects_of(scene_, a_.units, all), "full", simulate_);
+    a_.tried.push_back(
+        {all, describe(a_.units, all), 0, "", a_.full.statistics.cpu_seconds, size_of(*a_.full.model), true, ""});
+    if (!a_.full.complete) {
+      a_.complete = false;
+      a_.conclusion = "The full model did not run to the end: " + a_.full.diagnosis;
+      return std::move(a_);
+    }
+    check_figures();
+    a_.screens = screens_of(scene_, a_.units, a_.full, options_.within);
+    if (a_.units.size() <= tried_completely)
+      try_all();
+    else
+      try_greedily();
+    choose();
+    hold_out();
+    conclude();
+    return std::move(a_);
+  }
+
+ private:
+  void say(const std::string& what, double part) const {
+    if (options_.simulate.progress) options_.simulate.progress(what, part);
+  }
+  void check_figures() const {
+    for (const std::string& name : options_.figures) {
+      const bool known = std::any_of(a_.full.figures.begin(), a_.full.figures.end(),
+                                     [&](const Figure& f) { return f.name == name || f.name.starts_with(name + "."); });
+      if (known) continue;
+      std::vector<std::string> names;
+      for (const Figure& f : a_.full.figures) names.push_back(f.name);
+      throw std::invalid_argument(
+          fmt::format("--figures: no figure \"{}\"{}; see kurbel figures", name, suggestion(name, names)));
+    }
+  }
+
+  // --- runs ---
+  const TriedSet& try_set(const EffectSet& on) {
+    const auto known = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == on; });
+    if (known != a_.tried.end()) return *known;
+    TriedSet set{.on = on, .words = describe(a_.units, on)};
+    say("with " + set.words, progress());
+    try {
+      const Result r = simulate(scene_, effects_of(scene_, a_.units, on), set.words, simulate_);
+      set.size = size_of(*r.model);
+      set.cpu_seconds = r.statistics.cpu_seconds;
+      if (!r.complete) set.refused = r.diagnosis;
+      judge(a_.full, r, options_.figures, set.deviation, set.figure);
+    } catch (const SceneError& error) {
+      set.refused = error.what();
+    }
+    set.within = set.refused.empty() && set.deviation <= options_.within;
+    a_.tried.push_back(std::move(set));
+    return a_.tried.back();
+  }
+  static void judge(const Result& full, const Result& other, const std::vector<std::string>& figures, double& deviation,
+                    std::string& where) {
+    const std::vector<FigureChange> changes = changes_between(full, other, figures);
+    if (changes.empty()) return;
+    deviation = changes.front().relative;
+    where = changes.front().figure;
+    // A figure of the full model that the other does not have counts as lost, unless nobody asked for it.
+    if (figures.empty()) return;
+    for (const Figure& f : full.figures)
+      for (const std::string& name : figures)
+        if ((f.name == name || f.name.starts_with(name + ".")) && !other.find(f.name))
+          deviation = HUGE_VAL, where = f.name;
+  }
+  double progress() const {
+    const auto n = static_cast<double>(a_.tried.size());
+    return n / (n + 8);
+  }
+  void try_all() {
+    const std::size_t n = a_.units.size();
+    for (std::size_t bits = 0; bits + 1 < (std::size_t{1} << n); ++bits) {
+      EffectSet on(n);
+      for (std::size_t k = 0; k < n; ++k) on[k] = (bits >> k) & 1;
+      try_set(on);
+    }
+  }
+  // Leaves out what the screens think least of, then what runs show to matter least, as long as a set stays within.
+  void try_greedily() {
+    const std::size_t n = a_.units.size();
+    EffectSet on(n, true);
+    try_set(EffectSet(n, false));
+    std::vector<std::pair<double, std::size_t>> alone;
+    for (std::size_t k = 0; k < n; ++k) {
+      EffectSet without(n, true);
+      without[k] = false;
+      const TriedSet& t = try_set(without);
+      alone.emplace_back(t.refused.empty() ? t.deviation : HUGE_VAL, k);
+    }
+    std::stable_sort(alone.begin(), alone.end());
+    for (const auto& [deviation, k] : alone) {
+      if (deviation > options_.within) continue;
+      on[k] = false;
+      if (!try_set(on).within) on[k] = true;
+    }
+  }
+  void choose() {
+    for (std::size_t i = 1; i < a_.tried.size(); ++i) {
+      const TriedSet &t = a_.tried[i], &best = a_.tried[a_.chosen];
+      if (!t.within) continue;
+      const auto count = [](const TriedSet& s) { return std::count(s.on.begin(), s.on.end(), true); };
+      const bool cheaper = t.cpu_seconds < same_time * best.cpu_seconds;
+      const bool leaner = t.cpu_seconds < best.cpu_seconds / same_time && count(t) < count(best);
+      if (cheaper || leaner) a_.chosen = i;
+    }
+    refuse_to_drop();
+    for (std::size_t k = 0; k < a_.units.size(); ++k) a_.kept_because.push_back(reason(k));
+  }
+  // Where a screen expects an effect to matter and the run says it does not, the effect stays.
+  void refuse_to_drop() {
+    EffectSet on = a_.tried[a_.chosen].on;
+    bool changed = false;
+    std::vector<std::string> doubts;
+    for (std::size_t k = 0; k < on.size(); ++k) {
+      if (on[k] || a_.screens[k].empty()) continue;
+      const bool all_expect =
+          std::all_of(a_.screens[k].begin(), a_.screens[k].end(), [](const Screen& s) { return s.needed; });
+      if (!all_expect) continue;
+      EffectSet without(on.size(), true);
+      without[k] = false;
+      const TriedSet& alone = try_set(without);
+      // A deviation that is small beside the tolerance settles the matter; one near it does not.
+      if (alone.refused.empty() && alone.deviation < 0.2 * options_.within) continue;
+      on[k] = changed = true;
+      kept_by_screens_.push_back(k);
+      doubts.push_back(fmt::format("{}: the screens expect it to matter ({}), the run found {:.2g} %",
+                                   a_.units[k].words, a_.screens[k].front().verdict, 100 * alone.deviation));
+    }
+    if (!changed) return;
+    const TriedSet& safer = try_set(on);
+    const bool stays = safer.within;
+    if (stays) a_.chosen = static_cast<std::size_t>(&safer - a_.tried.data());
+    if (!stays) kept_by_screens_.clear();
+    for (const std::string& doubt : doubts)
+      a_.warnings.push_back(doubt + (stays ? ": it stays" : "; the set with it was run and is not within: it goes"));
+  }
+  std::string reason(std::size_t k) const {
+    const TriedSet& chosen = a_.tried[a_.chosen];
+    EffectSet other = chosen.on;
+    other[k] = !other[k];
+    const auto found = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
+    if (!chosen.on[k]) return "goes: the set without it was run and stays within";
+    if (std::count(kept_by_screens_.begin(), kept_by_screens_.end(), k))
+      return "stays: the screens expect it to matter, and no run settles that it does not";
+    if (found == a_.tried.end()) {  // the greedy search left it on after running everything but it
+      other.assign(chosen.on.size(), true);
+      other[k] = false;
+      const auto alone =
+          std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
+      if (alone == a_.tried.end()) return "stays: no set without it was run";
+      return !alone->refused.empty() ? "stays: the full model does not run without it"
+                                     : fmt::format("stays: the full model without it is {:.2g} % off in {}",
+                                                   100 * alone->deviation, alone->figure);
+    }
+    if (!found->refused.empty()) return "stays: the machine does not run without it";
+    return found->within ? "stays: leaving it out saves no time"
+                         : fmt::format("stays: without it {} is {:.2g} % off", found->figure, 100 * found->deviation);
+  }
+
+  // --- points that took no part in the choice ---
+  void hold_out() {
+    if (!options_.held_out || a_.chosen == 0) return;
+    const EffectSet& on = a_.tried[a_.chosen].on;
+    if (!options_.figures.empty()) {
+      const Result lean = simulate(scene_, effects_of(scene_, a_.units, on), "lean", simulate_);
+      HeldOut h{.what = "all other telling figures"};
+      judge(a_.full, lean, {}, h.deviation, h.figure);
+      h.within = h.deviation <= options_.within;
+      a_.held_out.push_back(h);
+    }
+    const std::pair<const char*, std::string (*)(Scene&, double)> ways[] = {{"loads", scale_loads},
+                                                                            {"speeds", scale_speeds}};
+    for (const auto& [name, scale] : ways)
+      for (const double step : {held_out_step, -held_out_step}) {
+        Scene scene = scene_;
+        const std::string changed = scale(scene, 1 + step);
+        if (changed.empty()) break;
+        HeldOut h{.what = fmt::format("{} {:+.0f} % ({})", name, 100 * step, changed)};
+        say(h.what, progress());
+        try {
+          const Result full =
+              simulate(scene, effects_of(scene, a_.units, EffectSet(on.size(), true)), "full", simulate_);
+          const Result lean = simulate(scene, effects_of(scene, a_.units, on), "lean", simulate_);
+          if (!full.complete || !lean.complete) h.refused = full.complete ? lean.diagnosis : full.diagnosis;
+          judge(full, lean, options_.figures, h.deviation, h.figure);
+        } catch (const SceneError& error) {
+          h.refused = error.what();
+        }
+        h.within = h.refused.empty() && h.deviation <= options_.within;
+        a_.held_out.push_back(h);
+      }
+    for (const HeldOut& h : a_.held_out)
+      if (!h.within)
+        a_.warnings.push_back(
+            h.refused.empty()
+                ? fmt::format("with {} the deviation is {:.2g} % (in {}): the advice does not carry so far", h.what,
+                              100 * h.deviation, h.figure)
+                : fmt::format("with {} a model did not run: {}", h.what, h.refused));
+  }
+
+  void conclude() {
+    const TriedSet &full = a_.tried.front(), &chosen = a_.tried[a_.chosen];
+    a_.lean_scene = with_effects(scene_, a_.units, chosen.on);
+    if (a_.chosen == 0) {
+      a_.conclusion =
+          fmt::format("Keep everything: no cheaper set of effects stays within {:.3g} % ({} sets were run).",
+                      100 * options_.within, a_.tried.size());
+      return;
+    }
+    a_.conclusion = fmt::format(
+        "Within {:.3g} %: {}. It deviates by {:.2g} % at most ({}) and takes {:.2f} of the time of the "
+        "full model; {} sets were run{}.",
+        100 * options_.within,
+        chosen.words == "none"
+            ? "no effect is needed, the rigid machine will do"
+            : chosen.words + (std::count(chosen.on.begin(), chosen.on.end(), true) > 1 ? " are enough" : " is enough"),
+        100 * chosen.deviation, chosen.figure.empty() ? "no figure differs" : chosen.figure,
+        chosen.cpu_seconds / std::max(full.cpu_seconds, 1e-9), a_.tried.size(),
+        a_.warnings.empty() ? "" : "; mind the warnings");
+  }
+
+  const Scene& scene_;
+  const AdviseOptions& options_;
+  SimulateOptions simulate_;
+  std::vector<std::size_t> kept_by_screens_;  // units that stay although a set without them is within
+  Advice a_;
+};
+
+}  // namespace
+
+Advice advise(const Scene& scene, const AdviseOptions& options) { return Adviser(scene, options).run(); }
+
+}  // namespace kurbel

@@ -1,0 +1,60 @@
+// advise.h — the cheapest set of effects whose figures stay within a tolerance of the fullest model: screened, then
+// run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/advise/advise_screens.h"
+#include "studies/effects/effect_study.h"
+
+namespace kurbel {
+
+struct AdviseOptions {
+  SimulateOptions simulate;
+  double within = 0.01;              // relative deviation allowed of every figure
+  std::vector<std::string> figures;  // names or their beginnings; empty: all telling ones
+  bool held_out = true;              // check other figures and operating points too
+};
+
+// A set that was run against the full model.
+struct TriedSet {
+  EffectSet on = {};
+  std::string words = {};
+  double deviation = 0;     // greatest of the figures asked for
+  std::string figure = {};  // where
+  double cpu_seconds = 0;
+  ModelSize size = {};
+  bool within = false;
+  std::string refused = {};  // why it did not run
+};
+
+// The recommended set at a point that took no part in the choice.
+struct HeldOut {
+  std::string what = {};  // "loads +20 % (load.torque)"
+  double deviation = 0;
+  std::string figure = {}, refused = {};
+  bool within = false;
+};
+
+struct Advice {
+  std::string title, scene_file, scene_text;
+  double tolerance = 0;
+  std::vector<std::string> figures;
+  std::vector<EffectUnit> units;
+  Result full;
+  std::vector<std::vector<Screen>> screens;  // per unit
+  std::vector<TriedSet> tried;               // the full set first
+  std::size_t chosen = 0;                    // among tried
+  std::vector<std::string> kept_because;     // per unit: why it stays, or why it goes
+  std::vector<HeldOut> held_out;
+  std::vector<std::string> warnings;
+  std::string conclusion, lean_scene;
+  bool complete = true;
+};
+
+// Never recommends a set that was not run. Throws std::invalid_argument where there is nothing to choose.
+Advice advise(const Scene& scene, const AdviseOptions& options);
+
+}  // namespace kurbel

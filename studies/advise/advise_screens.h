@@ -1,0 +1,27 @@
+// advise_screens.h — cheap looks at one effect each, from the run of the full model and from its linearisation.
+//
+// activity ∫|τ dθ| over the driving work; swing of a torque; distance of the excitation orders from the modes; the
+// forced response at the operating point over the quasi-static one; torque reversals; share of losses. A screen has an
+// opinion, a run decides.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/effects/effect_units.h"
+#include "studies/run/simulate.h"
+
+namespace kurbel {
+
+struct Screen {
+  std::string name;     // "torque reversals"
+  double number = 0;    // what was found
+  std::string verdict;  // in words, with the number
+  bool needed = false;  // it expects the effect to matter at the tolerance
+};
+
+// Per unit; empty where no screen applies. `within`: relative deviation allowed.
+std::vector<std::vector<Screen>> screens_of(const Scene& scene, const std::vector<EffectUnit>& units,
+                                            const Result& full, double within);
+
+}  // namespace kurbel

@@ -1,0 +1,291 @@
+// machine_cycle.cpp — samples the rigid machine over its cycle; operating speed; steady motion by collocation.
+#include "studies/cycle/machine_cycle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/run/run.h"
+
+namespace kurbel {
+namespace {
+
+// The reduced inertia comes from tables good to 1e-12; their seams must not be taken for corners.
+constexpr double sampling_tolerance = 1e-11;
+
+double rpm(double speed) { return speed * 30 / std::numbers::pi; }
+
+struct MeanTorque {
+  double drive = 0, load = 0;
+  double net() const { return drive - load; }
+};
+
+MeanTorque mean_torque(RigidMachine& machine, double speed) {
+  const MachineCycle c = machine_cycle(machine, speed);
+  return {c.drive.mean(), c.load.mean()};
+}
+
+// One pass over the cycle from a kinetic energy: Picard's iteration on the collocation of each piece.
+class Pass {
+ public:
+  Pass(RigidMachine& machine, const std::vector<double>& breaks, double more_inertia)
+      : machine_(machine), breaks_(breaks), more_(more_inertia), samples_(3) {}
+
+  // Kinetic energy at the end; negative where the machine stalls, at stalled_at.
+  double run(double energy, double& growth, double& time) {
+    for (auto& s : samples_) s.clear();
+    growth = 1, time = 0;
+    double log_growth = 0;
+    for (std::size_t i = 0; i + 1 < breaks_.size(); ++i) {
+      energy = piece(breaks_[i], breaks_[i + 1], energy, log_growth, time);
+      if (!(energy > 0)) return -1;
+    }
+    growth = std::exp(log_growth);
+    return energy;
+  }
+  double stalled_at() const { return stalled_at_; }
+  Piecewise speed() const { return Piecewise::through(breaks_, samples_[0]); }
+  Piecewise drive() const { return Piecewise::through(breaks_, samples_[1]); }
+
+ private:
+  static constexpr std::size_t n = Piecewise::nodes;
+
+  RigidMachine::At at(double phi, double omega, bool shares = false) {
+    if (!machine_.edges_are_of_angle()) machine_.set_modes(phi, omega);
+    return machine_.at(phi, omega, shares);
+  }
+
+  double piece(double lo, double hi, double energy, double& log_growth, double& time) {
+    const double half = 0.5 * (hi - lo);
+    const RigidMachine::At begin = machine_.at(lo, 1.0);
+    machine_.set_modes(0.5 * (lo + hi), std::sqrt(2 * energy / (begin.inertia + more_)));
+    std::vector<double> phi(n), inertia(n), level(n, energy), torque(n), omega(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      phi[k] = lo + half * (1 + Piecewise::node(k));
+      inertia[k] = machine_.at(phi[k], 1.0).inertia + more_;
+      if (!(inertia[k] > 0)) return stall(phi[k]);
+    }
+    double end = energy;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      for (std::size_t k = 0; k < n; ++k) {
+        if (!(level[k] > 0)) return stall(phi[k]);
+        omega[k] = std::sqrt(2 * level[k] / inertia[k]);
+        torque[k] = at(phi[k], omega[k]).torque;
+      }
+      const Piecewise work = Piecewise::through({lo, hi}, torque).integral();
+      double change = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double next = energy + work.value_in(0, phi[k]);
+        change = std::max(change, std::abs(next - level[k]));
+        level[k] = next;
+      }
+      end = energy + work.value_in(0, hi);
+      if (change < 4e-15 * energy) break;
+    }
+    if (!(end > 0)) return stall(hi);
+    finish(lo, hi, phi, inertia, level, log_growth, time);
+    return end;
+  }
+
+  // ∂M/∂T = ∂M/∂ω /(I ω) along the solution; time = ∫dφ/ω.
+  void finish(double lo, double hi, const std::vector<double>& phi, const std::vector<double>& inertia,
+              const std::vector<double>& level, double& log_growth, double& time) {
+    std::vector<double> rate(n), slowness(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double omega = std::sqrt(2 * std::max(level[k], 0.0) / inertia[k]), step = 1e-5 * omega;
+      const double faster = at(phi[k], omega + step).torque, slower = at(phi[k], omega - step).torque;
+      rate[k] = (faster - slower) / (2 * step) / (inertia[k] * omega);
+      slowness[k] = 1 / omega;
+      const RigidMachine::At here = at(phi[k], omega, true);
+      double drive = 0;
+      for (std::size_t a = 0; a < here.share.size(); ++a)
+        if (machine_.model().accounts[a].kind == Account::driving) drive += here.share[a];
+      samples_[0].push_back(omega);
+      samples_[1].push_back(drive);
+    }
+    log_growth += Piecewise::through({lo, hi}, rate).total();
+    time += Piecewise::through({lo, hi}, slowness).total();
+  }
+
+  double stall(double phi) {
+    stalled_at_ = phi;
+    return -1;
+  }
+
+  RigidMachine& machine_;
+  const std::vector<double>& breaks_;
+  double more_, stalled_at_ = 0;
+  std::vector<std::vector<double>> samples_;
+};
+
+// Pieces short enough for the motor's slope, and for tables over speed, whose knots are no breaks.
+std::vector<double> refined(RigidMachine& machine, const MachineCycle& cycle, double more_inertia, double speed) {
+  const double inertia = machine.constant_inertia() + more_inertia + cycle.mechanism.value.mean();
+  const double step = 1e-4 * speed;
+  const double middle = 0.5 * (cycle.drive.begin() + cycle.drive.end());
+  machine.set_modes(middle, speed);
+  const double slope = (machine.at(middle, speed + step).torque - machine.at(middle, speed - step).torque) / (2 * step);
+  double longest = 1 / std::max(std::abs(slope) / (inertia * speed), 0.5);
+  if (!machine.edges_are_of_angle()) longest = std::min(longest, cycle.drive.length() / 400);
+  longest = std::max(longest, cycle.drive.length() / 4000);
+  std::vector<double> breaks;
+  const std::vector<double>& given = cycle.drive.breaks();
+  for (std::size_t i = 0; i + 1 < given.size(); ++i) {
+    const int parts = std::max(1, static_cast<int>(std::ceil((given[i + 1] - given[i]) / longest)));
+    for (int k = 0; k < parts; ++k) breaks.push_back(given[i] + (given[i + 1] - given[i]) * k / parts);
+  }
+  breaks.push_back(given.back());
+  return breaks;
+}
+
+}  // namespace
+
+std::vector<double> cycle_edges(RigidMachine& machine) {
+  constexpr double near = 1e-9;
+  std::vector<double> edges = {0};
+  for (const double edge : machine.edges(1))
+    if (edge > edges.back() + near && edge < machine.cycle() - near) edges.push_back(edge);
+  edges.push_back(machine.cycle());
+  return edges;
+}
+
+MachineCycle machine_cycle(RigidMachine& machine, double speed) {
+  if (!machine.periodic())
+    throw std::invalid_argument(
+        "the machine has no cycle: its parts do not come back together within 24 turns of the reduction link");
+  const std::vector<WorkAccount>& accounts = machine.model().accounts;
+  const std::size_t n = accounts.size();
+  // Shares, then drive and load, then I_em and I_em′.
+  const auto sampler = [&](double phi, std::span<double> out) {
+    const RigidMachine::At at = machine.at(phi, speed, true);
+    double drive = 0, load = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      out[k] = at.share[k];
+      (accounts[k].kind == Account::driving ? drive : load) += at.share[k];
+    }
+    const RigidMachine::Inertia inertia = machine.mechanism_inertia(phi);
+    out[n] = drive, out[n + 1] = -load, out[n + 2] = inertia.value, out[n + 3] = inertia.slope;
+  };
+  auto all = Piecewise::sample(
+      cycle_edges(machine), n + 4, sampler, [&](double middle) { machine.set_modes(middle, speed); },
+      sampling_tolerance);
+  MachineCycle c{speed, all[n], all[n + 1], {}, {all[n + 2], all[n + 3]}};
+  all.resize(n);
+  c.share = std::move(all);
+  return c;
+}
+
+OperatingSpeed operating_speed(RigidMachine& machine) {
+  if (!machine.uses_speed())
+    throw std::invalid_argument(
+        "no torque of the machine depends on its speed: every speed is as steady as any other, and the mean speed must "
+        "be given; write e.g. --mean-speed \"60 rpm\"");
+  const double top = 2 * machine.model().speed_scale;
+  struct At {
+    double speed;
+    MeanTorque mean;
+  };
+  std::vector<At> scan;
+  const auto look = [&](double speed) {
+    Deadline::check();
+    scan.push_back({speed, mean_torque(machine, speed)});
+  };
+  // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
+  constexpr int steps = 80;
+  for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
+  for (int i = 1; i <= steps; ++i) look(top * i / steps);
+  // Rated quantities need not be near where the machine runs: a series motor's R/κ is far below.
+  constexpr double farthest = 1e3;
+  while (scan.back().mean.net() > 0 && scan.back().speed < farthest * top) look(1.1 * scan.back().speed);
+  OperatingSpeed found;
+  for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
+    if (!(scan[i].mean.net() > 0 && scan[i + 1].mean.net() <= 0)) continue;
+    if (found.speed > 0) found.others.push_back(found.speed);
+    found.speed = find_root([&](double speed) { return mean_torque(machine, speed).net(); }, scan[i].speed,
+                            scan[i].mean.net(), scan[i + 1].speed, scan[i + 1].mean.net());
+  }
+  if (found.speed > 0) {
+    const double step = 1e-4 * found.speed;
+    found.mean_drive = mean_torque(machine, found.speed).drive;
+    const MeanTorque faster = mean_torque(machine, found.speed + step),
+                     slower = mean_torque(machine, found.speed - step);
+    found.slope = (faster.net() - slower.net()) / (2 * step);
+    found.drive_slope = (faster.drive - slower.drive) / (2 * step);
+    return found;
+  }
+  const auto best =
+      std::max_element(scan.begin(), scan.end(), [](const At& a, const At& b) { return a.mean.net() < b.mean.net(); });
+  if (best->mean.net() > 0)
+    throw std::invalid_argument(
+        fmt::format("no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, "
+                    "at the end {:.4g} "
+                    "against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
+                    rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
+  const std::string balance = fmt::format(
+      "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
+      "takes "
+      "{:.6g} N·m; {:.6g} N·m are missing{}",
+      rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
+      best->mean.load == 0
+          ? ""
+          : fmt::format(" ({:.3g} % of the load)", 100 * -best->mean.net() / std::abs(best->mean.load)));
+  if (machine.uses_time())
+    throw WeakDrive(
+        fmt::format("as it is at t = 0 the drive is too weak for the cycle: {}. Some torque depends on time "
+                    "and may be another later (a converter's ramp, a switching): give the machine without "
+                    "that, or simulate it with kurbel run",
+                    balance));
+  throw WeakDrive(
+      fmt::format("the drive is too weak for the cycle: {}; take a stronger motor, a larger ratio, or a "
+                  "smaller load",
+                  balance));
+}
+
+SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& cycle, double more_inertia,
+                                    double near) {
+  SteadyRigidCycle result;
+  const std::vector<double> breaks = refined(machine, cycle, more_inertia, near);
+  const double inertia = machine.constant_inertia() + more_inertia + machine.mechanism_inertia(0).value;
+  if (!(inertia > 0)) {
+    result.why = fmt::format("no inertia is left: {:.6g} kg·m²", inertia);
+    return result;
+  }
+  Pass pass(machine, breaks, more_inertia);
+  // Newton's method on T ↦ T after a cycle; the step is limited, so that a guess far off does not stall at once.
+  double energy = 0.5 * inertia * near * near;
+  for (int i = 0; i < 60; ++i) {
+    double growth = 0, time = 0;
+    const double after = pass.run(energy, growth, time);
+    if (!(after > 0)) {
+      result.why = fmt::format("from {:.5g} rpm the machine stalls at {:.5g}° of the cycle",
+                               rpm(std::sqrt(2 * energy / inertia)), pass.stalled_at() * 180 / std::numbers::pi);
+      if (i > 20 || energy > 1e3 * inertia * near * near) return result;
+      energy *= 1.5;
+      continue;
+    }
+    result.multiplier = growth;
+    result.time = time;
+    if (std::abs(after - energy) <= 1e-13 * energy) {
+      result.found = true;
+      break;
+    }
+    const double step = growth < 1 ? (after - energy) / (1 - growth) : after - energy;
+    energy = std::clamp(energy + step, 0.3 * energy, 3 * energy);
+  }
+  if (!result.found) {
+    if (result.why.empty()) result.why = "Newton's method finds no speed that comes back after a cycle";
+    return result;
+  }
+  result.why.clear();
+  result.speed = pass.speed();
+  result.drive = pass.drive();
+  result.fastest = result.speed.maximum();
+  result.slowest = result.speed.minimum();
+  return result;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,375 @@
+// piecewise.cpp — adaptive Chebyshev pieces.
+#include "studies/cycle/piecewise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t nodes = Piecewise::nodes;
+constexpr std::size_t most_pieces = 8192;  // refinement stops here
+
+// Chebyshev points of the first kind, strictly inside −1 … 1.
+double chebyshev_node(std::size_t k, std::size_t n) {
+  return std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n));
+}
+
+// cos(π j (k + ½)/n), j-th coefficient from the k-th sample.
+const std::array<std::array<double, nodes>, nodes>& cosines() {
+  static const auto table = [] {
+    std::array<std::array<double, nodes>, nodes> t{};
+    for (std::size_t j = 0; j < nodes; ++j)
+      for (std::size_t k = 0; k < nodes; ++k)
+        t[j][k] = std::cos(std::numbers::pi * static_cast<double>(j * (2 * k + 1)) / (2.0 * nodes));
+    return t;
+  }();
+  return table;
+}
+
+// Coefficients of the polynomial through samples at the nodes.
+void transform(const double* samples, double* c) {
+  for (std::size_t j = 0; j < nodes; ++j) {
+    double sum = 0;
+    for (std::size_t k = 0; k < nodes; ++k) sum += cosines()[j][k] * samples[k];
+    c[j] = sum * (j == 0 ? 1.0 : 2.0) / nodes;
+  }
+}
+
+double clenshaw(const double* c, std::size_t n, double x) {
+  double b1 = 0, b2 = 0;
+  for (std::size_t k = n; k-- > 1;) {
+    const double b0 = 2 * x * b1 - b2 + c[k];
+    b2 = b1;
+    b1 = b0;
+  }
+  return x * b1 - b2 + c[0];
+}
+
+// d/dx of Σ c_k T_k, n coefficients in and out.
+std::vector<double> differentiated(const std::vector<double>& c) {
+  const std::size_t n = c.size();
+  std::vector<double> d(n + 1, 0.0);
+  for (std::size_t k = n - 1; k >= 1; --k)
+    d[k - 1] = (k + 1 < n + 1 ? d[k + 1] : 0.0) + 2 * static_cast<double>(k) * c[k];
+  d[0] /= 2;
+  d.resize(n);
+  return d;
+}
+
+double tail(const std::vector<double>& c) {
+  double sum = 0;
+  for (std::size_t k = 1; k < c.size(); ++k) sum += std::abs(c[k]);
+  return sum;
+}
+
+// The same polynomial over lo … hi within −1 … 1.
+std::vector<double> restricted(const std::vector<double>& c, double lo, double hi) {
+  const std::size_t n = c.size();
+  std::vector<double> samples(n), out(n, 0.0);
+  for (std::size_t k = 0; k < n; ++k)
+    samples[k] = clenshaw(c.data(), n, lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, n)));
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < n; ++k)
+      out[j] += samples[k] * std::cos(std::numbers::pi * static_cast<double>(j) * (static_cast<double>(k) + 0.5) /
+                                      static_cast<double>(n));
+    out[j] *= (j == 0 ? 1.0 : 2.0) / static_cast<double>(n);
+  }
+  return out;
+}
+
+// All simple roots of a polynomial within lo … hi: intervals are halved until bounds exclude or isolate a root.
+void find_roots(const std::vector<double>& whole, double lo, double hi, double noise, int depth,
+                std::vector<double>& roots) {
+  const std::vector<double> c = restricted(whole, lo, hi);
+  if (std::abs(c[0]) > tail(c) || std::abs(c[0]) + tail(c) <= noise) return;
+  const std::vector<double> d = differentiated(c);
+  const double f_lo = clenshaw(c.data(), c.size(), -1), f_hi = clenshaw(c.data(), c.size(), 1);
+  if (std::abs(d[0]) > tail(d) || depth == 0) {
+    if ((f_lo < 0) == (f_hi < 0) && f_lo != 0 && f_hi != 0) return;
+    double a = -1, b = 1;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (a + b);
+      ((clenshaw(c.data(), c.size(), middle) < 0) == (f_lo < 0) ? a : b) = middle;
+    }
+    if (f_lo == 0) a = b = -1;
+    roots.push_back(lo + 0.5 * (hi - lo) * (1 + 0.5 * (a + b)));
+    return;
+  }
+  const double cut = lo + 0.5013 * (hi - lo);  // off the middle, where symmetric functions have roots
+  find_roots(whole, lo, cut, noise, depth - 1, roots);
+  find_roots(whole, cut, hi, noise, depth - 1, roots);
+}
+
+void check_edges(const std::vector<double>& edges) {
+  if (edges.size() < 2) throw std::invalid_argument("a cycle needs at least its begin and its end as edges");
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    if (!(edges[i] < edges[i + 1]) || !std::isfinite(edges[i + 1] - edges[i]))
+      throw std::invalid_argument("the edges of a cycle must ascend");
+}
+
+}  // namespace
+
+class PiecewiseBuilder {
+ public:
+  PiecewiseBuilder(std::size_t channels, const Piecewise::Sampler& sampler, const Piecewise::Enter& enter,
+                   double tolerance)
+      : channels_(channels), sampler_(sampler), enter_(enter), tolerance_(tolerance), scale_(channels, 0.0) {}
+
+  std::vector<Piecewise> build(const std::vector<double>& edges) {
+    check_edges(edges);
+    shortest_ = (edges.back() - edges.front()) * 1e-9;
+    std::vector<Piece> fresh;
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) fresh.push_back(take(edges[i], edges[i + 1]));
+    std::reverse(fresh.begin(), fresh.end());
+    // Depth first, so that the pieces come out in order.
+    std::vector<Piece> done;
+    while (!fresh.empty()) {
+      Deadline::check();
+      Piece piece = std::move(fresh.back());
+      fresh.pop_back();
+      if (good(piece) || piece.hi - piece.lo < shortest_ || done.size() + fresh.size() > most_pieces) {
+        done.push_back(std::move(piece));
+        continue;
+      }
+      const double middle = 0.5 * (piece.lo + piece.hi);
+      fresh.push_back(take(middle, piece.hi));
+      fresh.push_back(take(piece.lo, middle));
+    }
+    return assembled(done);
+  }
+
+ private:
+  struct Piece {
+    double lo, hi;
+    std::vector<double> c;  // channel after channel
+  };
+
+  Piece take(double lo, double hi) {
+    if (enter_) enter_(0.5 * (lo + hi));
+    std::vector<double> samples(channels_ * nodes), at(channels_);
+    for (std::size_t k = 0; k < nodes; ++k) {
+      sampler_(lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, nodes)), at);
+      for (std::size_t channel = 0; channel < channels_; ++channel) {
+        if (!std::isfinite(at[channel])) throw std::runtime_error("a function over the cycle is not finite");
+        samples[channel * nodes + k] = at[channel];
+        scale_[channel] = std::max(scale_[channel], std::abs(at[channel]));
+      }
+    }
+    Piece piece{lo, hi, std::vector<double>(channels_ * nodes)};
+    for (std::size_t channel = 0; channel < channels_; ++channel)
+      transform(&samples[channel * nodes], &piece.c[channel * nodes]);
+    return piece;
+  }
+
+  // The last coefficients say how much a longer polynomial would add.
+  bool good(const Piece& piece) const {
+    for (std::size_t channel = 0; channel < channels_; ++channel) {
+      const double* c = &piece.c[channel * nodes];
+      const double left = std::max({std::abs(c[nodes - 1]), std::abs(c[nodes - 2]), std::abs(c[nodes - 3])});
+      if (left > tolerance_ * scale_[channel]) return false;
+    }
+    return true;
+  }
+
+  std::vector<Piecewise> assembled(const std::vector<Piece>& pieces) const {
+    auto breaks = std::make_shared<std::vector<double>>();
+    for (const Piece& piece : pieces) breaks->push_back(piece.lo);
+    breaks->push_back(pieces.back().hi);
+    std::vector<Piecewise> all(channels_);
+    for (std::size_t channel = 0; channel < channels_; ++channel) {
+      all[channel].breaks_ = breaks;
+      all[channel].terms_ = nodes;
+      for (const Piece& piece : pieces)
+        all[channel].coefficient_.insert(all[channel].coefficient_.end(), &piece.c[channel * nodes],
+                                         &piece.c[channel * nodes] + nodes);
+    }
+    return all;
+  }
+
+  std::size_t channels_;
+  const Piecewise::Sampler& sampler_;
+  const Piecewise::Enter& enter_;
+  double tolerance_, shortest_ = 0;
+  std::vector<double> scale_;
+};
+
+std::vector<Piecewise> Piecewise::sample(const std::vector<double>& edges, std::size_t channels, const Sampler& sampler,
+                                         const Enter& enter, double tolerance) {
+  return PiecewiseBuilder(channels, sampler, enter, tolerance).build(edges);
+}
+
+Piecewise Piecewise::of(const std::vector<double>& edges, const std::function<double(double)>& f, double tolerance) {
+  return sample(
+             edges, 1, [&](double x, std::span<double> out) { out[0] = f(x); }, {}, tolerance)
+      .front();
+}
+
+double Piecewise::node(std::size_t k) { return chebyshev_node(k, nodes); }
+
+Piecewise Piecewise::through(const std::vector<double>& breaks, const std::vector<double>& samples) {
+  check_edges(breaks);
+  if (samples.size() != (breaks.size() - 1) * nodes) throw std::logic_error("samples of a wrong number");
+  Piecewise f;
+  f.breaks_ = std::make_shared<std::vector<double>>(breaks);
+  f.terms_ = nodes;
+  f.coefficient_.resize(samples.size());
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) transform(&samples[i * nodes], &f.coefficient_[i * nodes]);
+  return f;
+}
+
+Piecewise Piecewise::linear(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() != y.size()) throw std::invalid_argument("points of a line need as many y as x");
+  Piecewise f;
+  auto breaks = std::make_shared<std::vector<double>>();
+  f.terms_ = 2;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    if (x[i + 1] == x[i]) continue;
+    breaks->push_back(x[i]);
+    f.coefficient_.push_back(0.5 * (y[i] + y[i + 1]));
+    f.coefficient_.push_back(0.5 * (y[i + 1] - y[i]));
+  }
+  if (!x.empty()) breaks->push_back(x.back());
+  check_edges(*breaks);
+  f.breaks_ = breaks;
+  return f;
+}
+
+std::size_t Piecewise::piece_at(double x) const {
+  const auto after = std::upper_bound(breaks_->begin(), breaks_->end(), x);
+  const auto index = after - breaks_->begin() - 1;
+  return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(index, 0, static_cast<std::ptrdiff_t>(pieces()) - 1));
+}
+
+double Piecewise::value_in(std::size_t piece, double x) const {
+  const double lo = (*breaks_)[piece], hi = (*breaks_)[piece + 1];
+  return clenshaw(&coefficient_[piece * terms_], terms_, (2 * x - lo - hi) / (hi - lo));
+}
+
+double Piecewise::value(double x) const { return value_in(piece_at(x), x); }
+
+double Piecewise::largest() const {
+  double bound = 0;
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < terms_; ++k) sum += std::abs(coefficient_[i * terms_ + k]);
+    bound = std::max(bound, sum);
+  }
+  return bound;
+}
+
+// ∫T_k = ½ (T_{k+1}/(k+1) − T_{k−1}/(k−1)); the constant makes it continuous.
+Piecewise Piecewise::integral() const {
+  Piecewise f;
+  f.breaks_ = breaks_;
+  f.terms_ = terms_ + 1;
+  double reached = 0;
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    const double half = 0.5 * ((*breaks_)[i + 1] - (*breaks_)[i]);
+    const double* c = &coefficient_[i * terms_];
+    const auto at = [&](std::size_t k) { return k < terms_ ? c[k] : 0.0; };
+    std::vector<double> d(f.terms_, 0.0);
+    for (std::size_t k = 1; k < f.terms_; ++k)
+      d[k] = half * ((k == 1 ? 2 : 1) * at(k - 1) - at(k + 1)) / (2 * static_cast<double>(k));
+    d[0] = reached - clenshaw(d.data(), d.size(), -1);
+    reached = clenshaw(d.data(), d.size(), 1);
+    f.coefficient_.insert(f.coefficient_.end(), d.begin(), d.end());
+  }
+  return f;
+}
+
+Piecewise Piecewise::derivative() const {
+  Piecewise f = *this;
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    const double half = 0.5 * ((*breaks_)[i + 1] - (*breaks_)[i]);
+    const auto first = coefficient_.begin() + static_cast<std::ptrdiff_t>(i * terms_);
+    const std::vector<double> d = differentiated({first, first + static_cast<std::ptrdiff_t>(terms_)});
+    for (std::size_t k = 0; k < terms_; ++k) f.coefficient_[i * terms_ + k] = d[k] / half;
+  }
+  return f;
+}
+
+double Piecewise::total() const {
+  const Piecewise f = integral();
+  return f.value_in(pieces() - 1, end());
+}
+
+std::vector<double> Piecewise::roots_in(std::size_t piece, double noise) const {
+  const auto first = coefficient_.begin() + static_cast<std::ptrdiff_t>(piece * terms_);
+  std::vector<double> local;
+  find_roots({first, first + static_cast<std::ptrdiff_t>(terms_)}, -1, 1, noise, 40, local);
+  const double lo = (*breaks_)[piece], hi = (*breaks_)[piece + 1];
+  for (double& x : local) x = lo + 0.5 * (hi - lo) * (1 + x);
+  return local;
+}
+
+std::vector<double> Piecewise::sign_changes() const {
+  std::vector<double> all;
+  const double noise = 1e-13 * largest();
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    const double x = (*breaks_)[i];
+    if (i > 0 && value_in(i - 1, x) * value_in(i, x) < 0) all.push_back(x);
+    for (const double root : roots_in(i, noise)) all.push_back(root);
+  }
+  // A root at a break is found from both sides.
+  const double same = 1e-12 * length();
+  all.erase(std::unique(all.begin(), all.end(), [&](double a, double b) { return b - a < same; }), all.end());
+  return all;
+}
+
+Extreme Piecewise::maximum(const Piecewise& derivative) const {
+  Extreme best{begin(), value_in(0, begin())};
+  const auto consider = [&](std::size_t piece, double x) {
+    const double v = value_in(piece, x);
+    if (v > best.value) best = {x, v};
+  };
+  const double noise = 1e-13 * derivative.largest();
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    consider(i, (*breaks_)[i]);
+    consider(i, (*breaks_)[i + 1]);
+    double bound = coefficient_[i * terms_];
+    for (std::size_t k = 1; k < terms_; ++k) bound += std::abs(coefficient_[i * terms_ + k]);
+    if (bound <= best.value) continue;
+    for (const double root : derivative.roots_in(i, noise)) consider(i, root);
+  }
+  return best;
+}
+
+Extreme Piecewise::minimum(const Piecewise& derivative) const {
+  const Extreme e = (-1.0 * *this).maximum(derivative);
+  return {e.x, -e.value};
+}
+Extreme Piecewise::maximum() const { return maximum(derivative()); }
+Extreme Piecewise::minimum() const { return minimum(derivative()); }
+
+Piecewise operator+(const Piecewise& a, const Piecewise& b) {
+  if (a.breaks_ != b.breaks_ && *a.breaks_ != *b.breaks_)
+    throw std::logic_error("functions with different breaks cannot be added");
+  const Piecewise& longer = a.terms_ >= b.terms_ ? a : b;
+  const Piecewise& shorter = a.terms_ >= b.terms_ ? b : a;
+  Piecewise sum = longer;
+  for (std::size_t i = 0; i < sum.pieces(); ++i)
+    for (std::size_t k = 0; k < shorter.terms_; ++k)
+      sum.coefficient_[i * longer.terms_ + k] += shorter.coefficient_[i * shorter.terms_ + k];
+  return sum;
+}
+
+Piecewise operator*(double factor, Piecewise f) {
+  for (double& c : f.coefficient_) c *= factor;
+  return f;
+}
+
+Piecewise Piecewise::constant(double c) const {
+  Piecewise f;
+  f.breaks_ = breaks_;
+  f.terms_ = 1;
+  f.coefficient_.assign(pieces(), c);
+  return f;
+}
+
+}  // namespace kurbel

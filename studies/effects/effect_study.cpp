@@ -1,0 +1,98 @@
+// effect_study.cpp — one run with everything, one run less each effect.
+#include "studies/effects/effect_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+std::string conclusion_of(const EffectStudy& s) {
+  if (!s.full.complete) return "The full model did not run to the end: " + s.full.diagnosis;
+  std::string text;
+  const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(),
+                                      [](const LeftOut& l) { return l.refused.empty() && !l.changes.empty(); });
+  if (strongest == s.left_out.end()) {
+    const bool any_ran =
+        std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.refused.empty(); });
+    return any_ran ? "No figure that is compared is other than zero, with or without an effect: nothing to rank by."
+                   : "No effect of this scene can be left out: without any of them it does not run.";
+  }
+  const FigureChange& most = strongest->changes.front();
+  if (most.relative == 0) return "No effect changes any figure compared.";
+  const int digits = most.relative < 1e-2 ? 7 : 4;  // so that the two differ
+  text = fmt::format("Most depends on {}: without it {} is {} instead of {}{}", strongest->effect.words, most.figure,
+                     with_unit(most.without, most.unit, digits), with_unit(most.full, most.unit, digits),
+                     most.from_nothing ? std::string(", which is zero within its error")
+                                       : fmt::format(" ({:.2g} % off)", 100 * most.relative));
+  std::vector<std::string> idle;
+  for (const LeftOut& l : s.left_out)
+    if (l.refused.empty() && !l.changes.empty() && l.changes.front().relative < 1e-3) idle.push_back(l.effect.words);
+  if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
+  const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
+                                        [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
+  if (dearest->time_ratio > 1.05)
+    text += fmt::format("; {} costs most, {:.3g} × the time without it", dearest->effect.words, dearest->time_ratio);
+  return text + ".";
+}
+
+}  // namespace
+
+EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
+  EffectStudy study;
+  study.title = scene.title.empty() ? scene.file : scene.title;
+  study.scene_file = scene.file;
+  study.scene_text = scene.text;
+  study.units = effect_units(scene);
+  if (study.units.empty())
+    throw std::invalid_argument(
+        "this scene has parameters for no effect: nothing is elastic, nothing has friction, losses or a gap. Give a "
+        "coupling a stiffness, or a gear its efficiency");
+  const auto say = [&](const std::string& what, std::size_t done) {
+    if (options.progress)
+      options.progress(what, static_cast<double>(done) / (1.0 + static_cast<double>(study.units.size())));
+  };
+  SimulateOptions quiet = options;
+  quiet.progress = {};
+  quiet.traces = false;
+  EffectSet on(study.units.size(), true);
+  say("all effects", 0);
+  study.full = simulate(scene, effects_of(scene, study.units, on), "full", quiet);
+  study.size = size_of(*study.full.model);
+  for (std::size_t k = 0; k < study.units.size() && study.full.complete; ++k) {
+    say("without " + study.units[k].words, k + 1);
+    LeftOut left{.effect = study.units[k]};
+    on[k] = false;
+    try {
+      left.result = simulate(scene, effects_of(scene, study.units, on), "without " + left.effect.words, quiet);
+      if (!left.result.complete) left.refused = left.result.diagnosis;
+    } catch (const SceneError& error) {
+      left.refused = error.what();
+    }
+    on[k] = true;
+    if (left.refused.empty()) {
+      left.changes = changes_between(study.full, left.result);
+      const ModelSize less = size_of(*left.result.model);
+      left.saved = {study.size.states - less.states, study.size.nonzeros - less.nonzeros,
+                    study.size.guards - less.guards};
+      left.events_added = static_cast<long>(study.full.statistics.events - left.result.statistics.events);
+      left.time_ratio = study.full.statistics.cpu_seconds / std::max(left.result.statistics.cpu_seconds, 1e-9);
+    }
+    study.left_out.push_back(std::move(left));
+  }
+  std::stable_sort(study.left_out.begin(), study.left_out.end(), [](const LeftOut& a, const LeftOut& b) {
+    const auto most = [](const LeftOut& l) {
+      return !l.refused.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().relative;
+    };
+    return most(a) > most(b);
+  });
+  study.conclusion = conclusion_of(study);
+  return study;
+}
+
+}  // namespace kurbel

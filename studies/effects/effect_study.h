@@ -1,0 +1,35 @@
+// effect_study.h — what each effect changes and costs: the full model, and the model without one effect at a time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/effects/effect_units.h"
+#include "studies/findings/figure_changes.h"
+#include "studies/run/simulate.h"
+
+namespace kurbel {
+
+struct LeftOut {
+  EffectUnit effect = {};
+  Result result = {};
+  std::vector<FigureChange> changes = {};  // of the figures that both have, the greatest first
+  ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
+  long events_added = 0;
+  double time_ratio = 0;     // processor time of the full model over that without
+  std::string refused = {};  // why the machine cannot run without it
+};
+
+struct EffectStudy {
+  std::string title, scene_file, scene_text;
+  std::vector<EffectUnit> units;
+  Result full;
+  ModelSize size;
+  std::vector<LeftOut> left_out;  // ranked by their greatest change
+  std::string conclusion;
+};
+
+// Throws std::invalid_argument where the scene has no effect to leave out.
+EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);
+
+}  // namespace kurbel

@@ -1,0 +1,140 @@
+// effect_units.cpp — the switches of a scene, and the sets that they make.
+#include "studies/effects/effect_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/equations/equations.h"
+#include "engine/model/model.h"
+
+namespace kurbel {
+namespace {
+
+const std::string elasticity = "elasticity:";
+
+// The component of "gearbox.support".
+std::string base_name(const std::string& joint) { return joint.substr(0, joint.find('.')); }
+
+std::string joined_words(const std::vector<std::string>& words) {
+  if (words.empty()) return "none";
+  std::string text = words.front();
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+// Values of these keys in components of these kinds, times the factor; nested tables too.
+std::vector<std::string> scale(Section& section, const std::set<std::string>& keys, double factor) {
+  std::vector<std::string> changed;
+  for (Setting& setting : section.settings) {
+    for (Section& nested : setting.sections)
+      for (const std::string& key : scale(nested, keys, factor)) changed.push_back(setting.key + "." + key);
+    if (!setting.given || !keys.count(setting.key)) continue;
+    setting.number *= factor;
+    for (double& y : setting.curve.y) y *= factor;
+    for (double& y : setting.curve.y_back) y *= factor;
+    changed.push_back(setting.key);
+  }
+  return changed;
+}
+
+}  // namespace
+
+std::vector<EffectUnit> effect_units(const Scene& scene) {
+  std::vector<EffectUnit> units;
+  // A gearbox is elastic only with flanks or supports that are.
+  Effects all;
+  all.all_elastic = true;
+  const auto model = compile(scene, all);
+  std::set<std::string> elastic;
+  for (const ElasticJoint& joint : model->elastic)
+    elastic.insert(base_name(model->network.joints[static_cast<std::size_t>(joint.joint)].component));
+  for (const Section& section : scene.components)
+    if (section.kind->elastic && elastic.count(section.name))
+      units.push_back({elasticity + section.name, "elasticity of " + section.name});
+  for (const EffectFlag& effect : effect_flags())
+    if (has_parameters(scene, effect) && (effect.flag != &Effects::multibody || scene.effects.multibody))
+      units.push_back({effect.name, effect.words});
+  return units;
+}
+
+Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const EffectSet& on) {
+  Effects effects;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    if (on[k] && units[k].name.starts_with(elasticity))
+      effects.elastic.push_back(units[k].name.substr(elasticity.size()));
+    for (const EffectFlag& effect : effect_flags())
+      if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
+  }
+  return effects;
+}
+
+std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on) {
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < units.size(); ++k)
+    if (on[k]) words.push_back(units[k].words);
+  return joined_words(words);
+}
+
+ModelSize size_of(const Model& model) {
+  Equations equations(std::shared_ptr<const Model>(std::shared_ptr<void>(), &model), false);
+  return {model.state_count(), model.jacobian.pattern.row.size(), equations.guard_count()};
+}
+
+std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
+  // Without the old table, in either of its forms; a table ends where the next one begins.
+  std::string text;
+  bool inside = false;
+  for (std::size_t begin = 0; begin < scene.text.size();) {
+    const std::size_t end = std::min(scene.text.find('\n', begin), scene.text.size() - 1) + 1;
+    const std::string line = scene.text.substr(begin, end - begin);
+    begin = end;
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != std::string::npos && line[first] == '[') inside = line.compare(first, 9, "[effects]") == 0;
+    const bool in_one_line = first != std::string::npos && !inside && line.compare(first, 7, "effects") == 0 &&
+                             line.find('=') != std::string::npos;
+    if (!inside && !in_one_line) text += line;
+  }
+  std::string elastic, flags;
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    if (units[k].name.starts_with(elasticity)) {
+      if (on[k]) elastic += (elastic.empty() ? "\"" : ", \"") + units[k].name.substr(elasticity.size()) + "\"";
+    } else {
+      flags += fmt::format("{} = {}\n", units[k].name, on[k] ? "true" : "false");
+    }
+  }
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  return text + "\n[effects]\nelasticity = [" + elastic + "]\n" + flags;
+}
+
+std::string scale_loads(Scene& scene, double factor) {
+  const std::set<std::string> kinds = {"load", "torque source"};
+  const std::set<std::string> keys = {"torque", "damping", "quadratic", "table", "amplitude"};
+  const std::set<std::string> forces = {"nominal_force",    "force", "pressure", "table", "suction_pressure",
+                                        "delivery_pressure"};
+  std::vector<std::string> changed;
+  for (Section& section : scene.components) {
+    if (kinds.count(section.kind->name))
+      for (const std::string& key : scale(section, keys, factor)) changed.push_back(section.name + "." + key);
+    for (Setting& setting : section.settings)
+      for (Section& nested : setting.sections)
+        if (setting.key == "load" || setting.key == "loads")
+          for (const std::string& key : scale(nested, forces, factor)) changed.push_back(section.name + ".load." + key);
+  }
+  return changed.empty() ? "" : joined_words(changed);
+}
+
+std::string scale_speeds(Scene& scene, double factor) {
+  const std::set<std::string> keys = {"rated_speed", "synchronous_speed", "no_load_speed"};
+  std::vector<std::string> changed;
+  for (Section& section : scene.components)
+    for (const std::string& key : scale(section, keys, factor)) changed.push_back(section.name + "." + key);
+  StartSettings& start = scene.run.start;
+  if (start.speed != 0) start.speed *= factor, changed.push_back("start speed");
+  for (auto& [component, given] : start.components)
+    if (given.speed && *given.speed != 0) *given.speed *= factor, changed.push_back("start speed of " + component);
+  return changed.empty() ? "" : joined_words(changed);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,47 @@
+// figure_changes.cpp — figures of two runs side by side.
+#include "studies/findings/figure_changes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+
+bool is_telling(const Figure& figure) {
+  static const std::vector<std::string> telling = {
+      "peak_torque.", "max_speed.",  "min_speed.", "delta.",     "run_up_time", "run_down_time", "steady_speed.",
+      "mean_speed.",  "rms_torque.", "work.",      "slip_heat.", "stopping_",   "final_speed.",  "cycle_time."};
+  return figure.scale > 0 && std::any_of(telling.begin(), telling.end(),
+                                         [&](const std::string& begin) { return figure.name.starts_with(begin); });
+}
+
+double floor_of(const Figure& figure, const Result& run) {
+  constexpr double rounding = 1e-9;
+  return figure.error.value_or(0) + std::max(rounding, run.tolerance) * figure.scale;
+}
+
+std::vector<FigureChange> changes_between(const Result& full, const Result& other,
+                                          const std::vector<std::string>& wanted) {
+  std::vector<FigureChange> changes;
+  for (const Figure& figure : full.figures) {
+    const bool asked = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
+      return figure.name == name || figure.name.starts_with(name + ".");
+    });
+    if (wanted.empty() ? !is_telling(figure) : !asked) continue;
+    const Figure* same = other.find(figure.name);
+    if (!same) continue;
+    const double nothing = floor_of(figure, full);
+    if (std::abs(figure.value) <= nothing && std::abs(same->value) <= floor_of(*same, other)) continue;  // both zero
+    // Of two equal peaks of opposite sign either may be the larger one.
+    const bool magnitude = figure.name.starts_with("peak_");
+    const double difference =
+        magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
+    const double size = std::max({std::abs(figure.value), nothing, 1e-300});
+    changes.push_back(
+        {figure.name, figure.unit, figure.value, same->value, difference / size, std::abs(figure.value) <= nothing});
+  }
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const FigureChange& a, const FigureChange& b) { return a.relative > b.relative; });
+  return changes;
+}
+
+}  // namespace kurbel

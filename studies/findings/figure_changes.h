@@ -1,0 +1,30 @@
+// figure_changes.h — how far the figures of two runs are apart, and which of them are worth comparing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+// How far a figure is from that of the full model, over the full model's value of it: 0.01 is one per cent of the
+// figure itself, be it a δ of 0.002 or a torque far below the rated one. Only a figure that the full model does not
+// tell from zero is judged by its floor instead: its measured error and max(1e-9, tolerance) of its rated quantity. A
+// figure that is zero in both models is left out.
+struct FigureChange {
+  std::string figure, unit;
+  double full = 0, without = 0, relative = 0;
+  bool from_nothing = false;  // the full model's value is not told from zero
+};
+
+// What a figure of a run does not tell from nothing: its measured error, and what steps and rounding resolve of the
+// rated quantity.
+double floor_of(const Figure& figure, const Result& run);
+// Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.
+bool is_telling(const Figure& figure);
+// Changes of the telling figures of `other` against `full`; only `wanted`, unless empty (names or their beginnings).
+std::vector<FigureChange> changes_between(const Result& full, const Result& other,
+                                          const std::vector<std::string>& wanted = {});
+
+}  // namespace kurbel

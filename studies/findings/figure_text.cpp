@@ -1,0 +1,80 @@
+// figure_text.cpp — digits end where the error begins.
+#include "studies/findings/figure_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+constexpr int most_digits = 9, digits_without_error = 6, digits_if_exact = 12;
+
+// Decimal exponent of the first significant digit. By printing it: a logarithm is off by one next to powers of ten.
+int exponent_of(double x) {
+  const std::string text = fmt::format("{:.16e}", std::abs(x));
+  return std::atoi(text.c_str() + text.find('e') + 1);
+}
+
+double power_of_ten(int exponent) { return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr); }
+
+// The value with its last digit at 10^place, as a number would be written: fixed from 1e-4 to 1e9.
+std::string written(double value, int place) {
+  const double magnitude = std::abs(value);
+  if (value == 0 || (magnitude >= 1e-4 && magnitude < 1e9)) {
+    if (place <= 0) return fmt::format("{:.{}f}", value, value == 0 && -place > 6 ? 0 : -place);
+    return fmt::format("{:.0f}", value);
+  }
+  return fmt::format("{:.{}e}", value, std::max(0, exponent_of(value) - place));
+}
+
+double rounded_to(double value, int place) {
+  const int digits = value == 0 ? 0 : exponent_of(value) - place;  // behind the first
+  if (digits < 0) {
+    const double unit = power_of_ten(place);
+    return std::abs(value) >= 0.5 * unit ? std::copysign(unit, value) : 0;
+  }
+  return std::strtod(fmt::format("{:.{}e}", value, std::min(digits, 17)).c_str(), nullptr);
+}
+
+// Count of units 10^place that the error fills, rounded up; a whole number but for round-off stays.
+double units_of(double error, int place) { return std::ceil(error / power_of_ten(place) * (1 - 1e-12)); }
+
+}  // namespace
+
+FigureText figure_text(double value, const std::optional<double>& error) {
+  if (!std::isfinite(value)) return {"—", ""};
+  value += 0.0;  // no −0
+  if (!error || !std::isfinite(*error)) return {fmt::format("{:.{}g}", value, digits_without_error), ""};
+  if (*error == 0) return {fmt::format("{:.{}g}", value, digits_if_exact), "± 0"};
+  // The place of the error's last digit, then of the value's.
+  const double size = std::abs(*error);
+  int place = exponent_of(size);
+  if (size < 2 * power_of_ten(place)) --place;
+  if (value != 0) place = std::max(place, exponent_of(value) - (most_digits - 1));
+  double shown = rounded_to(value, place), units = units_of(size + std::abs(value - shown), place);
+  while (units >= 20) {  // 19.8 units and half a one for the value's rounding are 2 of the next place
+    shown = rounded_to(value, ++place);
+    units = units_of(size + std::abs(value - shown), place);
+  }
+  const double upper = units * power_of_ten(place);
+  const bool fixed = upper >= 1e-5 && upper < 1e9;
+  return {written(shown + 0.0, place), "± " + (fixed ? fmt::format("{:.{}f}", upper, std::max(0, -place))
+                                                     : fmt::format("{:.{}e}", upper, units >= 10 ? 1 : 0))};
+}
+
+std::string with_error(double value, const std::optional<double>& error, std::string_view unit) {
+  const FigureText text = figure_text(value, error);
+  return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
+}
+
+std::string error_cell(double value, const std::optional<double>& error) {
+  const FigureText text = figure_text(value, error);
+  return text.error.empty() ? "not measured" : text.error;
+}
+
+}  // namespace kurbel

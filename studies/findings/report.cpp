@@ -1,0 +1,42 @@
+// report.cpp — helpers for those who fill a report: colours, readable units, the versions at its foot.
+#include "studies/findings/report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "engine/scene/units.h"
+
+namespace kurbel {
+
+Role further_role(std::size_t i) {
+  constexpr Role roles[] = {Role::orange, Role::green, Role::vermillion, Role::purple, Role::sky};
+  return roles[i % std::size(roles)];
+}
+
+ReportSection& Report::add(const std::string& section_title) {
+  sections.push_back({section_title, {}});
+  return sections.back();
+}
+
+ReadableUnit readable_unit(double largest, const std::string& si_unit) {
+  largest = std::abs(largest);
+  if (si_unit == "rad/s") return {"1/min", 30 / std::numbers::pi};
+  if (si_unit == "m") return largest < 2 ? ReadableUnit{"mm", 1e3} : ReadableUnit{"m", 1};
+  if (si_unit == "N" || si_unit == "N*m" || si_unit == "J" || si_unit == "W") {
+    const std::string unit = pretty_unit(si_unit);
+    if (largest >= 2e6) return {"M" + unit, 1e-6};
+    if (largest >= 2e3) return {"k" + unit, 1e-3};
+    return {unit, 1};
+  }
+  if (si_unit == "rad") return largest < 0.2 ? ReadableUnit{"mrad", 1e3} : ReadableUnit{"rad", 1};
+  return {pretty_unit(si_unit), 1};
+}
+
+std::string report_footer() {
+  return fmt::format("kurbel {} · g++ {} · Plotly.js 3.7.0 (basic)", KURBEL_VERSION, __VERSION__);
+}
+
+}  // namespace kurbel

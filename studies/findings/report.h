@@ -1,0 +1,185 @@
+// report.h — what a study tells people: data and words here; studies/report makes a page or gnuplot's files of it.
+//
+//   Report report{.title = "Size of the flywheel", .conclusion = "420 kg·m² keep δ below 0.05."};
+//   report.figures.push_back({"flywheel", 420, "kg*m2", 0.2});
+//   report.add("Results").cards.push_back(Plot{"δ falls with the flywheel's inertia", …});
+//   write_html(report, "results/size/report.html");
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace kurbel {
+
+// What a colour stands for; the same everywhere. The rest of the palette is that of Okabe and Ito.
+enum class Role { rigid, elastic, reference, orange, green, vermillion, purple, sky };
+Role further_role(std::size_t i);  // colours for a list of like things
+
+// A figure on the first screen.
+struct KeyFigure {
+  std::string name;
+  double value = 0;
+  std::string unit = {};  // SI, as in a scene: "N*m"
+  std::optional<double> error = {};
+  std::string note = {};
+  int digits = 0;  // significant ones; 0: by the error
+};
+
+struct Axis {
+  std::string label, unit = {};  // unit as it is to be read
+  bool logarithmic = false;
+};
+
+struct Series {
+  std::string name;
+  Role role = Role::elastic;
+  std::vector<double> x, y;
+  bool dashed = false;                   // references
+  bool points = false;                   // markers beside the line
+  bool line = true;                      // false: markers alone
+  std::vector<std::string> labels = {};  // what a point is, for those who point at it; none, or one each
+};
+
+// Something that happened, on the x-axis.
+struct EventMark {
+  double x = 0;
+  std::string text;
+};
+
+struct Plot {
+  std::string title;  // says what it shows
+  Axis x, y;
+  std::vector<Series> series;
+  std::vector<EventMark> marks = {};
+  std::string note = {};
+  bool equal_axes = false;  // one unit is as long on either axis: polar diagrams, loci
+  bool bars = false;        // harmonics and the like
+};
+
+// The ground of a table's cell, where cells are verdicts.
+enum class Tone { none, good, fair, aside, bad };
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  bool folded = false;           // shown on demand; always in print
+  std::size_t text_columns = 1;  // leading ones; the others are numbers, on the right
+  // Per cell as the rows, or none at all; words for those who point at a cell.
+  std::vector<std::vector<Tone>> tones = {};
+  std::vector<std::vector<std::string>> hints = {};
+};
+
+struct Formula {
+  std::string title, symbols;  // "δ = (ω_max − ω_min)/ω_m"
+  std::string numbers;         // the same with numbers put in, and the result
+  std::string note = {};
+};
+
+struct Text {
+  std::string title, body;
+  bool verbatim = false, folded = false;
+};
+
+// The moving machine: a shaft line, and its mechanism to scale.
+struct MachineView {
+  struct Part {
+    std::string name, kind;              // kind "gap": parts that are left out
+    double ratio_in = 1, ratio_out = 1;  // speed over the crank's
+    bool elastic = false;
+    bool crank = false;  // of a mechanism
+    int row = 0;         // 0: the main line
+  };
+  // The mechanism by its joints over one turn of the crank, in equal steps; the last place is the first again.
+  struct Linkage {
+    struct Link {
+      std::string shape;  // "crank", "link", "slot": a line; "slider" on a joint; "block" on a joint, along the next
+      std::vector<int> joints;  // that it goes through
+    };
+    std::string name;
+    double direction = 0;                   // of +x above the horizontal [rad]
+    std::vector<std::vector<double>> x, y;  // per joint [m]
+    std::vector<Link> links;                // in the order of drawing
+    std::vector<int> fixed;                 // joints that are bearings in the frame
+    int output = 0;                         // joint that the load is shown at
+  };
+  // Per frame; twists and torques per part, empty where there are none.
+  struct Motion {
+    std::string label;
+    Role role = Role::elastic;
+    std::vector<double> angle;                             // of the crank, or of the reduction link [rad]
+    std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it [rad]
+    std::vector<std::vector<double>> torque;               // [N·m]
+    std::vector<double> force;  // on the output, positive towards its greatest x [N], or angle [N·m]
+  };
+  std::string title, link;
+  std::vector<Part> parts;
+  std::optional<Linkage> linkage;
+  std::vector<double> time;     // of the frames [s]
+  std::vector<Motion> motions;  // the last one in front, those before it as grey ghosts
+  double enlargement = 1;       // of the twists
+  double cycle = 0;             // [rad]; 0: one turn
+};
+
+// Two toothed wheels in mesh that turn: wheel 1 in the origin, wheel 2 on the x-axis; lengths in m, angles in rad.
+struct GearView {
+  struct Circle {
+    std::string name;  // "tip", "working", "base", "root"
+    double radius = 0;
+  };
+  struct Wheel {
+    std::string name;
+    int teeth = 0;  // > 0
+    bool internal = false;
+    std::vector<double> x, y;      // one pitch of the outline; `teeth` of them make the wheel
+    double centre = 0, angle = 0;  // on the x-axis; when wheel 1 stands at 0
+    double speed = 1;              // over that of wheel 1, with its sign
+    std::vector<Circle> circles;
+    double edge = 0;  // radius of the bore, or of an internal wheel's rim; 0: none
+  };
+  struct Point {
+    std::string name;  // "A" … "E", "T₁", "T₂"
+    double place = 0;  // along the line of action, from the pitch point
+  };
+  std::string title, note = {};
+  std::vector<Wheel> wheels;
+  double pitch_point = 0, direction = 0;  // on the x-axis; of the line of action, from the x-axis
+  std::vector<Point> points;
+  double start = 0, end = 0, base_pitch = 0;
+  double first_contact = 0, base_radius = 0;  // contacts at first_contact + base_radius · angle + k base_pitch
+  double close_up = 0;                        // half the height of the enlarged view
+};
+
+using Card = std::variant<Plot, Table, Formula, Text, MachineView, GearView>;
+
+struct ReportSection {
+  std::string title;
+  std::vector<Card> cards = {};
+};
+
+struct Report {
+  std::string title, subtitle = {}, conclusion = {};
+  bool complete = true;
+  std::vector<KeyFigure> figures = {};
+  std::deque<ReportSection> sections = {};
+  std::string footer = {};  // versions
+
+  ReportSection& add(const std::string& section_title);  // stays where it is
+};
+
+// --- helpers for studies ---
+
+// Versions, for the foot of a page.
+std::string report_footer();
+
+// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; "rad/s" → 1/min.
+struct ReadableUnit {
+  std::string unit;
+  double factor = 1;  // value in this unit = factor · value in SI
+};
+ReadableUnit readable_unit(double largest, const std::string& si_unit);
+
+}  // namespace kurbel

@@ -1,0 +1,95 @@
+// result.h — what a study hands to tables, JSON and reports: figures with units and measured errors.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/recorders.h"
+
+namespace kurbel {
+
+struct Traces;
+
+struct Figure {
+  std::string name;  // dotted and stable: "peak_torque.main_coupling"
+  double value = 0;  // SI
+  std::string unit;
+  std::optional<double> error;          // measured, by other runs (measured_errors.h)
+  std::optional<double> at;             // time it belongs to [s]
+  double scale = 0;                     // rated quantity that the error is judged by; 0: the error is not judged
+  double resolution = 0;                // part of the error that all runs share: what location leaves open
+  std::optional<double> at_error = {};  // of the time, measured as the error of the value is [s]
+  bool exact = false;                   // by construction: a count, a speed that is given or held
+};
+
+struct ComponentState {
+  double angle = 0, speed = 0;                 // of its (driving) shaft [rad, rad/s]
+  std::optional<double> angle_out, speed_out;  // of its driven shaft, where it has two
+  // Measured errors of these four.
+  std::optional<double> angle_error = {}, speed_error = {}, angle_out_error = {}, speed_out_error = {};
+};
+
+// Run-up, steady motion and run-down of the reduction link; times in s. Defined in periods.h.
+struct Periods {
+  std::optional<double> run_up_end;                         // from here on within the range of the steady cycle, ± 1 %
+  std::optional<double> run_down_begin;                     // the last source went off
+  std::optional<double> standstill;                         // came to rest
+  double run_up_resolution = 0, standstill_resolution = 0;  // how far errors as small as the tolerance move them [s]
+  double steady_speed = 0;                                  // of steady motion only [rad/s]
+  bool steady = false;                                      // what remains to the mean speed's limit is below 0.1 %
+  std::optional<double> remaining;                          // to the limit [rad/s]; nothing: none is in sight
+  std::string verdict;                                      // why steady, or why not, in words
+};
+
+struct EnergyBalance {
+  std::map<std::string, double> by_line;     // driving, useful, harmful, weight [J]
+  std::map<std::string, double> by_account;  // per component [J]
+  double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0, residual = 0, relative = 0;
+  double reduction_residual = 0;  // kinetic energy of Simbody's bodies against that from I_r, relative
+  int checks = 0;
+};
+
+struct Result {
+  std::string title, label;  // label: "rigid", "elastic"
+  std::string scene_file;
+  bool complete = true;
+  std::string diagnosis;  // of an incomplete run
+  std::string effects;
+  std::size_t coordinates = 0, states = 0;
+  std::string explanation;  // what was merged, and why
+  double until = 0, accuracy = 0;
+  double measured_accuracy = 0;  // largest error over its scale; 0 with errors not measured
+  std::string checkpoint;        // text of the state at the end, to go on from; where it was asked for
+  double begins_at = 0;          // [s]: later than 0 where a run goes on from another one's end
+  bool accuracy_confirmed = false, errors_measured = false;
+  bool confirmation_asked = false;  // not with --no-error: then nothing was to be confirmed
+  double tolerance = 0;
+  int runs = 0;
+  std::int64_t flow_calls = 0;  // evaluations of the right-hand side, of all runs
+  std::vector<Figure> figures;
+  std::map<std::string, ComponentState> final_state;
+  std::vector<Event> events;
+  // Of the events' times, by comparison of runs [s]: one for each event (match_events), nothing where only one run has
+  // it; none at all: not measured.
+  std::vector<std::optional<double>> event_errors;
+  Periods periods;
+  std::vector<CycleRecord> cycles;
+  EnergyBalance energy;
+  RunStatistics statistics;
+  double cpu_total = 0;  // of all runs, errors included [s]
+  std::vector<std::string> notes;
+  std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
+  std::shared_ptr<const Traces> traces;                  // for plots; null unless asked for
+  std::shared_ptr<const Model> model;
+
+  const Figure* find(const std::string& name) const;
+  // Ran to the end, but not to the accuracy asked for: its figures stand with the errors that were measured, if any.
+  bool unconfirmed() const { return complete && confirmation_asked && !accuracy_confirmed; }
+  // "accuracy 1e-06 was asked for, 3.1e-05 measured"
+  std::string accuracy_in_words() const;
+};
+
+}  // namespace kurbel

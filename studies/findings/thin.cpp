@@ -1,0 +1,46 @@
+// thin.cpp — buckets, two survivors each.
+#include "studies/findings/thin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+
+void thin_by_extremes(std::vector<double>& x, std::vector<double>& y, std::size_t limit) {
+  const std::size_t n = x.size();
+  limit = std::max<std::size_t>(limit, 4);
+  if (n <= limit) return;
+  const std::size_t buckets = (limit - 2) / 2;
+  const double first = x.front(), width = x.back() - x.front();
+  const bool ascends = width > 0 && std::isfinite(width) && std::is_sorted(x.begin(), x.end());
+  std::size_t kept = 1;  // the first point stays; survivors are written over what was read already
+  const auto keep = [&](std::size_t i) {
+    x[kept] = x[i];
+    y[kept] = y[i];
+    ++kept;
+  };
+  std::size_t end = 1;
+  for (std::size_t b = 0; b < buckets; ++b) {
+    const std::size_t begin = end;
+    const double share = static_cast<double>(b + 1) / static_cast<double>(buckets);
+    if (b + 1 == buckets)
+      end = n - 1;
+    else if (!ascends)
+      end = 1 + (b + 1) * (n - 2) / buckets;
+    else
+      while (end < n - 1 && x[end] < first + share * width) ++end;
+    if (begin == end) continue;
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+    }
+    keep(std::min(low, high));
+    if (low != high) keep(std::max(low, high));
+  }
+  keep(n - 1);
+  x.resize(kept);
+  y.resize(kept);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,123 @@
+// trace.cpp — samples within each step; a full trace is thinned to half.
+#include "studies/findings/trace.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/findings/thin.h"
+
+namespace kurbel {
+namespace {
+
+constexpr int samples_per_step = 6;
+constexpr std::size_t full = 16000, thinned = 8000;
+
+void push(Trace& trace, double x, double y) {
+  trace.x.push_back(x);
+  trace.y.push_back(y);
+  if (trace.x.size() >= full) thin_by_extremes(trace.x, trace.y, thinned);
+}
+
+}  // namespace
+
+TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
+  for (Channel& channel : channels_of(
+           model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
+    const std::string quantity = channel.name.substr(0, channel.name.find('.'));
+    if (quantity == "spring_torque" || quantity == "angle") continue;
+    channels_.push_back(std::move(channel));
+  }
+  const int link = model.reduction_node;
+  channels_.push_back({"angle", "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
+  if (model.network.components.size() <= 60)
+    for (const std::string& component : model.network.components) {
+      const Network::Ports& ports = model.network.ports.at(component);
+      for (const int node : {ports.in, ports.out}) {
+        const double ratio = model.node_ratio[static_cast<std::size_t>(node)];
+        if (ratio == 0 || node == link || (node == ports.out && ports.in == ports.out && node != ports.in)) continue;
+        bool known = false;
+        for (const Channel& c : channels_) known = known || c.name == Traces::node_key(node);
+        if (!known)
+          channels_.push_back({Traces::node_key(node), "rad",
+                               [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
+      }
+    }
+  for (const Channel& channel : channels_) {
+    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") ||
+        channel.name.starts_with("load_torque.") || channel.name.starts_with("speed."))
+      over_angle_.push_back(traces_->over_time.size());
+    traces_->over_time.push_back({channel.name, channel.unit, {}, {}});
+  }
+  for (const char* name :
+       {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
+    traces_->over_time.push_back({name, "J", {}, {}});
+  now_.resize(traces_->over_time.size());
+}
+
+const Trace* Traces::find(const std::string& name) const {
+  for (const Trace& trace : over_time)
+    if (trace.name == name) return &trace;
+  return nullptr;
+}
+
+void TraceRecorder::record(double t, std::span<const double> y, Equations& equations, bool only_jumps) {
+  const Snapshot& s = equations.snapshot(t, y);
+  for (std::size_t k = 0; k < channels_.size(); ++k) now_[k] = channels_[k].value(s);
+  const double angle = s.node_angle[model_->reduction_node];
+  std::size_t k = channels_.size();
+  now_[k++] = equations.kinetic_energy(t, y);
+  now_[k++] = equations.stored_energy(t, y);
+  for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
+    double sum = 0;
+    for (std::size_t a = 0; a < model_->accounts.size() && equations.audit(); ++a)
+      if (model_->accounts[a].kind == kind) sum += y[equations.work_index(a)];
+    now_[k++] = sum;
+  }
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    Trace& trace = traces_->over_time[i];
+    const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
+    if (!only_jumps || !same) push(trace, t, now_[i]);
+  }
+  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle);
+}
+
+void TraceRecorder::follow_cycle(double t, double angle) {
+  const double turn = std::floor(angle / model_->cycle + 1e-12);
+  const auto start = [&] {
+    open_ = {t, t, {}};
+    for (const std::size_t i : over_angle_)
+      open_.traces.push_back({traces_->over_time[i].name, traces_->over_time[i].unit, {}, {}});
+  };
+  const auto add = [&](double within) {
+    for (std::size_t k = 0; k < over_angle_.size(); ++k) push(open_.traces[k], within, now_[over_angle_[k]]);
+    open_.end = t;
+  };
+  if (open_.traces.empty()) {
+    turn_ = turn;
+    open_whole_ = std::abs(angle - turn * model_->cycle) < 1e-6;
+    start();
+  } else if (turn != turn_) {
+    add(angle - turn_ * model_->cycle);
+    if (open_whole_ && turn > turn_) {
+      traces_->last_cycles.push_back(std::move(open_));
+      if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
+    }
+    open_whole_ = turn > turn_;
+    turn_ = turn;
+    start();
+  }
+  add(angle - turn_ * model_->cycle);
+}
+
+void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) { record(t, y, equations, false); }
+
+void TraceRecorder::step(StepView& view) {
+  const double t0 = view.t_previous(), t1 = view.t();
+  record(t0, view.at(t0), view.equations(), true);
+  for (int i = 1; i <= samples_per_step; ++i) {
+    const double t = i == samples_per_step ? t1 : t0 + (t1 - t0) * i / samples_per_step;
+    record(t, view.at(t), view.equations(), false);
+  }
+}
+
+}  // namespace kurbel

@@ -1,0 +1,59 @@
+// trace.h — an observer for plots: every channel along the steps of a run, in bounded memory, with every peak kept.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/run/recorders.h"
+
+namespace kurbel {
+
+// One quantity over time or over the crank angle.
+struct Trace {
+  std::string name, unit;  // SI
+  std::vector<double> x, y;
+};
+
+// One whole cycle of the reduction link; the traces run over its angle from 0 [rad].
+struct CycleTraces {
+  double begin = 0, end = 0;  // [s]
+  std::vector<Trace> traces;
+};
+
+// What a run leaves for plots, whoever integrated it.
+struct Traces {
+  std::vector<Trace> over_time;
+  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last
+  const Trace* find(const std::string& name) const;
+  static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
+};
+
+// Follows the steps of the integrator, which are short where something happens, and both sides of every jump. Beside
+// the model's channels:
+//   twist_to_link.NODE  angle of a node reduced to the reduction link, less the link's own angle [rad]
+//   kinetic_energy, stored_energy, work.driving, work.useful, work.harmful, work.weight [J]
+class TraceRecorder final : public Observer {
+ public:
+  explicit TraceRecorder(const Model& model);
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+
+  std::shared_ptr<const Traces> traces() const { return traces_; }
+
+ private:
+  void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
+  void follow_cycle(double t, double angle);
+
+  const Model* model_;  // outlives the run
+  std::vector<Channel> channels_;
+  std::shared_ptr<Traces> traces_ = std::make_shared<Traces>();
+  std::vector<std::size_t> over_angle_;  // traces that are also followed over the angle
+  CycleTraces open_;
+  double turn_ = 0;          // number of the open cycle
+  bool open_whole_ = false;  // it was seen from its beginning
+  std::vector<double> now_;
+};
+
+}  // namespace kurbel

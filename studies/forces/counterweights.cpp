@@ -1,0 +1,99 @@
+// counterweights.cpp — orders of the shaking force, and counterweights by what they leave of it.
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "studies/forces/force_cycle.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+Force2 direction_of(double phi) { return {std::cos(phi), std::sin(phi)}; }
+
+// What a counterweight opposite to the pin adds to the shaking force at constant speed: −U ω² r̂.
+Force2 added(double moment, const CyclePosition& p) {
+  const double w = p.state.omega;
+  return -moment * w * w * direction_of(p.state.phi);
+}
+
+}  // namespace
+
+// a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is left out.
+std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
+  const std::size_t n = values.size() - 1;
+  std::vector<ForceHarmonic> orders;
+  for (int k = 0; k <= highest_order; ++k) {
+    std::complex<double> sum = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      sum += values[i] * std::polar(1.0, -k * turn * turns * static_cast<double>(i) / static_cast<double>(n));
+    sum /= static_cast<double>(n);
+    if (k == 0 && mean) *mean = sum.real();
+    if (k > 0) orders.push_back({k, 2 * std::abs(sum), -std::arg(sum)});
+  }
+  return orders;
+}
+
+// None; rotating masses; half of the reciprocating first order besides; and what makes the largest shaking force least
+// (convex in the counterweight, as the largest of norms of affine functions is; by the golden section).
+std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& statics, const CycleBuilder& turn_of_crank,
+                                                  const std::vector<CyclePosition>& positions) {
+  const SliderCrankData& d = statics.data();
+  const double share = d.rod_com / d.rod_length;  // of the rod's mass that goes with the slider
+  const double rotating = d.crank_mass * d.crank_com + d.rod_mass * (1 - share) * d.radius;
+  const double reciprocating = (d.slider_mass + d.rod_mass * share) * d.radius;
+  const auto shaking = [](double moment, const CyclePosition& p) {
+    return (p.forces.shaking_force + added(moment, p)).magnitude();
+  };
+  const auto on_grid = [&](double moment) {
+    double largest = 0;
+    for (const CyclePosition& p : positions) largest = std::max(largest, shaking(moment, p));
+    return largest;
+  };
+  double a = rotating - 2 * reciprocating, b = rotating + 2 * reciprocating;
+  constexpr double part = 0.38196601125010515;
+  for (int i = 0; i < 100; ++i) {
+    const double x = a + part * (b - a), y = b - part * (b - a);
+    if (on_grid(x) < on_grid(y))
+      b = y;
+    else
+      a = x;
+  }
+  std::vector<double> phi;
+  for (const CyclePosition& p : turn_of_crank.samples()) phi.push_back(p.state.phi);
+  const auto peak = [&](auto&& value) {
+    std::vector<double> values;
+    for (const CyclePosition& p : turn_of_crank.samples()) values.push_back(value(p));
+    return peak_of(phi, values, [&](double x) { return value(turn_of_crank.at(x)); }).value;
+  };
+  std::vector<Counterweight> proposals;
+  const auto propose = [&](const std::string& name, double moment) {
+    Counterweight c;
+    c.name = name;
+    c.moment = moment;
+    c.reciprocating_share = reciprocating > 0 ? (moment - rotating) / reciprocating : 0;
+    std::vector<double> x, y;
+    for (const CyclePosition& p : positions) {
+      c.shaking.push_back(p.forces.shaking_force + added(moment, p));
+      x.push_back(c.shaking.back().x);
+      y.push_back(c.shaking.back().y);
+    }
+    c.peak_force = peak([&](const CyclePosition& p) { return shaking(moment, p); });
+    // The bearing carries it: the frame's force on the crank is less by the counterweight's inertia force.
+    c.peak_bearing =
+        peak([&](const CyclePosition& p) { return (p.forces.main_bearing - added(moment, p)).magnitude(); });
+    const int turns = static_cast<int>(std::lround((positions.back().state.phi - positions.front().state.phi) / turn));
+    c.first_x = harmonics(x, turns).front().amplitude;
+    c.first_y = harmonics(y, turns).front().amplitude;
+    proposals.push_back(std::move(c));
+  };
+  propose("as it is", 0);
+  propose("rotating masses", rotating);
+  propose("rotating masses and half the reciprocating ones", rotating + 0.5 * reciprocating);
+  propose("least peak of the shaking force", 0.5 * (a + b));
+  return proposals;
+}
+
+}  // namespace kurbel

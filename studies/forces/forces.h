@@ -1,0 +1,133 @@
+// forces.h — kinetostatics of a scene's slider-crank over a cycle: reactions, balancing torque, friction, balancing.
+//
+// First problem: the crank turns at a given speed; what forces does that need? Second problem: the machine runs as its
+// torques drive it, rigid, and the forces follow from the motion found (last whole cycle).           (theory 9)
+#pragma once
+
+#include <atomic>
+#include <complex>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
+
+namespace kurbel {
+
+struct ForcesOptions {
+  int positions = 12;           // of a turn that tables show, ≥ 4
+  std::optional<double> speed;  // of the crank in the first problem [rad/s], ≠ 0; default: start speed, else rated
+  std::string mechanism;        // empty: the first slider-crank
+  bool simulate = true;         // the second problem, too
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress = {};
+  std::function<void(const std::string&)> log = {};
+};
+
+// Powers that enter the mechanism [W].
+struct PowerFlow {
+  double crank = 0;  // M ω
+  double load = 0;   // Σ F v
+  double weight = 0;
+  double kinetic_rate = 0;  // dT/dt
+  double friction = 0;      // lost in the joints, ≥ 0
+  double residual = 0;      // of crank + load + weight − friction = dT/dt, relative to the largest power of the cycle
+  double nothing = 0;       // powers up to this are rounding beside the cycle's largest [W]
+
+  // 1 − loss/Σ(powers that go in, kinetic energy given up included); empty where nothing goes in.
+  std::optional<double> efficiency() const;
+};
+
+struct CyclePosition {
+  CrankState state;
+  double position = 0, velocity = 0;  // of the slider [m, m/s]
+  double rod_angle = 0;               // β [rad]
+  SliderCrankForces forces;
+  PowerFlow power;
+};
+
+// Order k of the crank's turn: amplitude and phase of A cos(k φ − phase).
+struct ForceHarmonic {
+  int order = 0;
+  double amplitude = 0, phase = 0;
+};
+inline constexpr int highest_order = 8;
+
+// A figure of the cycle with where it is reached.
+struct Peak {
+  double value = 0;
+  double phi = 0;               // [rad]
+  std::optional<double> error;  // of the second problem: difference to a run with 30 × looser tolerance
+};
+
+struct CycleWork {
+  std::string name;
+  std::string kind;     // driving, useful, harmful, weight
+  double work = 0;      // done on the mechanism [J]
+  double turnover = 0;  // ∫|dA|: what goes to and fro [J]
+  double error = 0;     // of the second problem: difference to a run with 30 × looser tolerance [J]
+};
+
+// One of the two problems over one cycle.
+struct ForceCycle {
+  std::string label;                                           // "prescribed", "simulated"
+  std::string description;                                     // for people
+  double cycle = 0;                                            // [rad]
+  double mean_speed = 0, least_speed = 0, greatest_speed = 0;  // of the crank [rad/s]
+  double first_speed = 0, last_speed = 0;  // of the crank at the cycle's begin and end in time [rad/s]
+  std::optional<double> speed_before;      // one cycle before its begin, where the run has it
+  double closure = 0;                      // speed at the end − at the begin, over the mean: steady motion has none
+  std::vector<CyclePosition> positions;    // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<CyclePosition> rows;         // those asked for, both ends
+  std::vector<CyclePosition> curve;        // positions, both sides of every load edge, and the peaks
+  Peak reaction[joint_count];              // [N]
+  Peak torque, shaking_force, shaking_moment;
+  CyclePosition at_torque_peak;
+  int both_edges = 0;  // positions where both edges bear
+  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
+  double torque_mean = 0;
+  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
+  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
+  double kinetic_error = 0;                     // of the change, as that of a work [J]
+  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                             // input less what the motion stores [J]
+  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
+  std::string no_efficiency;                    // else why
+  double power_residual = 0;                    // largest
+  double friction_residual = 0;                 // largest, of the friction laws
+  int most_iterations = 0;
+};
+
+struct Counterweight {
+  std::string name;
+  double moment = 0;                // mass · radius opposite to the pin [kg·m]; < 0: on the pin's side
+  double reciprocating_share = 0;   // of the first order's reciprocating mass that it balances
+  double peak_force = 0;            // of the shaking force that remains [N]
+  double first_x = 0, first_y = 0;  // its first order along and across the stroke [N]
+  double peak_bearing = 0;          // reaction of the main bearing [N]
+  std::vector<Force2> shaking;      // over the turn, as the positions of the first problem
+};
+
+struct Forces {
+  std::string title, scene_file, scene_text, mechanism;
+  SliderCrankData data;
+  SliderCrankJoints joints;
+  double rotating_moment = 0;     // of crank and the rod's share in the crank pin, towards the pin [kg·m]
+  double reciprocating_mass = 0;  // of slider and the rod's share in the slider pin [kg]
+  std::optional<ForceCycle> prescribed, simulated;
+  std::vector<Counterweight> counterweights;  // the first: as it is
+  std::vector<std::string> notes;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+// Throws SceneError where the scene makes no machine; std::invalid_argument where it has no slider-crank or options
+// are senseless; std::runtime_error with the position where the joints jam.
+Forces find_forces(const Scene& scene, const ForcesOptions& options);
+
+// Orders 0 … highest of values given evenly over `turns` turns, both ends (trapezium rule, exact for smooth functions).
+std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);
+
+}  // namespace kurbel

@@ -1,0 +1,15 @@
+// bevel_worm.h — what `kurbel gears` says about a bevel or a worm pair.
+#pragma once
+
+#include <optional>
+
+#include "drivetrain/gears/bevel_worm.h"
+#include "studies/findings/output.h"
+
+namespace kurbel {
+
+// Both throw std::invalid_argument in words.
+StudyOutput output_of(const BevelPair& pair);
+StudyOutput output_of(const WormPair& pair, std::optional<double> worm_speed = {});  // [rad/s]
+
+}  // namespace kurbel

@@ -1,0 +1,83 @@
+// gears.cpp — collects the pairs of wheels of a scene.
+#include "studies/gears/gears.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "drivetrain/gears/gear_keys.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+GearStage stage_of(const std::string& name, GearPair pair, std::optional<double> speed) {
+  GearStage stage{.name = name, .pair = std::move(pair), .stiffness = {}, .verdicts = {}, .speed = speed};
+  stage.stiffness = mesh_stiffness(stage.pair);
+  stage.verdicts = verdicts(stage.pair);
+  return stage;
+}
+
+// The stages of one gearbox; the speed goes on from stage to stage.
+void add_gearbox(const Section& gearbox, std::optional<double> speed, Gears& gears,
+                 std::vector<std::string>& without_module) {
+  Messages messages(gears.scene_file);
+  const std::vector<Section>& stages = gearbox["stages"].sections;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const std::string name = fmt::format("{}.stage{}", gearbox.name, k + 1);
+    const std::string what = fmt::format("gearbox \"{}\": stages[{}]", gearbox.name, k + 1);
+    if (std::optional<GearPair> pair = gear_pair_of(stages[k], what, messages))
+      gears.stages.push_back(stage_of(name, std::move(*pair), speed));
+    else
+      without_module.push_back(name);
+    const std::vector<double>& teeth = stages[k]["teeth"].numbers;
+    if (speed && teeth.size() == 2) *speed *= teeth[0] / teeth[1];
+  }
+  messages.throw_if_any();
+}
+
+bool wanted(const std::string& stage, const std::string& pair) {
+  return pair.empty() || stage == pair || stage.starts_with(pair + ".");
+}
+
+}  // namespace
+
+Gears find_gears(const Scene& scene, const GearsOptions& options) {
+  Gears gears{.title = scene.title, .scene_file = scene.file, .scene_text = scene.text, .stages = {}, .notes = {}};
+  std::vector<std::string> without_module;
+  for (const Section& section : scene.components)
+    if (section.kind && section.kind->name == "gearbox") add_gearbox(section, options.speed, gears, without_module);
+  std::vector<std::string> names;
+  for (const GearStage& stage : gears.stages) names.push_back(stage.name);
+  if (names.empty())
+    throw std::invalid_argument(
+        fmt::format("{}: no gearbox stage has its module given; write e.g. {{ teeth = [19, 95], module = \"4 mm\", "
+                    "width = \"40 mm\" "
+                    "}}{}",
+                    scene.file, without_module.empty() ? "" : fmt::format(" for {}", listed(without_module, "and"))));
+  std::erase_if(gears.stages, [&](const GearStage& stage) { return !wanted(stage.name, options.pair); });
+  if (gears.stages.empty()) {
+    const auto near = nearest(options.pair, names);
+    throw std::invalid_argument(fmt::format("--pair {}: no such pair{}; allowed: {}", in_quotes(options.pair),
+                                            near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+  }
+  for (const std::string& name : without_module)
+    if (wanted(name, options.pair)) gears.notes.push_back(fmt::format("{}: left out, its module is not given.", name));
+  return gears;
+}
+
+Gears single_pair(const GearPairData& data, std::optional<double> speed) {
+  Gears gears;
+  gears.title = "Gear pair";
+  gears.stages.push_back(stage_of("pair", solve_gear_pair(data), speed));
+  return gears;
+}
+
+Finding worst_of(const GearStage& stage) {
+  Finding worst = Finding::good;
+  for (const GearVerdict& v : stage.verdicts) worst = std::max(worst, v.finding);
+  return worst;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,126 @@
+// modes.h — the drive in the frequency domain: modes, critical speeds, forced response, limits, a torque's spectrum.
+//
+//   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
+// A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
+// first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/eigen_modes.h"
+#include "engine/scene/scene.h"
+#include "studies/modes/forced_response.h"
+#include "studies/modes/rainflow.h"
+#include "studies/modes/spectrum.h"
+
+namespace kurbel {
+
+struct ModesOptions {
+  int count = 20;                    // of modes, rigid motion not counted
+  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: start speed, else steady near the rated
+  std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
+  double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
+  double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
+  double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its mean
+  std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress = {};
+  std::function<void(const std::string&)> log = {};
+};
+
+struct Mode {
+  int number = 0;         // 0: rigid motion
+  double omega = 0;       // undamped [rad/s]
+  Eigen::VectorXd shape;  // per coordinate, M-orthonormal
+  EnergyShares shares;
+  std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
+  double ratio = 1;             // ζ; 1: does not swing
+};
+
+struct CriticalSpeed {
+  double speed = 0;  // of the reduction link [rad/s]
+  int mode = 0;
+  double order = 0;
+  std::size_t harmonic = 0;
+  double amplitude = 0;  // of this order alone, in the joint where it is largest over its mean [N·m]
+  std::size_t joint = 0;
+};
+
+struct ParametricZone {
+  int mode = 0;
+  std::size_t harmonic = 0;
+  double centre = 0;      // 2 ω/r [rad/s]
+  double variation = 0;   // ε
+  double half_width = 0;  // relative; 0: damping keeps it closed
+};
+
+struct BarredRange {
+  std::size_t joint = 0;
+  double from = 0, to = 0;  // [rad/s]
+  double limit = 0, peak = 0;
+  std::string reason;  // "vibratory_torque", "1 × mean torque", …
+};
+
+// One requirement on one component.
+struct Verdict {
+  std::string component, requirement;  // "vibratory torque T_KW (DIN 740-2)"
+  double value = 0, limit = 0;
+  std::string unit;
+  std::string note;
+  bool holds() const { return value <= limit; }
+};
+
+// Of a joint, as the scene's component states them; 0: not stated.
+struct DriveLimits {
+  double nominal = 0, maximum = 0, vibratory = 0, power = 0;  // [N·m], [W]
+  double application_factor = 1;
+  double shear_stress = 0, polar_modulus = 0;  // [Pa], W_p [m³]
+  bool any() const { return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0; }
+};
+
+struct TorqueHistory {
+  std::string channel;
+  std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
+  AmplitudeSpectrum spectrum, orders;
+  std::vector<WaterfallLine> lines;
+  std::vector<LoadCycle> cycles;
+  double greatest = 0, least = 0;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+struct ModesStudy {
+  std::string title, scene_file, scene_text;
+  LinearDrive drive;
+  UndampedModes undamped;
+  std::vector<Mode> modes;         // without the rigid ones
+  std::vector<DampedMode> damped;  // all that were found
+  std::vector<std::string> shaft_names, joint_names;
+  std::string link;  // reduction link
+  Excitations excitations;
+  double slowest = 0, fastest = 0, highest_order = 0;
+  std::vector<CriticalSpeed> critical;  // by speed
+  std::vector<ParametricZone> zones;
+  SpeedResponse here;                // at the operating point
+  std::vector<SpeedResponse> sweep;  // over the range
+  std::vector<DriveLimits> limits;   // per joint
+  std::vector<BarredRange> barred;
+  std::vector<Verdict> verdicts;
+  std::optional<TorqueHistory> history;
+  std::vector<std::string> notes;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+// Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
+// senseless; std::runtime_error where modes cannot be found.
+ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
+
+// Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
+double parametric_half_width(double variation, double damping_ratio);
+
+}  // namespace kurbel

@@ -1,0 +1,96 @@
+// reduce.h — a machine reduced to one link: inertia, torques, harmonics, and the drive's elastic chain (theory 2, 5).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/cycle/machine_cycle.h"
+#include "studies/findings/output.h"
+
+namespace kurbel {
+
+struct ReduceOptions {
+  int positions = 12;           // of the cycle, ≥ 1
+  std::string to;               // "gearbox.in", "flywheel", "press.slider", "screen.rocker"; empty: the reduction link
+  std::optional<double> speed;  // of the reduction link, for torques that depend on it [rad/s]
+  int orders = 12;              // of the harmonics, per turn of the reduction link
+};
+
+// The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N.
+struct ReducedPosition {
+  int number = 0;
+  double phi = 0;                                                           // of the reduction link [rad]
+  double inertia = 0, drive_inertia = 0, mechanism_inertia = 0, slope = 0;  // I_r = I_drive + I_em, I_r′
+  double drive = 0, load = 0;                                               // M_d, M_c
+  std::vector<double> share;                                                // per account, positive when it drives
+  std::optional<double> ratio;                                              // of a slider: x′ = v/ω [m/rad]
+  std::string singular;  // why there are no values: a dead centre of the slider
+};
+
+// a_n cos(n φ − ψ_n) of one quantity; order 1 is once per turn of the reduction link.
+struct Harmonic {
+  double order = 0, amplitude = 0, phase = 0;  // phase of the maximum after φ = 0 [rad of n φ]; order 0: the mean
+};
+struct Spectrum {
+  std::string name, unit;
+  std::vector<Harmonic> harmonics;
+  double mean_square = 0;  // of the quantity over the cycle, by quadrature
+  // Parseval: a₀² + ½ Σ a_n² over mean_square; what is missing to 1 lies in higher orders.
+  double captured = 1;
+};
+// Exact sums over the pieces. Orders 0 … `orders` in steps of 2π/length.
+Spectrum spectrum(const std::string& name, const std::string& unit, const Piecewise& f, int orders);
+
+// One inertia of the drive, or one elastic part between two.
+struct ChainInertia {
+  std::string name;           // what is on it
+  double own = 0, ratio = 1;  // on its own shaft [kg·m²]; its speed over the chosen shaft's
+  double reduced = 0;         // own · ratio² [kg·m²]
+  bool mechanism = false;     // holds I_em by its mean
+};
+struct ChainSpring {
+  std::string name;
+  std::size_t a = 0, b = 0;                      // inertias that it joins
+  double stiffness = 0, damping = 0, ratio = 1;  // own [N·m/rad], [N·m·s/rad]; of its driving shaft
+  double reduced_stiffness = 0, reduced_damping = 0;
+};
+// Every coupling and shaft elastic, whatever effects are on.
+struct Chain {
+  std::vector<ChainInertia> inertias;
+  std::vector<ChainSpring> springs;
+  double total() const;
+};
+
+struct MachineReduction {
+  std::string title, scene_file;
+  std::string link, to;    // the reduction link, and what all is reduced to
+  bool to_output = false;  // the mechanism's slider or rocker, whose ratio varies
+  bool to_rocker = false;
+  double to_ratio = 1;  // speed of the chosen shaft over the link's
+  double speed = 0;     // of the link, where torques depend on it [rad/s]
+  std::string speed_source;
+  double cycle = 0;                   // of the link [rad]
+  double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
+  std::vector<std::string> accounts;  // names with their line: "press.load (useful)"
+  std::vector<ReducedPosition> positions;
+  std::vector<ReducedPosition> curve;    // dense, for plots
+  std::vector<Spectrum> spectra;         // on the link: I_r, M_d − M_c
+  Chain chain;                           // on the chosen shaft, or on the link
+  double mean_drive = 0, mean_load = 0;  // on the link [N·m]
+  std::vector<std::string> notes;
+};
+
+// Throws SceneError where the scene makes no machine, std::invalid_argument in words for options that make no sense.
+MachineReduction reduce(const Scene& scene, const ReduceOptions& options);
+
+// The drive's chain on a node of a compiled model.
+Chain elastic_chain(const Model& model, int node);
+
+// "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the names allowed.
+int node_named(const Model& model, const std::string& name);
+
+StudyOutput output_of(const MachineReduction& reduction);
+
+}  // namespace kurbel

@@ -1,0 +1,407 @@
+// html.cpp — the page: template, styles and scripts with the report's data as JSON.
+#include "studies/report/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/scene/units.h"
+#include "studies/files/whole_file.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/thin.h"
+#include "studies/report/assets.h"
+#include "studies/report/theory.h"
+
+namespace kurbel {
+namespace {
+
+const char* name_of(Role role) {
+  switch (role) {
+    case Role::rigid:
+      return "rigid";
+    case Role::elastic:
+      return "elastic";
+    case Role::reference:
+      return "reference";
+    case Role::orange:
+      return "orange";
+    case Role::green:
+      return "green";
+    case Role::vermillion:
+      return "vermillion";
+    case Role::purple:
+      return "purple";
+    case Role::sky:
+      return "sky";
+  }
+  return "elastic";
+}
+
+// JSON written straight into one string: a report is mostly numbers.
+class Writer {
+ public:
+  std::string text;
+
+  void key(std::string_view name) {
+    comma();
+    text += fmt::format("\"{}\":", name);
+    fresh_ = true;
+  }
+  void value(const std::string& s) { put(json_string(s)); }
+  void value(const char* s) { put(json_string(s)); }
+  void value(bool b) { put(b ? "true" : "false"); }
+  void value(double v, int digits = 7) { put(number(v, digits)); }
+  void value(const std::vector<double>& list, int digits = 7) {
+    comma();
+    text += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i) text += ',';
+      text += number(list[i], digits);
+    }
+    text += ']';
+    fresh_ = false;
+  }
+  void value(const std::vector<std::vector<double>>& lists, int digits) {
+    list(lists, [&](const std::vector<double>& l) { value(l, digits); });
+  }
+  void value(const std::vector<std::string>& strings) {
+    list(strings, [&](const std::string& s) { value(s); });
+  }
+  template <class T, class... More>
+  void field(std::string_view name, const T& v, More... more) {
+    key(name);
+    value(v, more...);
+  }
+  template <class Body>
+  void object(Body body) {
+    comma();
+    text += '{';
+    fresh_ = true;
+    body();
+    text += '}';
+    fresh_ = false;
+  }
+  template <class List, class Each>
+  void list(const List& items, Each each) {
+    comma();
+    text += '[';
+    fresh_ = true;
+    for (const auto& item : items) each(item);
+    text += ']';
+    fresh_ = false;
+  }
+
+ private:
+  static std::string number(double v, int digits) {
+    return std::isfinite(v) ? fmt::format("{:.{}g}", v, digits) : "null";
+  }
+  void put(const std::string& s) {
+    comma();
+    text += s;
+    fresh_ = false;
+  }
+  void comma() {
+    if (!fresh_) text += ',';
+    fresh_ = false;
+  }
+  bool fresh_ = true;
+};
+
+void write(Writer& w, const Axis& axis) {
+  w.object([&] {
+    w.field("label", axis.label);
+    w.field("unit", axis.unit);
+    w.field("log", axis.logarithmic);
+  });
+}
+
+void write(Writer& w, const Plot& plot) {
+  w.field("kind", "plot");
+  w.field("title", plot.title);
+  w.field("note", plot.note);
+  w.field("equalAxes", plot.equal_axes);
+  w.field("bars", plot.bars);
+  w.key("x"), write(w, plot.x);
+  w.key("y"), write(w, plot.y);
+  w.key("series");
+  w.list(plot.series, [&](const Series& series) {
+    std::vector<double> x = series.x, y = series.y;
+    thin_by_extremes(x, y, points_per_series);
+    w.object([&] {
+      w.field("name", series.name);
+      w.field("role", name_of(series.role));
+      w.field("dashed", series.dashed);
+      w.field("points", series.points || !series.line);
+      w.field("line", series.line);
+      w.field("x", x, 8);
+      w.field("y", y, 7);
+      if (series.labels.size() == x.size() && !x.empty()) w.field("labels", series.labels);
+    });
+  });
+  // Marks beyond some hundreds run into each other.
+  std::vector<EventMark> marks;
+  const std::size_t stride = 1 + plot.marks.size() / 400;
+  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
+  w.key("marks");
+  w.list(marks, [&](const EventMark& mark) {
+    w.object([&] {
+      w.field("x", mark.x, 8);
+      w.field("text", mark.text);
+    });
+  });
+}
+
+std::vector<std::string> classes_of(const std::vector<Tone>& tones) {
+  constexpr const char* classes[] = {"", "good", "fair", "aside", "bad"};
+  std::vector<std::string> names;
+  for (const Tone tone : tones) names.emplace_back(classes[static_cast<std::size_t>(tone)]);
+  return names;
+}
+
+void write(Writer& w, const Table& table) {
+  w.field("kind", "table");
+  w.field("title", table.title);
+  w.field("folded", table.folded);
+  w.field("textColumns", static_cast<double>(table.text_columns));
+  w.field("columns", table.columns);
+  w.key("rows");
+  w.list(table.rows, [&](const std::vector<std::string>& row) { w.value(row); });
+  if (!table.tones.empty()) {
+    w.key("tones");
+    w.list(table.tones, [&](const std::vector<Tone>& row) { w.value(classes_of(row)); });
+  }
+  if (!table.hints.empty()) {
+    w.key("hints");
+    w.list(table.hints, [&](const std::vector<std::string>& row) { w.value(row); });
+  }
+}
+
+void write(Writer& w, const Formula& formula) {
+  w.field("kind", "formula");
+  w.field("title", formula.title);
+  w.field("symbols", formula.symbols);
+  w.field("numbers", formula.numbers);
+  w.field("note", formula.note);
+}
+
+void write(Writer& w, const Text& t) {
+  w.field("kind", "text");
+  w.field("title", t.title);
+  w.field("body", t.body);
+  w.field("verbatim", t.verbatim);
+  w.field("folded", t.folded);
+}
+
+void write(Writer& w, const MachineView::Linkage& linkage) {
+  w.field("name", linkage.name);
+  w.field("direction", linkage.direction);
+  w.field("x", linkage.x, 5);
+  w.field("y", linkage.y, 5);
+  w.key("links");
+  w.list(linkage.links, [&](const MachineView::Linkage::Link& link) {
+    w.object([&] {
+      w.field("shape", link.shape);
+      w.key("joints");
+      w.list(link.joints, [&](int joint) { w.value(static_cast<double>(joint)); });
+    });
+  });
+  w.key("fixed");
+  w.list(linkage.fixed, [&](int joint) { w.value(static_cast<double>(joint)); });
+  w.field("output", static_cast<double>(linkage.output));
+}
+
+void write(Writer& w, const MachineView& machine) {
+  w.field("kind", "machine");
+  w.field("title", machine.title);
+  w.field("link", machine.link);
+  w.field("enlargement", machine.enlargement);
+  w.field("cycle", machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12);
+  w.key("parts");
+  w.list(machine.parts, [&](const MachineView::Part& part) {
+    w.object([&] {
+      w.field("name", part.name);
+      w.field("kind", part.kind);
+      w.field("ratioIn", part.ratio_in);
+      w.field("ratioOut", part.ratio_out);
+      w.field("elastic", part.elastic);
+      w.field("crank", part.crank);
+      w.field("row", static_cast<double>(part.row));
+    });
+  });
+  if (machine.linkage) {
+    w.key("linkage");
+    w.object([&] { write(w, *machine.linkage); });
+  }
+  w.field("time", machine.time, 7);
+  w.key("motions");
+  w.list(machine.motions, [&](const MachineView::Motion& motion) {
+    w.object([&] {
+      w.field("label", motion.label);
+      w.field("role", name_of(motion.role));
+      w.field("angle", motion.angle, 7);
+      w.field("twistIn", motion.twist_in, 4);
+      w.field("twistOut", motion.twist_out, 4);
+      w.field("torque", motion.torque, 4);
+      w.field("force", motion.force, 4);
+    });
+  });
+}
+
+void write(Writer& w, const GearView::Wheel& wheel) {
+  w.field("name", wheel.name);
+  w.field("teeth", static_cast<double>(wheel.teeth));
+  w.field("internal", wheel.internal);
+  w.field("x", wheel.x, 7);
+  w.field("y", wheel.y, 6);
+  w.field("centre", wheel.centre, 9);
+  w.field("angle", wheel.angle, 12);
+  w.field("speed", wheel.speed, 12);
+  w.field("edge", wheel.edge);
+  w.key("circles");
+  w.list(wheel.circles, [&](const GearView::Circle& circle) {
+    w.object([&] {
+      w.field("name", circle.name);
+      w.field("radius", circle.radius, 9);
+    });
+  });
+}
+
+void write(Writer& w, const GearView& view) {
+  w.field("kind", "gears");
+  w.field("title", view.title);
+  w.field("note", view.note);
+  w.key("wheels");
+  w.list(view.wheels, [&](const GearView::Wheel& wheel) { w.object([&] { write(w, wheel); }); });
+  w.key("points");
+  w.list(view.points, [&](const GearView::Point& point) {
+    w.object([&] {
+      w.field("name", point.name);
+      w.field("place", point.place, 9);
+    });
+  });
+  w.field("pitchPoint", view.pitch_point, 9);
+  w.field("direction", view.direction, 9);
+  w.field("start", view.start, 9);
+  w.field("end", view.end, 9);
+  w.field("basePitch", view.base_pitch, 9);
+  w.field("firstContact", view.first_contact, 9);
+  w.field("baseRadius", view.base_radius, 9);
+  w.field("closeUp", view.close_up);
+}
+
+std::string json_of(const Report& report) {
+  Writer w;
+  w.object([&] {
+    w.field("title", report.title);
+    w.field("subtitle", report.subtitle);
+    w.field("conclusion", report.conclusion);
+    w.field("complete", report.complete);
+    w.field("footer", report.footer);
+    w.key("figures");
+    w.list(report.figures, [&](const KeyFigure& figure) {
+      w.object([&] {
+        w.field("name", figure.name);
+        const FigureText text = figure_text(figure.value, figure.error);
+        w.field("value", figure.digits > 0 ? fmt::format("{:.{}g}", figure.value, figure.digits) : text.value);
+        w.field("unit", pretty_unit(figure.unit));
+        w.field("error", text.error);
+        w.field("note", figure.note);
+      });
+    });
+    w.key("sections");
+    w.list(report.sections, [&](const ReportSection& section) {
+      w.object([&] {
+        w.field("title", section.title);
+        w.key("cards");
+        w.list(section.cards,
+               [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
+      });
+    });
+    const std::vector<std::string> notes = theory_notes(w.text);  // of all that was said above
+    if (!notes.empty()) w.field("theory", notes);
+  });
+  return w.text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  return out;
+}
+
+}  // namespace
+
+std::string json_string(const std::string& text) {
+  std::string out = "\"";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '<') {
+      out += "\\u003c";  // neither "</script" nor "<!--" can arise
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<int>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string html_of(const Report& report) {
+  const std::string json = json_of(report);
+  const std::string_view page = report_assets::page_html();
+  std::string html;
+  html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);
+  // Placeholders {{name}} of the template, once through; what is put in is not looked at again.
+  std::size_t at = 0;
+  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{", at)) {
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    html += page.substr(at, open - at);
+    if (name == "title")
+      html += escaped(report.title);
+    else if (name == "conclusion")
+      html += escaped(report.conclusion);
+    else if (name == "css")
+      html += report_assets::page_css();
+    else if (name == "js")
+      html += report_assets::page_js();
+    else if (name == "plotly")
+      html += report_assets::plotly_js();
+    else if (name == "licence")
+      html += escaped(report_assets::plotly_licence());
+    else if (name == "data")
+      html += json;
+    else
+      throw std::logic_error(fmt::format("the report's template has no \"{}\"", name));
+    at = close + 2;
+  }
+  html += page.substr(at);
+  return html;
+}
+
+void write_html(const Report& report, const std::string& path) { write_whole(path, html_of(report)); }
+
+}  // namespace kurbel

@@ -1,0 +1,32 @@
+// render.h — a study's report as one self-contained HTML page, or as gnuplot's files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/report.h"
+
+namespace kurbel {
+
+// Points of a series that a page holds; longer ones are thinned with their peaks kept.
+inline constexpr std::size_t points_per_series = 2400;
+
+// The page: styles, scripts and data inlined; it asks the network for nothing, and says so to the browser.
+std::string html_of(const Report& report);
+void write_html(const Report& report, const std::string& path);
+
+struct TextFile {
+  std::string name, text;
+};
+// For every plot NAME.dat and NAME.gp.
+std::vector<TextFile> gnuplot_files(const Report& report);
+// Runs gnuplot, where it is installed, on these files in a folder; `kept` stays open for it (spawn.h). Returns the
+// pictures that it drew, NAME.svg and NAME.png.
+std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int folder, int kept = -1);
+// Both into a folder. Returns how many plots were drawn.
+int write_gnuplot(const Report& report, const std::string& folder);
+
+// Text as a script's string may hold it within a page: valid JSON without "</" and "<!--".
+std::string json_string(const std::string& text);
+
+}  // namespace kurbel

@@ -1,0 +1,29 @@
+// write_output.cpp — a study's files as one result set.
+#include "studies/report/write_output.h"
+
+#include "studies/files/result_set.h"
+#include "studies/report/render.h"
+
+namespace kurbel {
+
+std::filesystem::path write_output(const StudyOutput& output, const std::filesystem::path& folder,
+                                   const WriteOptions& options) {
+  const bool whole = output.complete && !options.interrupted;
+  const std::filesystem::path place = whole ? folder : incomplete_place(folder);
+  ResultSet set(place);
+  for (const CsvFile& csv : output.csv) set.add(csv.name, csv.text());
+  set.add("summary.json", output.json + "\n");
+  const Report report = output.report();
+  set.add("report.html", html_of(report));
+  if (options.plots) {
+    const std::vector<TextFile> files = gnuplot_files(report);
+    for (const TextFile& file : files) set.add("plots/" + file.name, file.text);
+    if (const Descriptor plots = open_folder(set.folder(), "plots"))
+      for (const std::string& picture : draw_by_gnuplot(files, plots.get(), set.folder()))
+        set.adopt("plots/" + picture);
+  }
+  set.put_in_place(options.made_by, whole);
+  return place;
+}
+
+}  // namespace kurbel

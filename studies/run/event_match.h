@@ -1,0 +1,21 @@
+// event_match.h — which events of two runs are the same, and how far apart in time.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/equations/equations.h"
+
+namespace kurbel {
+
+struct EventMatch {
+  // One for each event of the finer run: |Δt| to its partner in the coarser one; nothing: it has none.
+  std::vector<std::optional<double>> error;
+  std::size_t only_in_fine = 0, only_in_coarse = 0;
+};
+
+// Partners are of one kind: component, what, and the mode before. As many of a kind in both runs: in their order.
+// Otherwise (a contact that flickers once more): those that are the nearest in time to each other.
+EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Event>& fine);
+
+}  // namespace kurbel

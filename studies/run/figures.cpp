@@ -1,0 +1,234 @@
+// figures.cpp — the figures of one run.
+#include "studies/run/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/run/simulate.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<std::string> components_with_impacts(const Model& model) {
+  constexpr std::string_view ending = ".contact";
+  std::vector<std::string> names;
+  for (const WorkAccount& account : model.accounts)
+    if (account.name.ends_with(ending)) names.push_back(account.name.substr(0, account.name.size() - ending.size()));
+  return names;
+}
+
+class Figures {
+ public:
+  Figures(const Model& model, Equations& equations, OneRun& run, double tolerance)
+      : model_(model), equations_(equations), run_(run), tolerance_(tolerance) {}
+
+  void collect() {
+    collect_extremes();
+    collect_rms();
+    collect_final();
+    collect_cycles();
+    collect_periods();
+    collect_work();
+    collect_heat();
+    collect_stopping();
+    collect_impacts();
+  }
+
+ private:
+  void add(const std::string& name, double value, const std::string& unit, double scale,
+           std::optional<double> time = {}) {
+    run_.figures.push_back({name, value, unit, {}, time, scale, 0});
+  }
+  // A duration up to a time; `resolution`: how sharply that time is located.
+  void add_located(const std::string& name, double begin, double end, double resolution) {
+    add(name, end - begin, "s", run_.outcome.t, end);
+    run_.figures.back().resolution = resolution;
+  }
+  std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
+
+  void collect_extremes() {
+    for (std::size_t i = 0; i < run_.extremes->wanted().size(); ++i) {
+      const ExtremeOf& wanted = run_.extremes->wanted()[i];
+      const ExtremeRecorder::Found& found = run_.extremes->found()[i];
+      if (found.any)
+        add(wanted.name, found.value, wanted.unit,
+            wanted.scale > 0 ? wanted.scale : std::max(std::abs(found.value), least_scale(wanted.unit)), found.time);
+    }
+  }
+  // What is this small is rounding, and is not judged by its own size: a slider that should stand still.
+  double least_scale(const std::string& unit) const {
+    constexpr double nothing = 1e-9;
+    if (unit == "N*m" || unit == "N") return nothing * model_.torque_scale;
+    const double speed = nothing * model_.speed_scale;
+    return unit == "m/s2" || unit == "rad/s2" ? speed * model_.speed_scale : speed;
+  }
+  void collect_rms() {
+    if (run_.outcome.t <= 0) return;
+    for (std::size_t i = 0; i < model_.torque_joints.size(); ++i)
+      for (const bool spring : {false, true}) {
+        const int elastic = model_.torque_joints[i].elastic;
+        if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
+        const double square = run_.outcome.state[equations_.square_index(i, spring)];
+        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component,
+            std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
+      }
+  }
+  void collect_final() {
+    const Snapshot& s = equations_.snapshot(run_.outcome.t, run_.outcome.state);
+    for (const std::string& component : model_.network.components) {
+      if (model_.network.components.size() > 60 && component != link()) continue;
+      const Network::Ports& ports = model_.network.ports.at(component);
+      const int node = ports.out;
+      const double ratio = model_.scale_ratio[at(node)];
+      add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
+      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
+          "rad/s", model_.speed_scale * ratio, run_.outcome.t);
+      const std::size_t shaft = at(model_.shaft_of_node[at(node)]);
+      run_.figures.back().exact = shaft >= model_.free_shafts || equations_.at_standstill(shaft);
+    }
+  }
+  // Heat of what slips.
+  void collect_heat() {
+    for (const ElasticJoint& e : model_.elastic)
+      if (e.slips && !run_.energy->work.empty())  // empty: failed before its first step
+        add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
+            energy_scale(), run_.outcome.t);
+  }
+  // Joints with clearance: how often one is hit after flight.
+  void collect_impacts() {
+    for (const std::string& component : components_with_impacts(model_)) {
+      int count = 0;
+      for (const Event& e : run_.outcome.events)
+        count += e.component == component && e.what.ends_with(": touches") && e.from.ends_with(": in flight");
+      add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
+      run_.figures.back().exact = true;
+    }
+  }
+  // From the signal that makes the reduction link stop to its rest.
+  void collect_stopping() {
+    const std::vector<Event>& events = run_.outcome.events;
+    const auto is_command = [&](const Event& e) {
+      return std::any_of(model_.commands.begin(), model_.commands.end(), [&](const CommandTarget& target) {
+        return target.component == e.component && (e.what.starts_with("is set") || e.what.starts_with("goes to"));
+      });
+    };
+    const std::string name =
+        model_.node_label(model_.shafts[at(model_.shaft_of_node[at(model_.reduction_node)])].reference);
+    for (std::size_t k = 1; k < events.size(); ++k) {
+      if (events[k].component != name || events[k].what != "comes to rest and is held") continue;
+      // Back to the signal: the first command after the clutch last locked, or since the link moved.
+      std::size_t begin = k;
+      while (begin > 0 && events[begin - 1].what != "locks" &&
+             !(events[begin - 1].component == name && events[begin - 1].what.starts_with("moves")))
+        --begin;
+      const auto told =
+          static_cast<std::size_t>(std::find_if(events.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                events.begin() + static_cast<std::ptrdiff_t>(k), is_command) -
+                                   events.begin());
+      if (told == k) continue;
+      add("stopping_time." + link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
+      add("stopping_angle." + link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
+      return;
+    }
+  }
+  // Of the last complete cycle of steady motion, or the last one before run-down.
+  void collect_cycles() {
+    run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.speed, run_.outcome, tolerance_);
+    const CycleRecord* last = nullptr;
+    for (const CycleRecord& c : run_.cycles.cycles())
+      if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
+    if (!last) return;
+    add("delta." + link(), last->delta(), "", 1, last->end);
+    add("mean_speed." + link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
+    add("cycle_time." + link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
+      double sum = 0;
+      for (std::size_t k = 0; k < last->work.size(); ++k)
+        if (model_.accounts[k].kind == kind) sum += last->work[k];
+      add(fmt::format("{}_work_per_cycle", name_of(kind)), sum, "J", energy_scale(), last->end);
+    }
+  }
+  void collect_periods() {
+    const Periods& p = run_.periods;
+    if (p.run_up_end) add_located("run_up_time", 0, *p.run_up_end, p.run_up_resolution);
+    if (p.steady) add("steady_speed." + link(), p.steady_speed, "rad/s", model_.speed_scale);
+    if (p.run_down_begin && p.standstill)
+      add_located("run_down_time", *p.run_down_begin, *p.standstill, p.standstill_resolution);
+  }
+  void collect_work() {
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
+      double sum = 0;
+      for (std::size_t k = 0; k < run_.energy->work.size(); ++k)
+        if (model_.accounts[k].kind == kind) sum += run_.energy->work[k];
+      add(fmt::format("work.{}", name_of(kind)), sum, "J", energy_scale());
+    }
+  }
+  double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
+
+  const Model& model_;
+  Equations& equations_;
+  OneRun& run_;
+  double tolerance_;
+};
+
+std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOutcome& outcome) {
+  const Snapshot& s = equations.snapshot(outcome.t, outcome.state);
+  std::vector<Figure> list;
+  const auto add = [&](int node) {
+    const int shaft = m.shaft_of_node[at(node)];
+    Figure angle, speed;
+    angle.value = s.node_angle[node];
+    angle.scale = std::max(1.0, m.scale_ratio[at(node)]);
+    speed.value = m.gain_of_node[at(node)] * s.now.speed[shaft];
+    speed.scale = m.speed_scale * m.scale_ratio[at(node)];
+    speed.exact = at(shaft) >= m.free_shafts || equations.at_standstill(at(shaft));
+    list.insert(list.end(), {angle, speed});
+  };
+  for (const std::string& component : m.network.components) {
+    add(m.network.ports.at(component).in);
+    add(m.network.ports.at(component).out);
+  }
+  return list;
+}
+}  // namespace
+
+void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run) {
+  Figures(model, equations, run, tolerance).collect();
+  run.last_state = last_state(model, equations, run.outcome);
+}
+
+std::vector<Figure> figure_list(const Model& model) {
+  std::vector<Figure> list;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    list.push_back({name, 0, unit, {}, {}, 0, 0});
+  };
+  const std::string link = model.network.nodes[at(model.reduction_node)].component;
+  for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
+  for (const TorqueJoint& joint : model.torque_joints) {
+    add("rms_torque." + joint.component, "N*m");
+    add("rms_spring_torque." + joint.component, "N*m");
+  }
+  for (const std::string& component : model.network.components) {
+    if (model.network.components.size() > 60 && component != link) continue;
+    add("final_angle." + component, "rad");
+    add("final_speed." + component, "rad/s");
+  }
+  for (const std::string& component : components_with_impacts(model)) add("impacts." + component, "");
+  if (model.cycle > 0) {
+    add("delta." + link, "");
+    add("mean_speed." + link, "rad/s");
+    add("cycle_time." + link, "s");
+    for (const char* kind : {"driving", "useful", "harmful"}) add(std::string(kind) + "_work_per_cycle", "J");
+  }
+  add("run_up_time", "s");
+  add("steady_speed." + link, "rad/s");
+  add("run_down_time", "s");
+  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(std::string("work.") + kind, "J");
+  return list;
+}
+
+}  // namespace kurbel

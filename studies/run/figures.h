@@ -1,0 +1,32 @@
+// figures.h — one run with all that watches it, and the figures that it yields.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/run/run.h"
+#include "studies/findings/result.h"
+#include "studies/findings/trace.h"
+#include "studies/run/periods.h"
+
+namespace kurbel {
+
+// One run at one tolerance with all that watches it.
+struct OneRun {
+  RunOutcome outcome;
+  std::shared_ptr<TrajectoryRecorder> trajectory;
+  std::unique_ptr<ExtremeRecorder> extremes;
+  CycleRecorder cycles;
+  std::unique_ptr<SpeedRecorder> speed;
+  std::unique_ptr<EnergyAudit> energy;
+  std::unique_ptr<TraceRecorder> traces;
+  std::vector<Figure> figures;
+  std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
+  Periods periods;
+};
+
+// Fills `figures` and `last_state` of a run that has got somewhere; `tolerance`: of its steps, which tells what is
+// steady.
+void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run);
+
+}  // namespace kurbel

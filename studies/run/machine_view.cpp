@@ -1,0 +1,192 @@
+// machine_view.cpp — frames of the moving machine from the traces of one or two runs.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanisms/reduced/mechanism.h"
+#include "studies/findings/trace.h"
+#include "studies/run/run_report.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double frames_per_turn = 240, fewest_per_turn = 60;
+constexpr int fewest_frames = 400, most_frames = 3000;
+constexpr double turns_shown = most_frames / fewest_per_turn;
+constexpr std::size_t most_parts = 60;
+constexpr int places_of_turn = 240;  // straight between them: 1e-4 of the crank's radius
+constexpr std::ptrdiff_t ends_shown = 7;
+constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Straight between the points; x ascends.
+double value_at(const Trace& trace, double x) {
+  const auto upper = std::upper_bound(trace.x.begin(), trace.x.end(), x);
+  if (upper == trace.x.begin()) return trace.y.front();
+  if (upper == trace.x.end()) return trace.y.back();
+  const auto i = static_cast<std::size_t>(upper - trace.x.begin());
+  const double share = (x - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]);
+  return trace.y[i - 1] + share * (trace.y[i] - trace.y[i - 1]);
+}
+
+std::vector<double> sampled(const Trace* trace, const std::vector<double>& time) {
+  std::vector<double> values;
+  if (!trace || trace->x.empty()) return values;
+  values.reserve(time.size());
+  for (const double t : time) values.push_back(value_at(*trace, t));
+  return values;
+}
+
+// 1, 2 or 5 times a power of ten, not above x.
+double round_down(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  const double lead = x / power;
+  return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
+// Components in the order of the lines, each line a row.
+void add_parts(MachineView& view, const Model& model) {
+  const auto add = [&](const std::string& name, int row) {
+    if (!model.network.ports.contains(name)) return;
+    MachineView::Part part{.name = name, .kind = "inertia", .row = row};
+    if (const Section* section = model.scene.find(name); section && section->kind) part.kind = section->kind->name;
+    const Network::Ports& ports = model.network.ports.at(name);
+    part.ratio_in = model.node_ratio[at(ports.in)];
+    part.ratio_out = model.node_ratio[at(ports.out)];
+    for (const Network::ShaftElement& element : model.network.elements)
+      part.crank =
+          part.crank || (element.component == name && dynamic_cast<const MechanismMaker*>(element.element.get()));
+    for (const ElasticJoint& joint : model.elastic)
+      part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
+    view.parts.push_back(std::move(part));
+  };
+  if (model.scene.lines.empty())
+    for (const std::string& name : model.network.components) add(name, 0);
+  for (std::size_t row = 0; row < model.scene.lines.size(); ++row)
+    for (const std::string& name : model.scene.lines[row].names) add(name, static_cast<int>(row));
+  // Of a long machine both ends.
+  if (view.parts.size() > most_parts) {
+    view.parts.erase(view.parts.begin() + ends_shown, view.parts.end() - ends_shown);
+    view.parts.insert(view.parts.begin() + ends_shown,
+                      MachineView::Part{.name = "…", .kind = "gap", .row = view.parts.front().row});
+  }
+}
+
+// How the joints of each mechanism are joined up; see its make_bodies for their order.
+struct Joined {
+  std::string name;
+  double direction;
+  std::vector<MachineView::Linkage::Link> links;
+  std::vector<int> fixed;
+  int output;
+};
+Joined joined(const SliderCrankData& d) {
+  return {"Slider-crank", d.stroke_angle, {{"link", {1, 2}}, {"slider", {2}}, {"crank", {0, 1}}}, {0}, 2};
+}
+Joined joined(const FourBarData& d) {
+  return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3};
+}
+Joined joined(const QuickReturnData& d) {
+  return {"Quick-return",
+          d.stroke_angle,
+          {{"slot", {2, 1}}, {"link", {2, 3}}, {"link", {3, 4}}, {"slider", {4}}, {"crank", {0, 1}}, {"block", {1, 2}}},
+          {0, 2},
+          4};
+}
+Joined joined(const KnucklePressData& d) {
+  return {"Knuckle press",
+          d.stroke_angle,
+          {{"link", {1, 2}}, {"link", {3, 2}}, {"link", {2, 4}}, {"slider", {4}}, {"crank", {0, 1}}},
+          {0, 3},
+          4};
+}
+
+MachineView::Linkage linkage_of(const Mechanism& mechanism) {
+  Joined how = std::visit([](const auto& d) { return joined(d); }, mechanism.data);
+  MachineView::Linkage linkage{.name = how.name,
+                               .direction = how.direction,
+                               .x = {},
+                               .y = {},
+                               .links = std::move(how.links),
+                               .fixed = std::move(how.fixed),
+                               .output = how.output};
+  for (int i = 0; i <= places_of_turn; ++i) {
+    const double angle = 2 * std::numbers::pi * i / places_of_turn;
+    const std::vector<PlanePoint> joints = mechanism.bodies->joints(angle + mechanism.phase);
+    linkage.x.resize(joints.size()), linkage.y.resize(joints.size());
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      linkage.x[k].push_back(joints[k].x), linkage.y[k].push_back(joints[k].y);
+  }
+  return linkage;
+}
+
+MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
+  const Model& model = *r.model;
+  const Traces& traces = *r.traces;
+  MachineView::Motion motion{.label = r.label,
+                             .role = role,
+                             .angle = sampled(traces.find("angle"), view.time),
+                             .twist_in = {},
+                             .twist_out = {},
+                             .torque = {},
+                             .force = {}};
+  bool any_twist = false;
+  for (const MachineView::Part& part : view.parts) {
+    if (part.kind == "gap") {
+      for (auto* lists : {&motion.twist_in, &motion.twist_out, &motion.torque}) lists->emplace_back();
+      continue;
+    }
+    const Network::Ports& ports = model.network.ports.at(part.name);
+    motion.twist_in.push_back(sampled(traces.find(Traces::node_key(ports.in)), view.time));
+    motion.twist_out.push_back(ports.in == ports.out ? motion.twist_in.back()
+                                                     : sampled(traces.find(Traces::node_key(ports.out)), view.time));
+    motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
+    for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
+      for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
+    if (part.crank && motion.force.empty())
+      for (const char* load : {"force.", "load_torque."})
+        if (const Trace* trace = traces.find(load + part.name)) motion.force = sampled(trace, view.time);
+  }
+  if (!any_twist || model.elastic.empty()) motion.twist_in.clear(), motion.twist_out.clear();
+  return motion;
+}
+
+}  // namespace
+
+MachineView machine_view(const std::vector<const Result*>& results) {
+  const Result& front = *results.back();
+  const Model& model = *front.model;
+  MachineView view;
+  view.link = model.network.nodes[at(model.reduction_node)].component;
+  view.title = "The machine in motion";
+  add_parts(view, model);
+  view.cycle = model.cycle;
+  if (model.reduction_element >= 0)
+    if (const auto* maker =
+            dynamic_cast<const MechanismMaker*>(model.network.elements[at(model.reduction_element)].element.get()))
+      view.linkage = linkage_of(maker->mechanism());
+  // Frames: the whole run, or of a long one its last turns.
+  double end = HUGE_VAL;
+  for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());
+  const Trace& angle = *front.traces->find("angle");
+  const double turns = std::abs(value_at(angle, end) - angle.y.front()) / (2 * std::numbers::pi);
+  double begin = angle.x.front();
+  if (turns > turns_shown)
+    for (std::size_t i = 0;
+         i < angle.x.size() && std::abs(value_at(angle, end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i)
+      begin = angle.x[i];
+  const int frames = std::clamp(static_cast<int>(frames_per_turn * turns), fewest_frames, most_frames);
+  for (int i = 0; i < frames; ++i) view.time.push_back(begin + (end - begin) * i / (frames - 1));
+  for (const Result* r : results)
+    view.motions.push_back(motion_of(*r, view, r->model->elastic.empty() ? Role::rigid : Role::elastic));
+  double largest = 0;
+  for (const MachineView::Motion& motion : view.motions)
+    for (const auto* side : {&motion.twist_in, &motion.twist_out})
+      for (const auto& twists : *side)
+        for (const double twist : twists) largest = std::max(largest, std::abs(twist));
+  view.enlargement = largest > 0 ? round_down(std::max(1.0, shown_twist / largest)) : 1;
+  return view;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,62 @@
+// measured_errors.cpp — differences of runs, and what they may hide.
+#include "studies/run/measured_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kurbel {
+namespace {
+
+constexpr double share = 0.05;                                           // of the median, in every figure's error
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // of a figure's size and scale
+
+const Figure* find(const std::vector<Figure>& figures, const Figure& like, std::size_t place) {
+  if (place < figures.size() && figures[place].name == like.name) return &figures[place];
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == like.name; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+double difference(const Figure& a, const Figure& b) {
+  const bool magnitude = a.name.starts_with("peak_");
+  return magnitude ? std::abs(std::abs(a.value) - std::abs(b.value)) : std::abs(a.value - b.value);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses) {
+  std::vector<double> in_scale;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    Figure& figure = figures[k];
+    figure.error.reset();
+    figure.at_error.reset();
+    for (const Witness& witness : witnesses) {
+      const Figure* other = find(*witness.figures, figure, k);
+      if (!other) continue;
+      figure.error = std::max(figure.error.value_or(0), witness.weight * difference(figure, *other));
+      if (figure.at && other->at)
+        figure.at_error = std::max(figure.at_error.value_or(rounding * std::abs(*figure.at)),
+                                   witness.weight * std::abs(*figure.at - *other->at));
+    }
+    if (figure.error && figure.scale > 0) in_scale.push_back(*figure.error / figure.scale);
+  }
+  const double typical = median(in_scale);
+  double worst = 0;
+  for (Figure& figure : figures) {
+    if (!figure.error) continue;
+    if (!figure.exact)
+      *figure.error += share * typical * figure.scale + rounding * (std::abs(figure.value) + figure.scale);
+    if (figure.scale > 0) worst = std::max(worst, *figure.error / figure.scale);
+    *figure.error += figure.resolution;
+  }
+  return worst;
+}
+
+}  // namespace kurbel

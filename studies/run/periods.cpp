@@ -1,0 +1,193 @@
+// periods.cpp — from cycle means, and from the last time outside a band.
+#include "studies/run/periods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
+constexpr std::size_t parts_without_cycle = 16;
+// Changes of the mean speed from cycle to cycle that a local tolerance leaves; never more than this of it.
+constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
+
+// Changes D₁, D₂ over the two halves of the last 2 · `length` changes.
+std::optional<double> geometric_rest(std::span<const double> v, std::size_t length, double noise) {
+  const std::size_t n = v.size() - 1;
+  const double second = std::abs(v[n] - v[n - length]), first = std::abs(v[n - length] - v[n - 2 * length]);
+  if (second <= noise) return second;
+  if (second >= first) return {};
+  return second * second / (first - second);
+}
+
+double range_of(std::span<const double> v) {
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  return *high - *low;
+}
+
+// The means of a machine without a cycle: angle over time.
+std::vector<double> means_of_parts(const SpeedRecorder& speed, double end) {
+  const std::vector<double>& angle = speed.angles();
+  std::vector<double> means;
+  if (angle.empty() || !(speed.interval() > 0)) return means;
+  const std::size_t last = std::min(angle.size() - 1, static_cast<std::size_t>(end / speed.interval() * (1 + 1e-12)));
+  const std::size_t part = last / parts_without_cycle;
+  if (part == 0) return means;
+  for (std::size_t k = last % part; k + part <= last; k += part)
+    means.push_back((angle[k + part] - angle[k]) / (static_cast<double>(part) * speed.interval()));
+  return means;
+}
+
+// Means of cycles as if they had been taken at equal times: what grows evenly in time must not look as if it slowed
+// down because its cycles get shorter.
+std::vector<double> at_equal_times(const std::vector<double>& time, const std::vector<double>& mean) {
+  std::vector<double> even;
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < mean.size() && mean.size() > 2; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(mean.size() - 1);
+    const double t = time.front() + part * (time.back() - time.front());
+    while (k + 1 < mean.size() && time[k] < t) ++k;
+    even.push_back(mean[k] + (mean[k] - mean[k - 1]) * (t - time[k]) / (time[k] - time[k - 1]));
+  }
+  return mean.size() > 2 ? even : mean;
+}
+
+// What the judgement is made of.
+struct DrivenTime {
+  double end = 0;                     // [s]
+  const CycleRecord* last = nullptr;  // cycle
+  std::vector<double> means = {};     // of the speed [rad/s]
+  double speed = 0;                   // the last cycle's mean, or the speed at the end
+};
+
+DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
+                       const Periods& periods, const RunOutcome& outcome) {
+  DrivenTime d{.end = periods.run_down_begin.value_or(outcome.t)};
+  std::vector<double> middle;
+  for (const CycleRecord& c : cycles) {
+    if (c.end > d.end) break;
+    middle.push_back(0.5 * (c.begin + c.end));
+    d.means.push_back(c.mean_speed());
+    d.last = &c;
+  }
+  d.means = at_equal_times(middle, d.means);
+  if (model.cycle == 0) d.means = means_of_parts(speed, d.end);
+  d.speed = d.last ? d.last->mean_speed() : speed.driven().empty() ? 0 : speed.driven().last();
+  return d;
+}
+
+void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance, Periods& periods) {
+  const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
+  if (d.means.size() < 3) {
+    periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 that tell", d.means.size(),
+                                                    d.means.size() == 1 ? "" : "s")
+                                      : "too short a time to tell";
+    return;
+  }
+  const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
+  const Approach approach = approach_of(d.means, noise);
+  const double scale = std::abs(d.speed);
+  if (!(scale > at_rest * at_rest * model.speed_scale)) {
+    periods.verdict = "it stands still";
+    return;
+  }
+  if (approach.remaining) periods.remaining = *approach.remaining;
+  periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
+  const double change = 100 * approach.last_change / scale;
+  if (!approach.remaining)
+    periods.verdict = fmt::format("the mean speed changes by {:+.2g} % a {}, and that does not shrink", change, unit);
+  else
+    periods.verdict = fmt::format("the mean speed is {}within {:.3g} % of its limit", periods.steady ? "" : "only ",
+                                  100 * *approach.remaining / scale);
+}
+
+void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,
+                 Periods& periods) {
+  const double margin = near_steady * std::abs(d.speed);
+  const double low = (d.last ? d.last->omega_min : d.speed) - margin;
+  const double high = (d.last ? d.last->omega_max : d.speed) + margin;
+  const std::optional<double> entry = speed.last_outside(low, high);
+  if (!entry) return;
+  if (d.last && *entry > d.last->begin) {
+    periods.steady = false;
+    periods.verdict = fmt::format("after the last whole cycle the speed leaves its range, at {:.6g} s", *entry);
+    return;
+  }
+  periods.run_up_end = entry;
+  // A crossing that only grazes the band's edge moves far with the least error of the speed.
+  const double shift = tolerance * model.speed_scale;
+  for (const double s : {-shift, shift}) {
+    const std::optional<double> other = speed.last_outside(low - s, high + s);
+    periods.run_up_resolution = std::max(periods.run_up_resolution, std::abs(other.value_or(0) - *entry));
+  }
+}
+
+// The link's own rest, if it stays; a machine without dry friction only comes near it.
+void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double reference,
+                     double tolerance, Periods& periods) {
+  const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
+  const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
+  for (const Event& event : outcome.events) {
+    if (event.component != name || event.t <= *periods.run_down_begin) continue;
+    if (event.what == "comes to rest and is held") periods.standstill = event.t;
+    if (event.what.starts_with("moves")) periods.standstill.reset();
+  }
+  if (periods.standstill || speed.empty()) return;
+  const double level = at_rest * std::max(std::abs(reference), at_rest * model.speed_scale);
+  const std::optional<double> entry = speed.last_outside(-level, level);
+  if (!entry || *entry >= outcome.t) return;
+  periods.standstill = entry;
+  const double shift = std::min(tolerance * model.speed_scale, 0.5 * level);
+  for (const double s : {-shift, shift}) {
+    const std::optional<double> other = speed.last_outside(-level - s, level + s);
+    periods.standstill_resolution = std::max(periods.standstill_resolution, std::abs(other.value_or(0) - *entry));
+  }
+}
+
+}  // namespace
+
+Approach approach_of(std::span<const double> values, double noise) {
+  Approach approach;
+  if (values.size() >= 2) approach.last_change = values.back() - values[values.size() - 2];
+  if (values.size() < 3) return approach;
+  const std::span<const double> v = values.last(std::max<std::size_t>(3, values.size() / 2 + 1));
+  const std::size_t n = v.size() - 1, half = n / 2;
+  bool rises = false, falls = false;
+  for (std::size_t k = 1; k <= n; ++k) {
+    rises = rises || v[k] - v[k - 1] > noise;
+    falls = falls || v[k - 1] - v[k] > noise;
+  }
+  if (rises && falls) {
+    const double before = range_of(v.first(v.size() - half)), now = range_of(v.last(half + 1));
+    const double growth = std::max(1.0, now / std::max(before, noise));
+    approach.remaining = std::isfinite(growth) ? now * growth * growth : now;
+    return approach;
+  }
+  approach.remaining = 0;
+  for (const std::size_t length : {std::max<std::size_t>(1, half / 4), half}) {
+    const std::optional<double> rest = geometric_rest(v, length, noise);
+    if (!rest || !approach.remaining) {
+      approach.remaining.reset();
+    } else {
+      approach.remaining = std::max(*approach.remaining, *rest);
+    }
+  }
+  return approach;
+}
+
+Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
+                     const RunOutcome& outcome, double tolerance) {
+  Periods periods;
+  periods.run_down_begin = speed.off_since();
+  const DrivenTime d = driven_time(model, cycles, speed, periods, outcome);
+  judge_steadiness(model, d, tolerance, periods);
+  if (periods.steady && !speed.driven().empty()) find_run_up(model, speed.driven(), d, tolerance, periods);
+  if (periods.steady) periods.steady_speed = d.speed;
+  if (periods.run_down_begin) find_standstill(model, speed.coasting(), outcome, d.speed, tolerance, periods);
+  return periods;
+}
+
+}  // namespace kurbel

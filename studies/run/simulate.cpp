@@ -1,0 +1,458 @@
+// simulate.cpp — the ladder of tolerances, and the figures of one run.
+#include "studies/run/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "engine/rigid/work_equation.h"
+#include "engine/run/checkpoint.h"
+#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/reduced/mechanism.h"
+#include "studies/run/event_match.h"
+#include "studies/run/figures.h"
+#include "studies/run/measured_errors.h"
+#include "studies/run/multibody.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
+constexpr int energy_checks = 60;
+// Below this a tolerance asks for more than double precision has.
+constexpr double least_tolerance = 2e-15;
+// The last step of a ladder may be as short as this: errors go at least with the root of the tolerance, so that the
+// coarser run's are twice the finer's, and their difference still covers the finer's.
+constexpr double least_step = 4;
+
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options)
+      : model_(std::move(model)), options_(options), settings_(model_->scene.run), equations_(model_, true) {
+    if (options.accuracy) settings_.accuracy = *options.accuracy;
+    if (options.until) settings_.until = *options.until;
+    if (options.method) settings_.method = *options.method;
+    if (options.budget) settings_.budget = std::min(settings_.budget, *options.budget);
+    result_.label = label;
+    if (!options.go_on_from.empty()) take_checkpoint(options.go_on_from);
+    result_.confirmation_asked = options.measure_error;
+  }
+
+  // Tolerances are tightened until two runs agree within the accuracy and the energy balance of the finer one closes
+  // within it. Then a third run, from elsewhere, must agree with it, too (README.md says what that covers).
+  Result run() {
+    log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
+                    model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
+                    model_->effects.describe(), settings_.until));
+    if (!checkpoint_) note_balanced_start();
+    if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
+    tolerance_ = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
+    fine_ = one_run(tolerance_);
+    if (options_.measure_error && fine_->outcome.complete) {
+      confirm();
+      note_interrupt();
+      state_errors();
+    }
+    fill(*fine_, tolerance_);
+    return std::move(result_);
+  }
+
+ private:
+  // What follows is judged on its own: figures, works and peaks begin here.
+  void take_checkpoint(const std::string& text) {
+    checkpoint_ = checkpoint_from(text, equations_);
+    checkpoint_->integrals.clear();
+    result_.begins_at = checkpoint_->state.t;
+    if (settings_.until <= checkpoint_->state.t)
+      throw UnfitCheckpoint(fmt::format("is of {:.9g} s, and the run ends at {:.9g} s; let it run on with --until",
+                                        checkpoint_->state.t, settings_.until));
+    result_.notes.push_back(
+        fmt::format("goes on from a state at {:.9g} s: figures are of what follows it", checkpoint_->state.t));
+  }
+
+  void log(const std::string& text) const {
+    if (options_.log) options_.log(text);
+  }
+
+  // Work and edges over the angle, made once for all runs of the ladder.
+  std::shared_ptr<WorkTables> work_tables() {
+    const bool asked = settings_.method == "auto" || settings_.method == "work";
+    if (result_.runs == 0 && asked && WorkTables::refusal(model_).empty())
+      work_tables_ = std::make_shared<WorkTables>(model_);
+    return work_tables_;
+  }
+
+  // Two runs of the ladder and one from elsewhere; whichever is too coarse for the accuracy is followed by a tighter
+  // one.
+  void confirm() {
+    while (!ladder_agrees() && tighten()) {
+    }
+    // No tighter at first than what suffices usually: a low order may have needed a far tighter tolerance than another.
+    const double usual = settings_.accuracy / 10 / tolerance_step;
+    if (interrupted() || !run_elsewhere(std::max(tolerance_, usual))) return;
+    while (!confirmed() && !interrupted()) {
+      const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
+      const bool went_on =
+          blame_elsewhere || ladder_ended() ? tighten_elsewhere() || tighten() : tighten() || tighten_elsewhere();
+      if (!went_on) return;
+    }
+  }
+  bool ladder_agrees() const {
+    return coarse_ && error_by(coarse_.get(), nullptr) <= settings_.accuracy &&
+           fine_->energy->relative() <= settings_.accuracy;
+  }
+  bool confirmed() const {
+    return coarse_ && elsewhere_ && error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy &&
+           fine_->energy->relative() <= settings_.accuracy;
+  }
+  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
+
+  static constexpr double weight_of_elsewhere = 2;  // measured_errors.h says why
+  std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
+                                 std::vector<Figure> OneRun::*what = &OneRun::figures) const {
+    std::vector<Witness> list;
+    if (coarse) list.push_back({&(coarse->*what), weight_of_coarse_});
+    if (elsewhere) list.push_back({&(elsewhere->*what), weight_of_elsewhere});
+    return list;
+  }
+  // Largest error over its scale that these runs find in the figures.
+  double error_by(const OneRun* coarse, const OneRun* elsewhere) const {
+    std::vector<Figure> figures = fine_->figures;
+    return measure_errors(figures, witnesses(coarse, elsewhere));
+  }
+  // The next step of a ladder; its last one may be shorter, or there is none.
+  static double tighter(double tolerance) { return std::max(tolerance / tolerance_step, least_tolerance); }
+  static bool can_be_tightened(double tolerance) { return tighter(tolerance) <= tolerance / least_step; }
+  bool ladder_ended() const { return ladder_failed_ || !can_be_tightened(tolerance_); }
+
+  // The next run of the ladder. False where it has come to its end: then the run before it stands.
+  bool tighten() {
+    if (ladder_ended()) return false;
+    const double before = std::exchange(tolerance_, tighter(tolerance_));
+    std::unique_ptr<OneRun> finer = one_run(tolerance_);
+    if (!finer->outcome.complete) {
+      tolerance_ = before;
+      ladder_failed_ = true;
+      unconfirmed_ = fmt::format("the confirming run failed ({})", finer->outcome.diagnosis);
+      return false;
+    }
+    coarse_ = std::move(fine_);
+    fine_ = std::move(finer);
+    log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for",
+                    before, tolerance_, error_by(coarse_.get(), nullptr), fine_->energy->relative(),
+                    settings_.accuracy));
+    return true;
+  }
+
+  // By another method, with steps that end elsewhere and angles that are looked up elsewhere. False where it failed:
+  // then the run before it stands.
+  bool run_elsewhere(double tolerance) {
+    std::unique_ptr<OneRun> other = one_run(tolerance, true);
+    if (!other->outcome.complete) {
+      elsewhere_ended_ = true;
+      unconfirmed_ = fmt::format("the run by another method that should confirm the figures failed ({})",
+                                 other->outcome.diagnosis);
+      return false;
+    }
+    // Where the ladder has ended, its last run has no finer one that could tell how good it is, and the one before it
+    // says only how coarse that one was: two runs from elsewhere, one tighter than the other, say more.
+    if (elsewhere_ && ladder_ended()) {
+      coarse_ = std::move(elsewhere_);
+      weight_of_coarse_ = weight_of_elsewhere;
+    }
+    elsewhere_ = std::move(other);
+    elsewhere_tolerance_ = tolerance;
+    log(fmt::format("  {} from elsewhere with {:.0e} agrees within {:.1e}", elsewhere_->outcome.statistics.method,
+                    tolerance, error_by(nullptr, elsewhere_.get())));
+    return true;
+  }
+  bool tighten_elsewhere() {
+    return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) && run_elsewhere(tighter(elsewhere_tolerance_));
+  }
+
+  void note_interrupt() {
+    if (!interrupted() || confirmed()) return;
+    if (unconfirmed_.empty()) unconfirmed_ = "interrupted before all runs were made";
+    fine_->outcome.complete = false;
+    fine_->outcome.diagnosis =
+        "interrupted in a run that measures the errors; the figures are whole, but their errors are not";
+  }
+
+  // Errors of all figures by all runs that were made.
+  void state_errors() {
+    if (!coarse_ && !elsewhere_) {
+      result_.notes.push_back(unconfirmed_ + "; figures are without errors");
+      return;
+    }
+    const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
+                 of_energy = fine_->energy->relative();
+    measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
+    if (coarse_) add_event_errors(*coarse_, weight_of_coarse_);
+    if (elsewhere_) add_event_errors(*elsewhere_, weight_of_elsewhere);
+    result_.measured_accuracy = std::max(of_figures, of_energy);
+    result_.errors_measured = true;
+    result_.accuracy_confirmed = confirmed();
+    log(fmt::format("  errors of up to {:.1e}; {:.1e} asked for: {}", result_.measured_accuracy, settings_.accuracy,
+                    result_.accuracy_confirmed ? "reached" : "not reached"));
+    if (!result_.accuracy_confirmed) note_unconfirmed(of_energy);
+  }
+  void note_unconfirmed(double of_energy) {
+    if (coarse_ && elsewhere_)
+      result_.notes.push_back(fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}", settings_.accuracy,
+                                          result_.measured_accuracy,
+                                          result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+    result_.notes.push_back(unconfirmed_.empty() ? "the tolerances cannot be tightened further"
+                            : !elsewhere_        ? unconfirmed_ + "; errors are by the run before it"
+                            : !coarse_           ? unconfirmed_ + "; errors are by a run by another method"
+                                                 : unconfirmed_);
+  }
+
+  // Errors of the events' times; none where a run has no such event.
+  void add_event_errors(const OneRun& witness, double weight) {
+    const std::vector<Event>& events = fine_->outcome.events;
+    const bool first = result_.event_errors.empty();
+    if (first) result_.event_errors.resize(events.size());
+    const EventMatch match = match_events(witness.outcome.events, events);
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      std::optional<double>& error = result_.event_errors[k];
+      if (!match.error[k] || (!first && !error)) {
+        error.reset();
+      } else {
+        const double rounding = 8 * std::numeric_limits<double>::epsilon() * events[k].t;
+        error = std::max({error.value_or(0), weight * *match.error[k], rounding});
+      }
+    }
+  }
+
+  std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
+    Equations& equations = elsewhere ? equations_elsewhere() : equations_;
+    const Model& model = equations.model();
+    auto run = std::make_unique<OneRun>();
+    run->trajectory =
+        std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
+    run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(model));
+    run->speed = std::make_unique<SpeedRecorder>(settings_.until);
+    run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
+    RunOptions options{.tolerance = tolerance,
+                       .method = elsewhere ? confirming_method() : settings_.method,
+                       .until = settings_.until,
+                       .budget = settings_.budget,
+                       .interrupted = options_.interrupted,
+                       .progress = {},
+                       .work_tables = work_tables(),
+                       .checkpoint = checkpoint_ ? &*checkpoint_ : nullptr,
+                       .to_go_on = options_.keep_state,
+                       .accuracy = settings_.accuracy,
+                       .elsewhere = elsewhere};
+    if (options_.progress)
+      options.progress = [&](double fraction) {
+        options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
+      };
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
+                                        run->energy.get()};
+    // Plots need no tighter run than the first, and the runs that are timed stay free of them.
+    if (options_.traces && !result_.traces) {
+      run->traces = std::make_unique<TraceRecorder>(*model_);
+      observers.push_back(run->traces.get());
+      result_.traces = run->traces->traces();
+    }
+    run->outcome = integrate(equations, options, observers);
+    result_.cpu_total += run->outcome.statistics.cpu_seconds;
+    result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
+    if (!run->outcome.state.empty()) collect_figures(model, equations, tolerance, *run);
+    const RunStatistics& s = run->outcome.statistics;
+    log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
+                    s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
+                    run->outcome.complete ? "" : "; " + run->outcome.diagnosis));
+    if (result_.runs++ == 0) log(fmt::format("  chosen because: {}", s.reason));
+    return run;
+  }
+
+  // Another way to the same figures, of like cost: another order, another family, or time in place of the angle.
+  std::string confirming_method() const {
+    const std::string& asked = settings_.method;
+    if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
+    if (asked == "dop853") return "verner6";
+    if (asked == "esdirk5") return "esdirk";  // "auto" may take esdirk5 itself where the machine is stiff
+    if (asked == "esdirk" || asked == "esdirk3" || asked == "bdf") return "auto";
+    return "dop853";  // dopri5, work, verner6, fehlberg8, adams
+  }
+
+  // The same machine with its mechanisms extracted anew, where they work from tables and the scene tells of them.
+  std::shared_ptr<const Model> model_elsewhere() const {
+    if (!has_tables(model_->network) || model_->scene.components.empty()) return model_;
+    auto other = compile_network(extracted_from(build_network(model_->scene), Extraction::second), model_->scene,
+                                 model_->effects);
+    const bool same_machine = other->network.components == model_->network.components &&
+                              other->state_count() == model_->state_count();  // else made by hand, not of the scene
+    return same_machine ? other : model_;
+  }
+  Equations& equations_elsewhere() {
+    if (!equations_elsewhere_) {
+      equations_elsewhere_.emplace(model_elsewhere(), true);
+      equations_elsewhere_->keep_angles_from(1);
+    }
+    return *equations_elsewhere_;
+  }
+
+  // At rest with no torque on any shaft, and nothing to come at a later time: a dead centre under load, or balance.
+  void note_balanced_start() {
+    const Model& m = *model_;
+    const std::vector<double> y = equations_.start(0);
+    const Snapshot& s = equations_.snapshot(0, y);
+    bool any_mechanism = false;
+    for (std::size_t k = 0; k < m.free_shafts; ++k) {
+      const Shaft& shaft = m.shafts[k];
+      if (s.now.speed[k] != 0 || std::abs(s.sums.torque[k]) > 1e-9 * shaft.torque_scale || equations_.at_standstill(k))
+        return;
+      any_mechanism = any_mechanism || shaft.variable;
+    }
+    if (!any_mechanism || m.free_shafts < m.shafts.size() || equations_.next_edge(0) < settings_.until) return;
+    result_.notes.push_back(fmt::format(
+        "the machine starts at rest where no torque moves it ({:.4g}° of \"{}\"): a dead centre or a balance. Rounding "
+        "decides when and which way it leaves, if ever; start it a little off, or with a speed",
+        s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
+  }
+
+  void fill(OneRun& run, double tolerance) {
+    const Model& m = *model_;
+    result_.title = m.scene.title.empty() ? m.scene.file : m.scene.title;
+    result_.scene_file = m.scene.file;
+    result_.complete = run.outcome.complete;
+    result_.diagnosis = run.outcome.diagnosis;
+    result_.effects = m.effects.describe();
+    result_.coordinates = m.free_shafts + m.twist_count() + further_coordinates(m);
+    result_.states = m.state_count();
+    result_.explanation = m.explain();
+    result_.until = settings_.until;
+    result_.accuracy = settings_.accuracy;
+    result_.tolerance = tolerance;
+    result_.figures = std::move(run.figures);
+    result_.events = run.outcome.events;
+    result_.periods = run.periods;
+    result_.cycles = run.cycles.cycles();
+    result_.statistics = run.outcome.statistics;
+    result_.statistics.limits = limits_of(run.outcome);
+    result_.trajectory = run.trajectory;
+    result_.model = model_;
+    fill_energy(*run.energy);
+    if (!run.last_state.empty()) fill_final(run);
+    if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
+    for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
+    note_stall(run.outcome);
+    note_regularised(run.outcome.regularised);
+  }
+  void note_regularised(const std::vector<std::string>& list) {
+    for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
+      const auto times = std::count(list.begin(), list.end(), what);
+      result_.notes.push_back(
+          fmt::format("{}: its events found no rest{}, so it follows a law without events; see the "
+                      "events",
+                      what, times > 1 ? fmt::format(" {} times", times) : ""));
+    }
+  }
+  // What kept the steps short; nothing where the equations cannot be evaluated at the end.
+  std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {
+    if (outcome.state.empty()) return {};
+    try {
+      return outcome.limits.ranked(equations_, outcome.t, outcome.state);
+    } catch (const std::runtime_error&) {
+      return {};
+    }
+  }
+  // A reduction link that is held at the end although something drives.
+  void note_stall(const RunOutcome& outcome) {
+    const Model& m = *model_;
+    const std::size_t shaft = at(m.shaft_of_node[at(m.reduction_node)]);
+    if (outcome.state.empty() || !equations_.at_standstill(shaft) || !m.commands.empty()) return;
+    const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
+    if (s.now.speed[shaft] != 0) return;  // creeps, by a law without events
+    double drive = 0;                     // on the reduction link
+    for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+      if (m.network.elements[e].element->account() == Account::driving)
+        drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];
+    const auto stop = std::find_if(outcome.events.rbegin(), outcome.events.rend(),
+                                   [](const Event& e) { return e.what == "comes to rest and is held"; });
+    if (drive == 0 || stop == outcome.events.rend()) return;
+    const double degrees = s.node_angle[m.reduction_node] * 180 / std::numbers::pi;
+    result_.notes.push_back(fmt::format(
+        "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
+        "the end",
+        m.network.nodes[at(m.reduction_node)].component, degrees - 360 * std::floor(degrees / 360), stop->t, drive));
+  }
+  void fill_energy(const EnergyAudit& audit) {
+    EnergyBalance& e = result_.energy;
+    for (std::size_t k = 0; k < audit.work.size(); ++k) {
+      e.by_line[name_of(model_->accounts[k].kind)] += audit.work[k];
+      e.by_account[model_->accounts[k].name] += audit.work[k];
+    }
+    e.kinetic_start = audit.kinetic_start;
+    e.kinetic_end = audit.kinetic_end;
+    e.stored_start = audit.stored_start;
+    e.stored_end = audit.stored_end;
+    e.residual = audit.largest_residual;
+    e.relative = audit.relative();
+    e.reduction_residual = audit.reduction_residual;
+    e.checks = audit.checked;
+  }
+  void fill_final(const OneRun& run) {
+    std::size_t k = 0;
+    for (const std::string& component : model_->network.components) {
+      const Figure* const f = &run.last_state[k];
+      ComponentState state{f[0].value, f[1].value, {}, {}};
+      state.angle_error = f[0].error, state.speed_error = f[1].error;
+      const Network::Ports& ports = model_->network.ports.at(component);
+      if (ports.out != ports.in) {
+        state.angle_out = f[2].value, state.speed_out = f[3].value;
+        state.angle_out_error = f[2].error, state.speed_out_error = f[3].error;
+      }
+      result_.final_state[component] = state;
+      k += 4;
+    }
+  }
+
+  std::shared_ptr<const Model> model_;
+  const SimulateOptions& options_;
+  RunSettings settings_;
+  Equations equations_;
+  std::optional<Equations> equations_elsewhere_;
+  std::optional<Checkpoint> checkpoint_;  // where it goes on from
+  std::shared_ptr<WorkTables> work_tables_;
+  double tolerance_ = 0, elsewhere_tolerance_ = 0;        // of fine_ and elsewhere_
+  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses
+  double weight_of_coarse_ = 1;                           // measured_errors.h says why
+  bool ladder_failed_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
+  std::string unconfirmed_;                               // why that was
+  Result result_;
+};
+
+}  // namespace
+
+const Figure* Result::find(const std::string& name) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+std::string Result::accuracy_in_words() const {
+  return fmt::format(
+      "accuracy {:.1e} was asked for, {}", accuracy,
+      errors_measured ? fmt::format("{:.1e} measured", measured_accuracy) : "errors could not be measured");
+}
+
+Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options) {
+  if (model->scene.run.model == "multibody") return simulate_multibody(std::move(model), label, options);
+  return Simulation(std::move(model), label, options).run();
+}
+
+Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options) {
+  return simulate(compile(scene, effects), label, options);
+}
+
+}  // namespace kurbel

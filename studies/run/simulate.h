@@ -1,0 +1,38 @@
+// simulate.h — one scene, one set of effects: run until a tighter run and one from elsewhere confirm the accuracy asked
+// for.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "engine/model/model.h"
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+struct SimulateOptions {
+  bool measure_error = true;
+  bool traces = false;                // follow everything along the steps, for a report's plots
+  std::optional<std::string> method;  // overrides the scene's
+  std::optional<double> accuracy, until;
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress;
+  std::function<void(const std::string&)> log = {};  // what was compiled, chosen, run
+  std::optional<double> first_tolerance = {};        // the ladder begins there; default: accuracy/10
+  std::string chosen_because = {};                   // for people: who says so
+  std::string go_on_from = {};        // text of a checkpoint (engine/run/checkpoint.h): figures are of what follows it
+  bool keep_state = false;            // the result's checkpoint is wanted: no method over the angle
+  std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's
+};
+
+// Throws SceneError where the scene makes no machine; a run that fails on its way is returned incomplete.
+Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options);
+Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options);
+
+// Names and units of all figures that runs of a model can yield.
+std::vector<Figure> figure_list(const Model& model);
+
+// Local tolerances are this much tighter in the run that confirms.
+inline constexpr double tolerance_step = 30;
+
+}  // namespace kurbel

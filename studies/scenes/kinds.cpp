@@ -1,0 +1,247 @@
+// kinds.cpp — gathers the kinds and prints their keys.
+#include "studies/scenes/kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "drivetrain/kinds.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/sequence_reader.h"
+#include "engine/scene/units.h"
+#include "mechanisms/kinds/kinds.h"
+
+namespace kurbel {
+namespace {
+
+std::string type_of(const Key& key) {
+  switch (key.type) {
+    case KeyType::quantity:
+      return key.unit.empty() ? "number" : pretty_unit(key.unit);
+    case KeyType::quantities:
+      return fmt::format("list of {}", pretty_unit(key.unit));
+    case KeyType::integers:
+      return "list of whole numbers";
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::flag:
+      return "true or false";
+    case KeyType::text:
+      return key.choices.empty() ? "text" : listed(key.choices);
+    case KeyType::curve:
+      return fmt::format("table over {} → {}", listed(key.choices), pretty_unit(key.unit));
+    case KeyType::sections:
+      return "table(s)";
+  }
+  return "";
+}
+
+std::string domain_of(const Key& key) {
+  const bool number = key.type == KeyType::quantity || key.type == KeyType::quantities ||
+                      key.type == KeyType::integer || key.type == KeyType::integers;
+  return number ? key.domain.describe("") : "";
+}
+
+std::string rows(const std::vector<Key>& keys) {
+  std::string text = "| key | unit or values | default | domain | meaning |\n|---|---|---|---|---|\n";
+  for (const Key& key : keys)
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, type_of(key),
+                        key.required           ? "**required**"
+                        : key.fallback.empty() ? "—"
+                                               : fmt::format("`{}`", key.fallback),
+                        domain_of(key), key.doc);
+  return text;
+}
+
+// What may stand in its tables, each once.
+std::vector<const std::vector<Kind>*> nested_in(const Kind& kind) {
+  std::vector<const std::vector<Kind>*> lists;
+  for (const Key& key : kind.keys)
+    if (key.nested && std::find(lists.begin(), lists.end(), key.nested) == lists.end()) lists.push_back(key.nested);
+  return lists;
+}
+
+// Tables that were printed already, and under which kind.
+using Printed = std::map<const std::vector<Kind>*, std::string>;
+
+std::string chapter(const Kind& kind, const char* level, Printed& printed) {
+  std::string text = fmt::format("{} `{}`\n\n{}.", level, kind.name, kind.doc);
+  if (kind.elastic) text += " Its elasticity is an effect.";
+  if (kind.placement == Placement::inline_two) text += " Two shafts: `.in` and `.out`.";
+  text += fmt::format("\n\n{}\n", rows(kind.keys));
+  for (const std::vector<Kind>* kinds : nested_in(kind)) {
+    if (const auto [before, fresh] = printed.try_emplace(kinds, kind.name); !fresh) {
+      text += fmt::format("Its tables are those of `{}` above.\n\n", before->second);
+      continue;
+    }
+    for (const Kind& nested : *kinds) text += chapter(nested, "####", printed);
+  }
+  return text;
+}
+
+// Columns a terminal needs for a text: UTF-8 continuation bytes take none.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+// Columns below each other.
+std::string aligned(const std::vector<Key>& keys) {
+  std::vector<std::vector<std::string>> cells = {{"key", "unit or values", "default", "domain", "meaning"}};
+  for (const Key& key : keys)
+    cells.push_back({key.name, type_of(key),
+                     key.required           ? "required"
+                     : key.fallback.empty() ? "—"
+                                            : key.fallback,
+                     domain_of(key), key.doc});
+  constexpr std::size_t widest = 30;
+  std::vector<std::size_t> widths(4, 0);
+  for (const auto& row : cells)
+    for (std::size_t k = 0; k < 4; ++k) widths[k] = std::max(widths[k], std::min(width(row[k]), widest));
+  std::string text;
+  for (const auto& row : cells) {
+    std::string line = "  ";
+    std::size_t begin = 2;
+    for (std::size_t k = 0; k < 5; ++k) {
+      if (k > 0 && width(line) + 2 > begin) {  // a long list of values has the line for itself
+        text += line + "\n";
+        line.clear();
+      }
+      line += std::string(begin - width(line), ' ') + row[k];
+      if (k == 4) break;
+      begin += widths[k] + 2;
+    }
+    while (line.ends_with(' ')) line.pop_back();
+    text += line + "\n";
+  }
+  return text;
+}
+
+void add_kinds(const std::vector<Kind>& kinds, std::vector<const Kind*>& list) {
+  for (const Kind& kind : kinds) list.push_back(&kind);
+  for (const Kind& kind : kinds)
+    for (const std::vector<Kind>* nested : nested_in(kind)) add_kinds(*nested, list);
+}
+
+// Components first, then what stands inside them.
+std::vector<const Kind*> kinds_with_nested() {
+  std::vector<const Kind*> list;
+  add_kinds(all_kinds(), list);
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of_keys() {
+  std::vector<std::string> names;
+  for (const Kind* kind : kinds_with_nested()) names.push_back(kind->name);
+  names.push_back("run");
+  return names;
+}
+
+std::string keys_of(const std::string& name) {
+  if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
+  std::string text;
+  for (const Kind* kind : kinds_with_nested()) {
+    if (kind->name != name) continue;
+    const bool nested = kind->placement == Placement::nested;
+    text += fmt::format("{}{} — {}.{}{}\n\n", text.empty() ? "" : "\n", kind->name, kind->doc,
+                        kind->elastic ? " Its elasticity is an effect." : "",
+                        nested                                     ? " Stands inside a component."
+                        : kind->placement == Placement::inline_two ? " Two shafts: .in and .out."
+                                                                   : "");
+    text += aligned(kind->keys);
+    for (const Key& key : kind->keys)
+      if (key.nested) {
+        std::vector<std::string> names;
+        for (const Kind& inner : *key.nested) names.push_back(inner.name);
+        text += fmt::format("\n  {}: tables of kind {}; see kurbel keys {}\n", key.name, listed(names), names.front());
+      }
+  }
+  if (text.empty()) throw std::invalid_argument(fmt::format("no kind {}", in_quotes(name)));
+  return text;
+}
+
+const std::vector<Kind>& all_kinds() {
+  static const std::vector<Kind> kinds = [] {
+    std::vector<Kind> list = drivetrain_kinds();
+    for (Kind& kind : mechanism_kinds()) list.push_back(std::move(kind));
+    return list;
+  }();
+  return kinds;
+}
+
+namespace {
+
+const char* unsaid_text(const EffectFlag& effect) {
+  switch (effect.unsaid) {
+    case EffectFlag::Unsaid::off:
+      return "off";
+    case EffectFlag::Unsaid::where_given:
+      return "on where the scene gives that";
+    case EffectFlag::Unsaid::part_of_machine:
+      break;
+  }
+  return "on, even in the rigid machine; off by name alone";
+}
+
+}  // namespace
+
+std::string keys_in_markdown() {
+  std::string text =
+      "# Keys of a scene\n\n"
+      "Printed by `kurbel keys`, from the same table that the reader uses; a test holds this file against it.\n\n"
+      "Quantities are texts with a unit (\"1500 rpm\", \"4 kN*m/rad\", \"12 mm\"); the angle is a dimension of its "
+      "own. Plain\n"
+      "numbers stand only where a value has no unit. A component's table may carry `on = \"component\"` in place of a\n"
+      "position in a line. A characteristic (\"table over …\") is written\n"
+      "`{ over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 0], [90, 12]] }` or with `file = \"data.csv\"` "
+      "(two columns,\n"
+      "`columns = [1, 2]`), `interpolation = \"linear\"` or `\"smooth\"`, and `period` where it repeats.\n\n"
+      "Values of SI units are 0 or of a size of 1e-30 … 1e30 (angles up to 1e9 rad, as small as they like), so that "
+      "products of\nten of them are numbers. At most: 16 MB for a scene, 64 MB and 1000000 rows for a table, 100000 "
+      "values in a list,\n1000000 shaft ends, and 1000 gears with losses, planetary gears and gears in housings.\n\n"
+      "## At the top\n\n"
+      "| key | meaning |\n|---|---|\n"
+      "| `title`, `description` | texts |\n"
+      "| `line` | names of the components in the order of the drive |\n"
+      "| `[[branch]]` | `from = \"component\"` (`\"gearbox.out\"`) and `line = [...]` |\n"
+      "| `[effects]` | `elasticity = true`, `false` or a list of components; the effects below, `true` or `false` |\n"
+      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n\n"
+      "## `[effects]`\n\n"
+      "| effect | what it adds | needs | states, events | matters | unless mentioned |\n|---|---|---|---|---|---|\n"
+      "| `elasticity` | couplings and shafts twist | a stiffness | a twist and a speed each | where an excitation "
+      "meets a "
+      "mode; starts and blows | off |\n";
+  for (const EffectFlag& effect : effect_flags())
+    text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters,
+                        effect.states, effect.matters, unsaid_text(effect));
+  text +=
+      "\n## Steps of `[sequence]`\n\n"
+      "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "
+      "of = "
+      "\"press\", set = \"brake\" }]`. `set` names the components: clutches, brakes and motors take any value of `to`, "
+      "everything else is on above one half.\n\n";
+  text += rows(sequence_step_keys());
+  text += "\n## `[run]`\n\n" + rows(run_keys());
+  text +=
+      "| `output` | list of names | all | | components in trajectory.csv |\n"
+      "| `start` | \"rest\", \"equilibrium\" or a table | `\"rest\"` | | see below |\n\n"
+      "`start = { speed = \"300 rpm\", angle = \"0 deg\", on = \"motor\", equilibrium = true, press = { speed = \"3 "
+      "rad/s\" }, "
+      "main_coupling = { twist = \"0.1 deg\" } }`: `speed` and `angle` belong to the reduction link (the first "
+      "mechanism's crank, "
+      "else the first shaft of the line) or to the component named by `on`; the rest of the machine follows rigidly "
+      "unless "
+      "components say otherwise. `equilibrium` gives each elastic element the twist that carries the torque which the "
+      "rigid "
+      "machine would transmit there at that moment.\n\n"
+      "## Components\n\n";
+  Printed printed;
+  for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);
+  return text;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,221 @@
+// schema.cpp — from kinds and keys to JSON Schema.
+#include "studies/scenes/schema.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/scene.h"
+#include "engine/scene/sequence_reader.h"
+#include "engine/scene/units.h"
+#include "studies/scenes/kinds.h"
+
+namespace kurbel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* const number_with_unit = R"(^\s*[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?\s*\S.*$)";
+const char* const number_or_percent = R"(^\s*[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?\s*%?\s*$)";
+
+Json reference(const std::string& definition) { return {{"$ref", "#/$defs/" + definition}}; }
+Json text() { return {{"type", "string"}}; }
+Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+
+Json table_of(Json properties, const std::vector<std::string>& required = {}) {
+  Json table = {{"type", "object"}, {"properties", std::move(properties)}};
+  if (!required.empty()) table["required"] = required;
+  table["additionalProperties"] = false;
+  return table;
+}
+
+// A bare number within its domain; a bound on a text with a unit is the reader's to check.
+void bound(Json& number, const Domain& domain) {
+  if (std::isfinite(domain.low)) number[domain.low_open ? "exclusiveMinimum" : "minimum"] = domain.low;
+  if (std::isfinite(domain.high)) number[domain.high_open ? "exclusiveMaximum" : "maximum"] = domain.high;
+}
+
+Json quantity(const std::string& unit, const Domain& domain) {
+  if (!unit.empty()) return {{"type", "string"}, {"pattern", number_with_unit}};
+  Json number = {{"type", "number"}};
+  bound(number, domain);
+  return {{"anyOf", {number, {{"type", "string"}, {"pattern", number_or_percent}}}}};
+}
+
+// { over = "angle", unit = ["deg", "N*m"], points = [[0, 0], [90, 12]] }
+Json curve(const Key& key) {
+  const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+  const Json points = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  const Json properties = {
+      {"over", {{"enum", key.choices}, {"description", "what the first column is"}}},
+      {"unit",
+       {{"type", "array"},
+        {"items", text()},
+        {"minItems", 2},
+        {"maxItems", 2},
+        {"description",
+         fmt::format("units of both columns; the second in the dimension of {}", pretty_unit(key.unit))}}},
+      {"points", points},
+      {"file", {{"type", "string"}, {"description", "CSV file beside the scene, in place of the points"}}},
+      {"return_points", points},
+      {"return_file", text()},
+      {"columns",
+       {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 1}}}, {"minItems", 2}, {"maxItems", 2}}},
+      {"interpolation", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}},
+      {"period", {{"type", "string"}, {"pattern", number_with_unit}}},
+  };
+  return table_of(properties, key.choices.size() == 1 ? std::vector<std::string>{"unit"}
+                                                      : std::vector<std::string>{"over", "unit"});
+}
+
+Json kind_schema(const Kind& kind, bool kind_required);
+
+Json nested(const Key& key) {
+  Json one = Json::array();
+  for (const Kind& kind : *key.nested) one.push_back(kind_schema(kind, key.nested->size() > 1));
+  const Json table = one.size() == 1 ? one.front() : Json{{"oneOf", one}};
+  return {{"anyOf", {table, list_of(table)}}};
+}
+
+std::string description(const Key& key) {
+  std::string doc = key.doc;
+  if (key.type == KeyType::quantity || key.type == KeyType::quantities) {
+    if (!key.unit.empty()) doc += fmt::format(" [{}]", pretty_unit(key.unit));
+    if (key.domain.describe("") != "finite") doc += ", " + key.domain.describe("");
+    if (!key.unit.empty()) doc += fmt::format("; e.g. {}", examples_of(key.unit));
+  }
+  return doc;
+}
+
+Json value_schema(const Key& key) {
+  Json schema;
+  switch (key.type) {
+    case KeyType::quantity:
+      schema = quantity(key.unit, key.domain);
+      break;
+    case KeyType::quantities:
+      schema = list_of(quantity(key.unit, key.domain));
+      break;
+    case KeyType::integer:
+    case KeyType::integers:
+      schema = {{"type", "integer"}};
+      if (std::isfinite(key.domain.low)) schema["minimum"] = std::llround(key.domain.low);
+      if (std::isfinite(key.domain.high)) schema["maximum"] = std::llround(key.domain.high);
+      if (key.type == KeyType::integers) schema = list_of(schema);
+      break;
+    case KeyType::flag:
+      schema = {{"type", "boolean"}};
+      break;
+    case KeyType::text:
+      schema = key.choices.empty() ? text() : Json{{"enum", key.choices}};
+      break;
+    case KeyType::curve:
+      schema = curve(key);
+      break;
+    case KeyType::sections:
+      schema = nested(key);
+      break;
+  }
+  schema["description"] = description(key);
+  if (!key.fallback.empty()) schema["default"] = Json::parse(key.fallback);
+  return schema;
+}
+
+Json properties_of(const std::vector<Key>& keys) {
+  Json properties = Json::object();
+  for (const Key& key : keys) properties[key.name] = value_schema(key);
+  return properties;
+}
+
+Json kind_schema(const Kind& kind, bool kind_required) {
+  Json properties = {{"kind", {{"const", kind.name}, {"description", kind.doc}}}};
+  if (kind.placement == Placement::inline_one)
+    properties["on"] = {{"type", "string"},
+                        {"description", "component on whose shaft this one sits, in place of a position in a line"}};
+  properties.update(properties_of(kind.keys));
+  std::vector<std::string> required;
+  if (kind_required) required.push_back("kind");
+  for (const Key& key : kind.keys)
+    if (key.required) required.push_back(key.name);
+  Json schema = {{"title", kind.name}, {"description", kind.doc}};
+  schema.update(table_of(properties, required));
+  return schema;
+}
+
+Json start_schema() {
+  const Json angle = {{"type", "string"}, {"pattern", number_with_unit}, {"description", "e.g. " + examples_of("rad")}};
+  const Json speed = {
+      {"type", "string"}, {"pattern", number_with_unit}, {"description", "e.g. " + examples_of("rad/s")}};
+  Json table = table_of(
+      {{"speed", speed},
+       {"angle", angle},
+       {"on",
+        {{"type", "string"}, {"description", "component that speed and angle belong to; default: the reduction link"}}},
+       {"equilibrium",
+        {{"type", "boolean"}, {"description", "twists carry the torques that the rigid machine would transmit"}}}});
+  table["additionalProperties"] = table_of({{"speed", speed}, {"angle", angle}, {"twist", angle}});
+  return {
+      {"anyOf", {{{"enum", {"rest", "equilibrium"}}}, table}}, {"default", "rest"}, {"description", "state at time 0"}};
+}
+
+Json run_schema() {
+  Json properties = properties_of(run_keys());
+  properties["output"] = list_of(text());
+  properties["output"]["description"] = "components in trajectory.csv; default: all";
+  properties["start"] = start_schema();
+  return table_of(properties);
+}
+
+Json sequence_schema() {
+  Json step = properties_of(sequence_step_keys());
+  step["set"] = {{"anyOf", {text(), list_of(text())}}, {"description", "the components that the step sets"}};
+  return table_of({{"steps", list_of(table_of(step, {"set"}))}, {"repeat", {{"type", "boolean"}}}}, {"steps"});
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  Json names = list_of(text());
+  names["minItems"] = 1;
+  Json line = names;
+  line["description"] = "names of the components in the order of the drive";
+  Json from = text();
+  from["description"] = "component that the branch begins at; of one with two shafts \"gearbox.in\" or \"gearbox.out\"";
+  Json elasticity = {{"anyOf", {{{"type", "boolean"}}, list_of(text())}},
+                     {"description", "true, false, or the components that are elastic"}};
+  Json effects = {{"elasticity", elasticity}};
+  for (const EffectFlag& effect : effect_flags())
+    effects[effect.name] = {{"type", "boolean"}, {"description", effect.adds}};
+  const Json branch = table_of({{"from", from}, {"line", names}}, {"from", "line"});
+
+  Json definitions = Json::object(), kinds = Json::array();
+  for (const Kind& kind : all_kinds()) {
+    definitions[kind.name] = kind_schema(kind, true);
+    kinds.push_back(reference(kind.name));
+  }
+  for (Json& kind : kinds) {  // a blank in a $ref is no URI
+    std::string target = kind["$ref"];
+    for (std::size_t at; (at = target.find(' ')) != std::string::npos;) target.replace(at, 1, "%20");
+    kind["$ref"] = target;
+  }
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "kurbel scene"},
+                 {"description",
+                  "A machine unit for kurbel. Printed by `kurbel schema` from the table of keys that the reader uses."},
+                 {"type", "object"},
+                 {"properties",
+                  {{"title", text()},
+                   {"description", text()},
+                   {"line", line},
+                   {"branch", list_of(branch)},
+                   {"effects", table_of(effects)},
+                   {"sequence", sequence_schema()},
+                   {"run", run_schema()}}},
+                 {"required", {"line"}},
+                 {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},
+                 {"$defs", definitions}};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace kurbel

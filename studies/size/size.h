@@ -1,0 +1,104 @@
+// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; as simulated.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/cycle/machine_cycle.h"
+#include "studies/findings/output.h"
+#include "studies/run/simulate.h"
+#include "studies/size/flywheel.h"
+
+namespace kurbel {
+
+struct SizeOptions {
+  std::optional<double> delta;       // demanded, 0 < δ < 2
+  std::string machine;               // or its customary value: "press" (the upper end of the range)
+  std::optional<double> mean_speed;  // of the reduction link [rad/s]; default: the operating speed
+  std::string flywheel;              // component that is sized; default: the scene's only flywheel, else on the crank
+  FlywheelForm form = FlywheelForm::rim;
+  std::string material = "grey cast iron";
+  double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
+  std::optional<double> sheet;         // length of the diagrams' angle axis [m]
+  bool simulate = true;                // run the sized machine
+  SimulateOptions simulation = {};
+};
+
+// One way to the inertia.
+struct SizeMethod {
+  std::string name;
+  double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
+  double flywheel = 0;           // less everything else that turns at constant ratio, on its own shaft [kg·m²]
+  double flywheel_by_parts = 0;  // (theory 3.1)
+  std::optional<double> delta;   // reached at constant driving torque, exact; empty: the machine would stop
+};
+
+// The sized machine with its real motor, in steady motion.
+struct DeltaReached {
+  std::string model;            // "rigid, work equation", "rigid, simulated", "elastic, simulated"
+  std::string sized_by;         // which flywheel
+  double flywheel = 0;          // [kg·m²]
+  double crank = 0, motor = 0;  // δ
+  std::optional<double> crank_error, motor_error;
+  double mean_speed = 0;                        // of the link [rad/s]
+  bool settled = true;                          // speed and δ have come to 1e-5 of where they tend to
+  int cycles = 0;                               // simulated
+  std::vector<double> phi, speed, motor_speed;  // last cycle [rad], [rad/s]; motor reduced to the link
+};
+
+struct Sizing {
+  std::string title, scene_file, link;
+  double delta = 0;
+  std::string delta_source;
+  double mean_speed = 0;
+  std::string mean_speed_source;
+
+  MachineCycle cycle;
+  WorkDiagram diagram;
+  bool engine = false;  // the drive varies with the angle, the load is made to balance it
+  Wittenbauer exact;
+  Mertsalov approximate;
+  std::vector<SizeMethod> methods;  // Wittenbauer, Mertsalov, without I_em
+
+  std::string flywheel;                                              // component
+  bool flywheel_added = false;                                       // the scene has none
+  double flywheel_ratio = 1;                                         // its speed over the link's
+  double flywheel_now = 0;                                           // in the scene, on its own shaft [kg·m²]
+  double motor_inertia = 0, gearbox_inertia = 0, other_inertia = 0;  // on the flywheel's shaft [kg·m²]
+  std::vector<std::pair<std::string, double>> other_parts;           // on the flywheel's shaft
+  double delta_now = 0;  // of the scene as it is, at constant driving torque; NaN: it stops
+  bool needed = true;    // a flywheel with I > 0
+
+  // The motor's slope counted.
+  std::string motor;  // first driving component; empty: none
+  std::optional<OperatingSpeed> operating;
+  std::optional<SteadyRigidCycle> with_motor;  // of Wittenbauer's flywheel
+  std::optional<SizeMethod> soft;              // inertia whose steady cycle with the real motor has the demanded δ
+  std::optional<SteadyRigidCycle> soft_cycle;
+  std::string soft_why;  // there is none
+
+  std::optional<FlywheelDimensions> dimensions;
+  std::string dimensions_why;
+  std::optional<PunchPress> punch;  // loads that act for a part of the cycle only
+  std::vector<DeltaReached> reached;
+  std::optional<double> sheet;
+  std::vector<std::string> notes;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+// Throws SceneError where the scene makes no machine; std::invalid_argument in words for bad options, a load without
+// net resistance, and a motor too weak for the cycle.
+Sizing size_flywheel(const Scene& scene, const SizeOptions& options);
+
+// Whose torque it is that changes with the speed at the operating point: "the motor's slope", "the load's slope".
+std::string slope_of_what(const Sizing& sizing);
+
+// The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
+Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
+
+StudyOutput output_of(const Sizing& sizing);
+
+}  // namespace kurbel

@@ -1,0 +1,310 @@
+// operating_points.cpp — mean torques by quadrature, their intersections, starts from rest.
+#include "studies/steady/operating_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/run/run.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
+
+constexpr int scan_points = 250;      // over the rated range
+constexpr double scan_beyond = 1.25;  // of the rated speed
+constexpr int most_doublings = 6;     // beyond that: it runs away
+constexpr double widest_interval = std::numbers::pi / 12;
+
+// Gauss–Legendre of order 10 on [0, 1].
+constexpr double gauss_node[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                  0.95308992296933200};
+constexpr double gauss_weight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                                    0.11846344252809454};
+
+std::string speed_text(double omega) { return with_unit(std::abs(omega) * 30 / std::numbers::pi, "rpm", 5); }
+
+}  // namespace
+
+MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction)
+    : machine_(machine), direction_(direction) {
+  std::vector<double> ends = machine.edges(direction);
+  ends.push_back(0);
+  ends.push_back(machine.cycle());
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double length = ends[i + 1] - ends[i];
+    if (length < 1e-12) continue;
+    const int parts = static_cast<int>(std::ceil(length / widest_interval));
+    for (int k = 0; k < parts; ++k) {
+      begin_.push_back(ends[i] + length * k / parts);
+      width_.push_back(length / parts);
+    }
+  }
+}
+
+MeanTorques MeanCharacteristic::at(double omega) {
+  const double w = direction_ * std::abs(omega);
+  MeanTorques mean{w, 0, 0};
+  const std::vector<WorkAccount>& accounts = machine_.model().accounts;
+  for (std::size_t i = 0; i < begin_.size(); ++i) {
+    machine_.set_modes(begin_[i] + 0.5 * width_[i], w);
+    for (int k = 0; k < 5; ++k) {
+      const RigidMachine::At here = machine_.at(begin_[i] + gauss_node[k] * width_[i], w, true);
+      const double weight = gauss_weight[k] * width_[i] / machine_.cycle() * direction_;
+      for (std::size_t a = 0; a < accounts.size(); ++a)
+        (accounts[a].kind == Account::driving ? mean.drive : mean.load) +=
+            weight * (accounts[a].kind == Account::driving ? here.share[a] : -here.share[a]);
+    }
+  }
+  return mean;
+}
+
+const OperatingPoint* OperatingDiagram::working_point() const {
+  const OperatingPoint* fastest = nullptr;
+  for (const OperatingPoint& p : points)
+    if (p.stable()) fastest = &p;
+  return fastest;
+}
+
+std::string OperatingDiagram::why_none(const std::string& link) const {
+  if (working_point()) return {};
+  const auto least =
+      std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.net() < b.net(); });
+  if (least->net() < 0)
+    return fmt::format(
+        "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
+        "at {}); the drive gives at most {} (at {}). A stronger drive, a higher ratio, or a lighter load is needed",
+        link, with_unit(-least->net(), "N*m", 4), with_unit(least->load, "N*m", 5), with_unit(least->drive, "N*m", 5),
+        speed_text(least->omega), with_unit(strongest.drive, "N*m", 5), speed_text(strongest.omega));
+  const MeanTorques& last = curve.back();
+  if (last.net() > 0)
+    return fmt::format(
+        "runaway: up to {} the drive's mean torque on \"{}\" exceeds the loads', there still by {} ({} against {}); "
+        "nothing up to there ends the acceleration. A load that grows with speed, or a drive that weakens with it, is "
+        "needed",
+        speed_text(last.omega), link, with_unit(last.net(), "N*m", 4), with_unit(last.drive, "N*m", 5),
+        with_unit(last.load, "N*m", 5));
+  return fmt::format(
+      "no stable operating point: where the mean torques on \"{}\" meet, the drive's rises faster with "
+      "speed than the loads'",
+      link);
+}
+
+OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
+  OperatingDiagram result;
+  result.direction = direction;
+  result.uses_speed = machine.uses_speed();
+  MeanCharacteristic mean(machine, direction);
+  const double rated = machine.model().speed_scale, step = scan_beyond * rated / scan_points;
+  for (int i = 0; i <= scan_points; ++i) result.curve.push_back(mean.at(i == 0 ? 1e-6 * rated : i * step));
+  for (int i = 0; i < most_doublings && result.uses_speed && result.curve.back().net() > 0; ++i) {
+    const double from = std::abs(result.curve.back().omega);
+    for (int k = 1; k <= 20; ++k) result.curve.push_back(mean.at(from * (1 + k / 20.0)));
+  }
+  result.strongest = *std::max_element(result.curve.begin(), result.curve.end(),
+                                       [](const auto& a, const auto& b) { return a.drive < b.drive; });
+  // Breakdown between the scanned points: golden section.
+  const double best = std::abs(result.strongest.omega);
+  double a = std::max(best - step, 1e-6 * rated), b = best + step;
+  for (int i = 0; i < 40; ++i) {
+    const double c = b - 0.6180339887498949 * (b - a), d = a + 0.6180339887498949 * (b - a);
+    (mean.at(c).drive > mean.at(d).drive ? b : a) = mean.at(c).drive > mean.at(d).drive ? d : c;
+  }
+  if (const MeanTorques peak = mean.at(0.5 * (a + b)); peak.drive > result.strongest.drive) result.strongest = peak;
+  if (!result.uses_speed) return result;  // parallel lines: they meet nowhere, or everywhere
+  for (std::size_t i = 0; i + 1 < result.curve.size(); ++i) {
+    const double n0 = result.curve[i].net(), n1 = result.curve[i + 1].net();
+    if (n0 == 0 || (n0 > 0) == (n1 > 0)) continue;
+    const double w = find_root([&](double x) { return mean.at(x).net(); }, std::abs(result.curve[i].omega), n0,
+                               std::abs(result.curve[i + 1].omega), n1);
+    OperatingPoint point{mean.at(w), 0, 0};
+    const double h = std::min(1e-5 * rated, 0.1 * w);
+    const MeanTorques below = mean.at(w - h), above = mean.at(w + h);
+    point.drive_slope = (above.drive - below.drive) / (2 * h);
+    point.load_slope = (above.load - below.load) / (2 * h);
+    result.points.push_back(point);
+  }
+  return result;
+}
+
+Network always_on(const Scene& scene, std::vector<std::string>& switched) {
+  Network net = build_network(scene);
+  for (Network::ShaftElement& e : net.elements) {
+    if (e.window.start <= Window{}.start && e.window.stop >= Window{}.stop) continue;
+    switched.push_back(e.component);
+    e.window = {};
+  }
+  return net;
+}
+
+namespace {
+
+class SpeedLog final : public Observer {
+ public:
+  void begin(double t, std::span<const double> y, Equations& e) override { see(e.snapshot(t, y), t, e.model()); }
+  void step(StepView& view) override { see(view.snapshot(view.t()), view.t(), view.equations().model()); }
+  std::vector<double> t, w;
+
+ private:
+  void see(const Snapshot& s, double time, const Model& m) {
+    const int node = m.reduction_node;
+    t.push_back(time);
+    w.push_back(m.gain_of_node[at_index(node)] * s.now.speed[m.shaft_of_node[at_index(node)]]);
+  }
+};
+
+double link_start_angle(const Model& m) {
+  const StartSettings& start = m.scene.run.start;
+  const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
+  return start.angle / m.node_ratio[at_index(on)];
+}
+
+}  // namespace
+
+StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
+                         const std::atomic<bool>* interrupted, int node) {
+  Equations equations(rigid, false);
+  const Model& m = *rigid;
+  StartSettings settings{};
+  settings.angle = link_start_angle(m);
+  if (node < 0) node = m.reduction_node;
+  const double gain = m.gain_of_node[at_index(node)];
+  const double scale = m.speed_scale * m.scale_ratio[at_index(node)];
+  const std::size_t speed = equations.speed_index(m.shaft_of_node[at_index(node)]);
+  RunOptions run{
+      .tolerance = 1e-9, .method = "auto", .until = limit, .budget = 20, .interrupted = interrupted, .progress = {}};
+  run.from = {0, equations.start(0, settings)};
+  run.stop = [=](double, std::span<const double> y) {
+    return (std::abs(target) - std::copysign(1.0, target) * gain * y[speed]) / scale;
+  };
+  SpeedLog log;
+  const RunOutcome outcome = integrate(equations, run, {&log});
+  StartRun result{outcome.stopped, outcome.t, std::move(log.t), std::move(log.w), outcome.diagnosis};
+  if (result.reached || !result.why.empty()) return result;
+  result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
+                           speed_text(target), with_unit(limit, "s", 4),
+                           speed_text(result.w.back() * m.node_ratio[at_index(node)]));
+  return result;
+}
+
+double fastest_start_ratio(double motor_torque, double motor_inertia, double load_torque, double load_inertia,
+                           double efficiency) {
+  if (!(motor_torque > 0 && motor_inertia > 0 && load_torque >= 0 && load_inertia > 0 && efficiency > 0 &&
+        efficiency <= 1))
+    throw std::invalid_argument(fmt::format(
+        "fastest start: motor torque {:g} N·m, motor inertia {:g} kg·m², load torque {:g} N·m, load inertia "
+        "{:g} kg·m², efficiency {:g}; torques and inertias must be > 0 (load torque ≥ 0), efficiency in "
+        "0 … 1",
+        motor_torque, motor_inertia, load_torque, load_inertia, efficiency));
+  const double root =
+      std::sqrt(load_torque * load_torque + efficiency * motor_torque * motor_torque * load_inertia / motor_inertia);
+  return (load_torque + root) / (efficiency * motor_torque);
+}
+
+namespace {
+
+// Gears of one component: its ideal joints.
+std::vector<std::size_t> gears_of(const Network& net, const std::string& component) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < net.joints.size(); ++j)
+    if (net.joints[j].component == component && !net.joints[j].element) joints.push_back(j);
+  return joints;
+}
+
+class RatioTrial {
+ public:
+  RatioTrial(const Scene& scene, std::string gearbox, double target, double limit, const std::atomic<bool>* interrupted)
+      : scene_(scene), gearbox_(std::move(gearbox)), target_(target), limit_(limit), interrupted_(interrupted) {
+    network_ = always_on(scene, ignored_);
+    const auto model = compile_network(network_, scene, rigid_effects());
+    node_ = network_.ports.at(gearbox_).out;
+    target_ *= model->node_ratio[at_index(node_)];
+    present_ = 1;
+    for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
+  }
+  // A stage whose ratio can be set: none where all of them have losses or teeth that yield.
+  bool has_gears() const { return !gears_of(network_, gearbox_).empty(); }
+  double present() const { return present_; }
+  // Start time with another ratio of the last stage; HUGE_VAL: never.
+  double operator()(double ratio) {
+    Network net = network_;
+    net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
+    const auto model = compile_network(std::move(net), scene_, rigid_effects());
+    const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_);
+    const double time = run.reached ? run.time : HUGE_VAL;
+    tried_.emplace_back(ratio, time);
+    return time;
+  }
+  std::vector<std::pair<double, double>> tried() {
+    std::sort(tried_.begin(), tried_.end());
+    return tried_;
+  }
+
+ private:
+  const Scene& scene_;
+  std::string gearbox_;
+  double target_, limit_;
+  const std::atomic<bool>* interrupted_;
+  Network network_;
+  double present_ = 1;
+  int node_ = 0;
+  std::vector<std::string> ignored_;
+  std::vector<std::pair<double, double>> tried_;
+};
+
+constexpr int coarse_ratios = 25;  // from an eighth to eight times the present ratio
+constexpr int fine_ratios = 26;
+
+}  // namespace
+
+std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, double limit,
+                                        const std::atomic<bool>* interrupted) {
+  std::vector<RatioSearch> found;
+  for (const Section& component : scene.components) {
+    if (component.kind->name != "gearbox") continue;
+    RatioTrial trial(scene, component.name, target, limit, interrupted);
+    if (!trial.has_gears()) continue;
+    RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, false};
+    const double reached = trial(trial.present());
+    search.present_time = std::isfinite(reached) ? reached : 0;
+    int best = -1;
+    std::vector<double> ratio, time;
+    for (int i = 0; i < coarse_ratios && !(interrupted && interrupted->load()); ++i) {
+      ratio.push_back(trial.present() * std::pow(8.0, 2.0 * i / (coarse_ratios - 1) - 1));
+      time.push_back(trial(ratio.back()));
+      if (best < 0 || time.back() < time[at_index(best)]) best = i;
+    }
+    if (best < 0 || !std::isfinite(time[at_index(best)])) continue;
+    double a = std::log(ratio[at_index(std::max(best - 1, 0))]);
+    double b = std::log(ratio[at_index(std::min(best + 1, static_cast<int>(ratio.size()) - 1))]);
+    constexpr double golden = 0.6180339887498949;
+    double c = b - golden * (b - a), d = a + golden * (b - a), tc = trial(std::exp(c)), td = trial(std::exp(d));
+    for (int i = 0; i < fine_ratios && b - a > 1e-5 && !(interrupted && interrupted->load()); ++i) {
+      if (tc < td) {
+        b = d, d = c, td = tc;
+        tc = trial(std::exp(c = b - golden * (b - a)));
+      } else {
+        a = c, c = d, tc = td;
+        td = trial(std::exp(d = a + golden * (b - a)));
+      }
+    }
+    search.at_bound = best == 0 || best + 1 == static_cast<int>(ratio.size());
+    search.best_time = HUGE_VAL;
+    for (const auto& [r, t] : trial.tried()) {
+      if (!std::isfinite(t)) continue;
+      search.ratio.push_back(r);
+      search.time.push_back(t);
+      if (t < search.best_time) search.best_time = t, search.best = r;
+    }
+    found.push_back(std::move(search));
+  }
+  return found;
+}
+
+}  // namespace kurbel

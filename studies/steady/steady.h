@@ -1,0 +1,96 @@
+// steady.h — the periodic motion of a machine, found directly: figures, stability, operating points.
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/return_map.h"
+#include "studies/run/simulate.h"
+#include "studies/steady/operating_points.h"
+
+namespace kurbel {
+
+struct Traces;
+
+struct SteadyOptions {
+  std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
+  int periods = 1;                        // cycles after which the motion repeats
+  bool traces = false;                    // for plots
+  bool start_search = true;               // start from rest and the gearbox ratio that starts fastest
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const std::string& what, double fraction)> progress = {};
+  std::function<void(const std::string&)> log = {};
+};
+
+// δ of one shaft (theory 2.6).
+struct ShaftFluctuation {
+  std::string shaft;  // "motor", "gearbox.in"
+  double ratio = 1;   // of its mean speed to the link's
+  double max = 0, min = 0;
+  double mean() const { return 0.5 * (max + min); }
+  double delta() const { return (max - min) / std::abs(mean()); }  // also of a shaft that turns backwards
+};
+
+struct MotorUse {
+  std::string component;
+  double rms = 0, mean = 0, peak = 0;      // of its torque over the cycle [N·m]
+  std::optional<double> rated;             // [N·m], where the scene gives it
+  std::optional<double> thermal() const {  // RMS over rated: what heats the windings
+    return rated ? std::optional(rms / *rated) : std::nullopt;
+  }
+};
+
+// The steady cycle of one model.
+struct SteadyCycle {
+  std::string label, effects;
+  std::shared_ptr<const Model> model;
+  bool found = false;
+  std::string why;  // in words, unless it was found
+  ReturnMap::End end = ReturnMap::End::returned;
+  Periodicity periodicity;
+  double section = 0;  // angle of the link where the map is taken [rad]
+  SteadyPoint point;
+  std::size_t unknowns = 0;
+  double cost = 0, cost_limit = 0;  // of the search, approach included; 6 (n + 1) [cycles]
+  double cycle_time = 0;            // of one round [s]
+  std::string stability;            // in words
+  std::optional<double> halving;    // cycles in which the slowest deviation halves
+  bool neutral = false;             // a multiplier of 1: one of a family
+  std::vector<Figure> figures;      // with errors measured by a looser search
+  std::vector<ShaftFluctuation> shafts;
+  std::vector<MotorUse> motors;
+  double work_residual = 0;  // of the cycle's works against each other, over the driving work
+  double added_torque = 0;   // constant, beside the drive, that the demanded mean speed needs [N·m]
+  std::string added_at;      // on this component's shaft
+  std::shared_ptr<const Traces> traces;
+  double cpu_seconds = 0;
+
+  const Figure* find(const std::string& name) const;
+};
+
+struct SteadyStudy {
+  std::string title, scene_file, link;
+  std::optional<double> mean_speed;
+  std::optional<OperatingDiagram> diagram;  // none where time drives or a speed is prescribed
+  std::string no_diagram;                   // why
+  std::vector<SteadyCycle> cycles;          // of the models asked for
+  std::optional<StartRun> start;            // rigid, from rest to 95 % of the steady speed
+  std::vector<RatioSearch> ratios;
+  std::vector<std::string> notes;
+  std::string conclusion;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+// Finds the steady cycle of the scene with each set of effects. Throws SceneError where the scene makes no machine;
+// std::invalid_argument in words where the question is incomplete: a family of cycles without --mean-speed, periods
+// that never meet, a mean speed of a machine that time drives.
+SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options);
+
+// "stable: the slowest deviation halves in 3.2 cycles"
+std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving);
+
+}  // namespace kurbel
