@@ -39,9 +39,13 @@ class Curve {
   int piece(double x) const {
     return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), within(x)) - x_.begin()) - 1;
   }
-  double piece_begin(int piece) const { return piece < 0 ? -HUGE_VAL : x_[static_cast<std::size_t>(piece)]; }
+  // Of any number: a piece before the first one ends where that begins.
+  double piece_begin(int piece) const {
+    return piece < 0 ? -HUGE_VAL : x_[std::min(static_cast<std::size_t>(piece), x_.size() - 1)];
+  }
   double piece_end(int piece) const {
-    return piece + 1 >= static_cast<int>(x_.size()) ? HUGE_VAL : x_[static_cast<std::size_t>(piece + 1)];
+    if (piece + 1 >= static_cast<int>(x_.size())) return HUGE_VAL;
+    return x_[static_cast<std::size_t>(std::max(piece + 1, 0))];
   }
 
   // Value of one piece, continued beyond its ends: between events a right-hand side stays smooth.

@@ -11,7 +11,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
-#include "engine/run/run.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,6 @@
 // event_location.cpp — guards at both ends of a step, dips within it, and the way to the first that fires.
 #include "engine/run/event_location.h"
+#include "engine/numerics/roots.h"
 
 #include <algorithm>
 #include <cmath>

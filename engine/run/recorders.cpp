@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "engine/numerics/deadline.h"
+#include "engine/rigid/work_stepper.h"
 #include "engine/run/diagnosis.h"
 #include "engine/run/event_location.h"
-#include "engine/rigid/work_stepper.h"
 
 namespace kurbel {
 namespace {
@@ -552,25 +552,6 @@ double StepView::at(double time, std::size_t state) {
   if (time >= stepper_->t()) return stepper_->y()[state];
   if (time <= stepper_->t_previous()) return stepper_->y_previous()[state];
   return stepper_->interpolate(time, state);
-}
-
-double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough) {
-  for (int i = 0; i < 100; ++i) {
-    if (fb == 0 || std::abs(fb) <= enough) return b;
-    double c = (fa * b - fb * a) / (fa - fb);
-    if (!(c > std::min(a, b) && c < std::max(a, b))) c = 0.5 * (a + b);
-    if (c == a || c == b || std::abs(b - a) <= 4e-16 * std::max(std::abs(a), std::abs(b))) return b;
-    const double fc = f(c);
-    if ((fc > 0) == (fb > 0)) {
-      fa *= 0.5;  // Illinois: keeps the far end from standing still
-    } else {
-      a = b;
-      fa = fb;
-    }
-    b = c;
-    fb = fc;
-  }
-  return b;
 }
 
 RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers) {

@@ -140,7 +140,4 @@ struct RunOutcome {
 // Throws std::invalid_argument for an unknown method, and for the work equation where it does not apply.
 RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers);
 
-// Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.
-double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
-
 }  // namespace kurbel

@@ -1,5 +1,6 @@
 // speed_history.cpp — stretches of the speed, and the last time outside a band among them.
 #include "engine/run/speed_history.h"
+#include "engine/numerics/roots.h"
 
 #include <algorithm>
 #include <cmath>

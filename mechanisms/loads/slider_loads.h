@@ -64,9 +64,11 @@ struct Profile {
   int piece(double d) const {
     return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1;
   }
-  double piece_begin(int p) const { return p < 0 ? -HUGE_VAL : knot[static_cast<std::size_t>(p)]; }
+  double piece_begin(int p) const {
+    return p < 0 ? -HUGE_VAL : knot[std::min(static_cast<std::size_t>(p), knot.size() - 1)];
+  }
   double piece_end(int p) const {
-    return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(p + 1)];
+    return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(std::max(p + 1, 0))];
   }
   template <class T>
   T value_in(int p, const T& d) const {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 
 namespace kurbel {

@@ -10,6 +10,7 @@
 
 #include "engine/model/model.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/joint_keys.h"

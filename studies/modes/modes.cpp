@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "studies/run/simulate.h"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
 

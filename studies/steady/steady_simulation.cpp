@@ -1,5 +1,6 @@
 // steady_simulation.cpp — runs of growing length, watched cycle by cycle.
 #include "studies/steady/steady_simulation.h"
+#include "engine/numerics/roots.h"
 
 #include <fmt/format.h>
 

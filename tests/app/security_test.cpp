@@ -17,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <regex>
 #include <sstream>
 #include <thread>
@@ -384,6 +385,30 @@ TEST_F(Security, LargerFilesAreRefusedAndEndlessOnesNotReadOn) {
   const std::string promised = text_of(std::string(KURBEL_SOURCE_DIR) + "/SECURITY.md");
   EXPECT_NE(promised.find("A scene of more than " + scenes + " and a data file of more than " + tables),
             std::string::npos);
+}
+
+// Pieces of tables beyond their ends, senses and speeds by dice: a state that fits by its sizes alone.
+TEST_F(Security, WildStatesEndInWords) {
+  std::mt19937 dice(3);
+  for (const char* name : {"piston_pump", "single_cylinder_engine", "crank_press", "stick_slip"}) {
+    const std::string scene = KURBEL_SOURCE_DIR "/scenes/" + std::string(name) + ".toml";
+    ASSERT_EQ(
+        kurbel({"run", scene, "--until", "0.05 s", "--no-files", "--no-error", "--save-state", "state.json"}).code, 0)
+        << name;
+    const nlohmann::json whole = nlohmann::json::parse(text_of(folder_ / "scene" / "state.json"));
+    for (int round = 0; round < 6; ++round) {
+      nlohmann::json wild = whole;
+      std::uniform_int_distribution<int> any(-10'000'000, 10'000'000), sense(-1, 1);
+      for (auto& piece : wild["modes"]["piece"]) piece = round % 2 ? any(dice) : 10 * sense(dice);
+      for (const char* senses : {"direction", "slip", "loss_direction"})
+        for (auto& one : wild["modes"][senses]) one = sense(dice);
+      for (auto& value : wild["y"]) value = value.get<double>() + round * 0.3 * sense(dice);
+      write_text(folder_ / "scene" / "wild.json", wild.dump());
+      const Ended ended =
+          kurbel({"run", scene, "--until", "0.06 s", "--no-files", "--no-error", "--from-state", "wild.json"});
+      EXPECT_TRUE(ended.code == 0 || ended.code == 2 || ended.code == 3) << name << " " << round << ": " << ended.code;
+    }
+  }
 }
 
 TEST_F(Security, EndsByItsBudgetAndByCtrlC) {

@@ -1,0 +1,28 @@
+// roots.cpp — the Illinois method, kept within its bracket.
+#include "engine/numerics/roots.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+
+double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough) {
+  for (int i = 0; i < 100; ++i) {
+    if (fb == 0 || std::abs(fb) <= enough) return b;
+    double c = (fa * b - fb * a) / (fa - fb);
+    if (!(c > std::min(a, b) && c < std::max(a, b))) c = 0.5 * (a + b);
+    if (c == a || c == b || std::abs(b - a) <= 4e-16 * std::max(std::abs(a), std::abs(b))) return b;
+    const double fc = f(c);
+    if ((fc > 0) == (fb > 0)) {
+      fa *= 0.5;  // Illinois: keeps the far end from standing still
+    } else {
+      a = b;
+      fa = fb;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,305 @@
+// rooms_test.cpp — the house as it is drawn: which room may import which, how large rooms and files are, and that each
+// room's README is its table of contents. The order of the rooms is that of add_subdirectory in the CMakeLists.txt.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "app"};
+
+// Arrows that still run back, each with what would turn it.
+const std::map<std::string, std::string> known_arrows = {
+    {"engine/scene/scene.cpp engine/model/build_component.h",
+     "the reader builds each component on trial for its faults"},
+    {"engine/scene/scene.cpp engine/model/network.h", "and throws the network away"},
+};
+
+constexpr std::size_t most_files = 20;
+// Families of elements may be more.
+const std::map<std::string, std::size_t> families = {
+    {"mechanisms/linkages", 21},  // four linkages, each with its bodies, and what Simbody is asked
+};
+
+constexpr long most_lines = 450;
+// Longer ones from before the rule: they may shrink, and leave the list when they are short enough.
+const std::map<std::string, long> known_lengths = {
+    {"engine/analysis/return_map.cpp", 571},
+    {"engine/equations/constraints.cpp", 463},
+    {"engine/equations/equations.cpp", 488},
+    {"engine/equations/equations_contacts.cpp", 853},
+    {"engine/model/compile.cpp", 726},
+    {"engine/rigid/work_equation.cpp", 487},
+    {"engine/run/run.cpp", 562},
+    {"engine/scene/scene.cpp", 665},
+    {"engine/scene/section_reader.cpp", 596},
+    {"engine/steppers/sundials_stepper.cpp", 656},
+    {"mechanisms/reduced/deforming_mechanism.cpp", 654},
+    {"mechanisms/reduced/mechanism.cpp", 576},
+    {"mechanisms/slider_crank/slider_crank_forces.cpp", 560},
+    {"studies/accuracy/accuracy.cpp", 564},
+    {"studies/forces/forces_output.cpp", 631},
+    {"studies/gears/gears_output.cpp", 485},
+    {"studies/modes/modes.cpp", 552},
+    {"studies/modes/modes_output.cpp", 694},
+    {"studies/reduce/reduce_output.cpp", 474},
+    {"studies/run/run_report.cpp", 540},
+    {"studies/run/simulate.cpp", 458},
+    {"studies/size/size_output.cpp", 671},
+    {"studies/steady/steady.cpp", 799},
+    {"studies/steady/steady_output.cpp", 483},
+};
+
+std::string path_of(const std::string& relative) { return KURBEL_SOURCE_DIR "/" + relative; }
+
+// Read once.
+const std::vector<std::string>& lines_of(const std::string& relative) {
+  static std::map<std::string, std::vector<std::string>> read;
+  const auto [place, fresh] = read.try_emplace(relative);
+  if (fresh) {
+    std::ifstream in(path_of(relative));
+    EXPECT_TRUE(in) << relative;
+    for (std::string line; std::getline(in, line);) place->second.push_back(line);
+  }
+  return place->second;
+}
+
+std::string text_of(const std::string& relative) {
+  std::stringstream text;
+  text << std::ifstream(path_of(relative)).rdbuf();
+  return text.str();
+}
+
+// What stands between `open` and `close` behind `begin` at a line's begin; empty: nothing.
+std::string quoted(const std::string& line, const std::string& begin, char close) {
+  if (!line.starts_with(begin)) return {};
+  const std::size_t end = line.find(close, begin.size());
+  return end == std::string::npos ? std::string{} : line.substr(begin.size(), end - begin.size());
+}
+
+bool is_source(const std::string& name) { return name.ends_with(".h") || name.ends_with(".cpp"); }
+
+std::string room_of(const std::string& file) { return file.substr(0, file.rfind('/')); }
+
+// "engine/numerics", …, "engine", "drivetrain/shared", …: each may import those before it.
+std::vector<std::string> rooms_in_order() {
+  std::vector<std::string> rooms;
+  for (const std::string& house : houses) {
+    for (const std::string& line : lines_of(house + "/CMakeLists.txt"))
+      if (const std::string room = quoted(line, "add_subdirectory(", ')'); !room.empty())
+        rooms.push_back(house + "/" + room);
+    rooms.push_back(house);
+  }
+  return rooms;
+}
+
+// Files of a room by their names; folders (what others have written, brought along) with a "/" behind.
+std::vector<std::string> files_in(const std::string& room) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path_of(room)))
+    if (!entry.is_directory() || !fs::is_empty(entry))
+      names.push_back(entry.path().filename().string() + (entry.is_directory() ? "/" : ""));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Include {
+  std::string file, of;
+};
+
+std::vector<Include> includes_of(const std::string& file) {
+  std::vector<Include> all;
+  for (const std::string& line : lines_of(file))
+    if (const std::string of = quoted(line, "#include \"", '"'); !of.empty()) all.push_back({file, of});
+  return all;
+}
+
+std::vector<std::string> sources_of(const std::string& room) {
+  std::vector<std::string> files;
+  for (const std::string& name : files_in(room))
+    if (is_source(name)) files.push_back(room + "/" + name);
+  return files;
+}
+
+bool speaks_simbody(const std::string& file) {
+  for (const std::string& line : lines_of(file)) {
+    std::string name = quoted(line, "#include <", '>') + quoted(line, "#include \"", '"');
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (name.starts_with("simbody") || name.starts_with("simtk")) return true;
+  }
+  return false;
+}
+
+// With all that it includes.
+bool shows_simbody(const std::string& file) {
+  static std::map<std::string, bool> known;
+  const auto [place, fresh] = known.try_emplace(file, false);
+  if (!fresh) return place->second;
+  bool shows = speaks_simbody(file);
+  for (const Include& i : includes_of(file)) shows = shows_simbody(i.of) || shows;
+  return known[file] = shows;
+}
+
+// Names in backquotes in the first column of a README's tables of files.
+std::set<std::string> names_told(const std::string& readme) {
+  std::set<std::string> names;
+  bool files = false;
+  for (const std::string& line : lines_of(readme)) {
+    files = line.starts_with("| file |") || (files && line.starts_with("|"));
+    if (!files) continue;
+    const std::string column = line.substr(0, line.find('|', 1));
+    for (std::size_t open = column.find('`'); open != std::string::npos;) {
+      const std::size_t close = column.find('`', open + 1);
+      if (close == std::string::npos) break;
+      names.insert(column.substr(open + 1, close - open - 1));
+      open = column.find('`', close + 1);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+// A room is understood with those before it alone.
+TEST(House, NoImportRunsBack) {
+  const std::vector<std::string> rooms = rooms_in_order();
+  const auto place = [&](const std::string& room) { return std::find(rooms.begin(), rooms.end(), room); };
+  std::set<std::string> met;
+  for (const std::string& room : rooms)
+    for (const std::string& file : sources_of(room))
+      for (const Include& i : includes_of(file)) {
+        const std::string from = room_of(i.of);
+        ASSERT_NE(place(from), rooms.end()) << file << " includes " << i.of << ", which is in no room";
+        if (place(from) <= place(room)) continue;
+        const std::string arrow = file + " " + i.of;
+        met.insert(arrow);
+        EXPECT_TRUE(known_arrows.contains(arrow))
+            << file << " includes " << i.of << ": " << room << " comes before " << from
+            << ", so it may not import it; move what both need into an earlier room";
+      }
+  for (const auto& [arrow, why] : known_arrows)
+    EXPECT_TRUE(met.contains(arrow)) << arrow << " is gone: take it off the list of known ones";
+}
+
+// Linkages need no motors, and a page needs no study to be written.
+TEST(House, MechanismsKnowNoDrivetrainAndTheReportNoStudy) {
+  for (const std::string& room : rooms_in_order())
+    for (const std::string& file : sources_of(room))
+      for (const Include& i : includes_of(file)) {
+        const std::string from = room_of(i.of);
+        const bool drive = room.starts_with("mechanisms/") && from.starts_with("drivetrain");
+        const bool study = room == "studies/report" && from.starts_with("studies/") && from != room &&
+                           from != "studies/files" && from != "studies/findings";
+        EXPECT_FALSE(drive || study) << file << " includes " << i.of;
+      }
+}
+
+TEST(House, RoomsHoldAtMostTwentyFiles) {
+  for (const std::string& room : rooms_in_order()) {
+    const auto family = families.find(room);
+    EXPECT_LE(sources_of(room).size(), family == families.end() ? most_files : family->second)
+        << room << ": make a room of what belongs together";
+  }
+}
+
+TEST(House, FilesAreAtMost450Lines) {
+  for (const std::string& room : rooms_in_order())
+    for (const std::string& file : sources_of(room)) {
+      const auto known = known_lengths.find(file);
+      const long lines = static_cast<long>(lines_of(file).size());
+      EXPECT_LE(lines, known == known_lengths.end() ? most_lines : known->second) << file << ": split it";
+    }
+  for (const auto& [file, length] : known_lengths) {
+    ASSERT_TRUE(fs::exists(path_of(file))) << file << " is gone: take it off the list of known ones";
+    EXPECT_GT(static_cast<long>(lines_of(file).size()), most_lines) << file << ": take it off the list of known ones";
+  }
+}
+
+// Its headers do not compile as C++20.
+TEST(House, OnlyLinkagesSpeakSimbody) {
+  int within = 0;
+  for (const std::string& room : rooms_in_order())
+    for (const std::string& file : sources_of(room)) {
+      if (room == "mechanisms/linkages") {
+        within += speaks_simbody(file);
+      } else {
+        EXPECT_FALSE(shows_simbody(file)) << file << " includes Simbody, itself or through another header";
+      }
+    }
+  EXPECT_GT(within, 0);
+}
+
+// Every source is built, and by its own room's list.
+TEST(House, EveryRoomListsItsSources) {
+  for (const std::string& room : rooms_in_order()) {
+    const std::string list = text_of(room + "/CMakeLists.txt");
+    for (const std::string& name : files_in(room))
+      EXPECT_TRUE(!name.ends_with(".cpp") || list.find(" " + name) != std::string::npos)
+          << room << "/CMakeLists.txt does not list " << name;
+  }
+}
+
+// The README of a room is its table of contents: all that is there, nothing that is not.
+TEST(House, EveryReadmeIsItsRoomsTableOfContents) {
+  for (const std::string& room : rooms_in_order()) {
+    const std::string readme = room + "/README.md";
+    ASSERT_TRUE(fs::exists(path_of(readme))) << room << " has no README.md";
+    const std::set<std::string> told = names_told(readme);
+    for (const std::string& name : files_in(room))
+      EXPECT_TRUE(told.contains(name) || name == "README.md" || name == "CMakeLists.txt")
+          << readme << " does not name " << name << ": add a line that says what it is";
+    for (const std::string& name : told)
+      EXPECT_TRUE(fs::exists(path_of(room + "/" + name))) << readme << " names " << name << ", which is not there";
+  }
+}
+
+// "Imports: `engine/numerics`, `engine/scene`." in the README are the rooms that the sources include, or "nothing".
+TEST(House, EveryReadmeTellsWhatItsRoomImports) {
+  for (const std::string& room : rooms_in_order()) {
+    if (std::find(houses.begin(), houses.end(), room) != houses.end()) continue;
+    std::set<std::string> imported;
+    for (const std::string& file : sources_of(room))
+      for (const Include& i : includes_of(file))
+        if (room_of(i.of) != room) imported.insert("`" + room_of(i.of) + "`");
+    std::string told = "Imports: ";
+    for (const std::string& name : imported) told += (name == *imported.begin() ? "" : ", ") + name;
+    if (imported.empty()) told += "nothing";
+    const std::vector<std::string> lines = lines_of(room + "/README.md");
+    EXPECT_NE(std::find(lines.begin(), lines.end(), told + "."), lines.end())
+        << room << "/README.md must have the line\n"
+        << told << ".";
+  }
+}
+
+// Links within the project lead somewhere.
+TEST(House, LinksBetweenDocumentsResolve) {
+  std::vector<std::string> folders = {"", "tests", "bench", "docs"};
+  for (const std::string& room : rooms_in_order()) folders.push_back(room);
+  int links = 0;
+  for (const std::string& folder : folders)
+    for (const auto& entry : fs::directory_iterator(path_of(folder))) {
+      if (entry.path().extension() != ".md") continue;
+      const std::string file = (folder.empty() ? "" : folder + "/") + entry.path().filename().string();
+      const std::string text = text_of(file);
+      for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+        const std::string link = text.substr(at + 2, text.find_first_of(")#\n", at + 2) - at - 2);
+        if (link.empty() || link.find("://") != std::string::npos) continue;
+        ++links;
+        EXPECT_TRUE(fs::exists(path_of(folder) + "/" + link)) << file << " links to " << link << ", which is not there";
+      }
+    }
+  EXPECT_GT(links, 30);
+}
+
+}  // namespace kurbel
