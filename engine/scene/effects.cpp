@@ -99,7 +99,7 @@ std::span<const EffectFlag> effect_flags() {
        "where the frequency of mesh meets a mode"},
       {"transients", &Effects::transients, "electrical transients", Unsaid::where_given,
        "currents and fluxes of motors as states", "the inductance of a DC motor or the frequency of an induction motor",
-       "a current of a DC motor, four fluxes of an induction motor", "at switching, and for fast changes of load"},
+       "a current of a DC motor, four currents of an induction motor", "at switching, and for fast changes of load"},
       {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
        "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling", "a twist per branch",
        "where damping must fit over a range of frequencies"},
