@@ -10,7 +10,6 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
-#include "engine/run/run.h"
 
 namespace kurbel {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
-#include "engine/run/run.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {

@@ -10,7 +10,6 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
-#include "engine/run/run.h"
 #include "engine/scene/units.h"
 #include "studies/scenes/kinds.h"
 #include "studies/steady/steady_simulation.h"
