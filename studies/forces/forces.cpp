@@ -258,7 +258,7 @@ std::optional<double> PowerFlow::efficiency() const {
 
 Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   check(options);
-  const Deadline deadline(scene.run.budget, options.interrupted);
+  const Deadline deadline(scene.run.budget);
   const Section& section = chosen_slider_crank(scene, options.mechanism);
   Forces out;
   out.title = scene.title;

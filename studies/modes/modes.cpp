@@ -545,7 +545,7 @@ double parametric_half_width(double variation, double damping_ratio) {
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {
   if (scene.run.model == "multibody")
     throw std::invalid_argument("modes belong to the reduced model; set model = \"reduced\" in [run]");
-  const Deadline deadline(scene.run.budget, options.interrupted);
+  const Deadline deadline(scene.run.budget);
   return Study(scene, effects, options).result();
 }
 

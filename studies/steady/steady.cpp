@@ -792,7 +792,7 @@ std::string stability_text(const std::vector<std::complex<double>>& multipliers,
 }
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
-  const Deadline deadline(scene.run.budget, options.interrupted);
+  const Deadline deadline(scene.run.budget);
   return Study(scene, effects, options).run();
 }
 

@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 using test::figure;
 using test::scene_from;
-using test::text_of;
+using test::project_text;
 using test::with;
 
 std::shared_ptr<const Model> rigid(const Scene& scene) { return compile(scene, Effects{}); }
@@ -158,7 +158,7 @@ TEST(WorkOverAngle, StopUnderAConstantTorqueIsExact) {
 
 // A constant torque drives against a press force: the crank stops where T₀ + M φ = F (x_edge − x(φ)).
 TEST(WorkOverAngle, StallUnderAPressLoadLiesWhereTheEnergyIsUsedUp) {
-  const std::string text = with(with(text_of("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
+  const std::string text = with(with(project_text("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
                                 "kind          = \"dc shunt motor\"\nstall_torque  = \"60 N*m\"          # torque at "
                                 "standstill\nno_load_speed = \"40 rad/s\"        # speed without load\n",
                                 "kind = \"torque source\"\ntorque = \"45 N*m\"\n");
@@ -198,7 +198,7 @@ TEST(WorkEquation, DrivenSliderCrankMatchesItsReferenceToElevenDigits) {
 }
 
 TEST(WorkEquation, TooSlowTheCrankStopsUnderTheLoadAndTheStallIsTold) {
-  const Result r = test::run(with(with(text_of("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
+  const Result r = test::run(with(with(project_text("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
                                   "accuracy = 1e-7", "accuracy = 1e-9\nmethod = \"work\""));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.crank"), 2.01784108852116, 1e-12);
@@ -291,7 +291,7 @@ until = "3 s"
 // Steps of equal angle: halving them divides the error by 2⁸.
 TEST(WorkEquation, StepperOverTheAngleIsOfOrderEight) {
   const Scene scene =
-      scene_from(with(text_of("scenes/driven_slider_crank.toml"),
+      scene_from(with(project_text("scenes/driven_slider_crank.toml"),
                       "load = { kind = \"press\", nominal_force = \"2 kN\", nominal_travel = \"100 mm\", "
                       "working_end = \"folded\" }",
                       ""));
@@ -350,7 +350,7 @@ TEST(WorkEquation, RefusesInWordsWhatItCannotDo) {
     return "accepted";
   };
   const auto wheel = [&](const std::string& more) { return refused(flywheel_with(more, "speed = \"1 rad/s\"")); };
-  EXPECT_NE(refused(text_of("scenes/six_inertia_chain.toml")).find("the machine is elastic"), std::string::npos);
+  EXPECT_NE(refused(project_text("scenes/six_inertia_chain.toml")).find("the machine is elastic"), std::string::npos);
   const std::string harmonic =
       wheel("[shaker]\nkind = \"torque source\"\non = \"wheel\"\namplitude = \"5 N*m\"\nfrequency = \"3 Hz\"\n");
   EXPECT_NE(harmonic.find("\"shaker\" depends on time"), std::string::npos) << harmonic;

@@ -13,7 +13,7 @@ using test::series;
 using test::with;
 
 std::string chain_from(double angle) {
-  return with(with(test::text_of("scenes/six_inertia_chain.toml"), "start    = \"rest\"",
+  return with(with(test::project_text("scenes/six_inertia_chain.toml"), "start    = \"rest\"",
                    fmt::format("start    = {{ angle = \"{} rad\" }}", angle)),
               "accuracy = 1e-8", "accuracy = 1e-11");
 }
@@ -66,7 +66,7 @@ TEST(LargeAngle, PeakTorqueOfAChainIsThatOfTheReferenceAtAMillionRadians) {
 
 Scene driven_crank(double angle) {
   Scene scene =
-      test::scene_from(with(test::text_of("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-10"));
+      test::scene_from(with(test::project_text("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-10"));
   scene.run.start.angle = angle;
   scene.run.until = 3;
   return scene;
@@ -88,9 +88,9 @@ TEST(LargeAngle, CrankMechanismAtAMillionTurnsBehavesAsAtItsRemainder) {
 }
 
 TEST(LargeAngle, WrittenInTurnsAMillionIsAsGoodAsNone) {
-  const std::string text = with(test::text_of("scenes/driven_slider_crank.toml"), "speed = \"20 rad/s\" }",
+  const std::string text = with(test::project_text("scenes/driven_slider_crank.toml"), "speed = \"20 rad/s\" }",
                                 "speed = \"20 rad/s\", angle = \"1e6 rev\" }");
-  const Result far = run(text), near = run(test::text_of("scenes/driven_slider_crank.toml"));
+  const Result far = run(text), near = run(test::project_text("scenes/driven_slider_crank.toml"));
   EXPECT_NEAR(figure(far, "final_speed.crank"), figure(near, "final_speed.crank"),
               1e-8);  // 1e6 rev in radians has an error of 5e-10 rad
 }

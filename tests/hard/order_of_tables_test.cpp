@@ -12,7 +12,7 @@ namespace kurbel {
 namespace {
 
 using test::run;
-using test::text_of;
+using test::project_text;
 using test::with;
 
 // A scene's text cut at its table headers; the first piece is what stands above them.
@@ -72,7 +72,7 @@ void expect_same_bits(const Result& a, const Result& b) {
 class OrderOfTables : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(OrderOfTables, ChangesNoBitOfTheResult) {
-  const std::string text = text_of(GetParam());
+  const std::string text = project_text(GetParam());
   const Result original = run(text);
   for (const unsigned seed : {1u, 2u}) {
     const std::string other = shuffled(text, seed);
@@ -161,14 +161,14 @@ TEST(OrderOfTables, OfBranchesChangesNoBitOfTheResult) {
 
 TEST(EffectOff, ItsDampingMayStayInTheFileOrNot) {
   const std::string press =
-      with(text_of("scenes/crank_press.toml"), "elasticity = [\"motor_coupling\", \"main_coupling\"]",
+      with(project_text("scenes/crank_press.toml"), "elasticity = [\"motor_coupling\", \"main_coupling\"]",
            "elasticity = [\"main_coupling\"]");
   expect_same_bits(run(press), run(with(press, "damping_ratio = 0.06", "")));
   expect_same_bits(run(press), run(with(press, "stiffness     = \"4 kN*m/rad\"", "stiffness     = \"123 kN*m/rad\"")));
 }
 
 TEST(EffectOff, ARigidMachineKnowsNoStiffness) {
-  const std::string chain = with(text_of("scenes/six_inertia_chain.toml"), "elasticity = true", "elasticity = false");
+  const std::string chain = with(project_text("scenes/six_inertia_chain.toml"), "elasticity = true", "elasticity = false");
   std::string other = with(chain, "\"4 kN*m/rad\"", "\"9 kN*m/rad\"");
   other = with(with(other, "\"2 N*m*s/rad\"", "\"0 N*m*s/rad\""), "\"10 N*m*s/rad\"", "\"7 N*m*s/rad\"");
   expect_same_bits(run(chain), run(other));
@@ -176,10 +176,10 @@ TEST(EffectOff, ARigidMachineKnowsNoStiffness) {
 
 // A coupling without hubs whose elasticity is off leaves no trace.
 TEST(EffectOff, ACouplingWithoutHubsMayAsWellBeAbsent) {
-  const std::string with_coupling = with(text_of("scenes/driven_slider_crank.toml"), "line  = [\"motor\", \"crank\"]",
+  const std::string with_coupling = with(project_text("scenes/driven_slider_crank.toml"), "line  = [\"motor\", \"crank\"]",
                                          "line  = [\"motor\", \"soft\", \"crank\"]") +
                                     "\n[soft]\nkind = \"coupling\"\nstiffness = \"700 N*m/rad\"\ndamping_ratio = 0.1\n";
-  expect_same_bits(run(text_of("scenes/driven_slider_crank.toml")), run(with_coupling));
+  expect_same_bits(run(project_text("scenes/driven_slider_crank.toml")), run(with_coupling));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ inline std::string digits(double value) {
   return text;
 }
 
-inline std::string text_of(const std::string& relative) {
+inline std::string project_text(const std::string& relative) {
   std::ifstream file(source_path(relative));
   if (!file) throw std::runtime_error("cannot read " + relative);
   std::ostringstream text;

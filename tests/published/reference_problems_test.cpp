@@ -15,13 +15,13 @@ namespace {
 
 using test::figure;
 using test::run;
-using test::text_of;
+using test::project_text;
 using test::with;
 
 // --- R1: I_r(φ) ω² = const ---
 
 TEST(FreeSliderCrank, MotionAfterFortySevenTurnsMatchesTheQuadrature) {
-  const Result r = run(with(text_of("scenes/free_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
+  const Result r = run(with(project_text("scenes/free_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.crank"), 294.719373652657, 1e-9);
   EXPECT_NEAR(figure(r, "final_speed.crank"), 29.5167074225067, 1e-9);
@@ -30,7 +30,7 @@ TEST(FreeSliderCrank, MotionAfterFortySevenTurnsMatchesTheQuadrature) {
 }
 
 TEST(FreeSliderCrank, EnergyIsConstantAndSpeedFollowsTheReducedInertia) {
-  const Result r = run(with(text_of("scenes/free_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
+  const Result r = run(with(project_text("scenes/free_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
   const double energy = 252.037193877551, most_inertia = 0.6028418696,
                least_inertia = 0.5600826531;  // reference.toml, R1
   EXPECT_NEAR(r.energy.kinetic_start, energy, 1e-12 * energy);
@@ -42,7 +42,7 @@ TEST(FreeSliderCrank, EnergyIsConstantAndSpeedFollowsTheReducedInertia) {
 // --- R2b, R2stick: M = 60 (1 − ω/40), 2 kN against the slider towards the crank while x < l ---
 
 TEST(DrivenSliderCrank, MotionPastSixtyLoadEdgesMatchesLocatedEvents) {
-  const Result r = run(with(text_of("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
+  const Result r = run(with(project_text("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-9"));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.crank"), 175.990300636005, 1e-9);
   EXPECT_NEAR(figure(r, "final_speed.crank"), 22.9514530858349, 1e-9);
@@ -52,7 +52,7 @@ TEST(DrivenSliderCrank, MotionPastSixtyLoadEdgesMatchesLocatedEvents) {
 }
 
 TEST(DrivenSliderCrank, TooSlowItStopsUnderTheLoadAndIsHeldForEver) {
-  const Result r = run(with(text_of("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""));
+  const Result r = run(with(project_text("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.crank"), 2.01784108852116, 1e-10);
   EXPECT_EQ(figure(r, "final_speed.crank"), 0);  // exactly: no creep
@@ -68,7 +68,7 @@ TEST(DrivenSliderCrank, TooSlowItStopsUnderTheLoadAndIsHeldForEver) {
 // --- E1: six inertias from rest ---
 
 TEST(SixInertiaChain, SpeedsAfterTheRunUpMatchTheReference) {
-  const Result r = run(text_of("scenes/six_inertia_chain.toml"));
+  const Result r = run(project_text("scenes/six_inertia_chain.toml"));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const std::vector<std::pair<const char*, double>> expected = {{"motor", 72.0459453224151}, {"j2", 72.0459597112134},
                                                                 {"j3", 72.0459599907005},    {"j4", 72.0459602500263},
@@ -78,7 +78,7 @@ TEST(SixInertiaChain, SpeedsAfterTheRunUpMatchTheReference) {
 }
 
 TEST(SixInertiaChain, SpringTorquePeaksWhereTheTwoSpeedsMeet) {
-  const Result r = run(text_of("scenes/six_inertia_chain.toml"));
+  const Result r = run(project_text("scenes/six_inertia_chain.toml"));
   const Figure* spring = r.find("peak_spring_torque.c1");
   ASSERT_NE(spring, nullptr);
   EXPECT_NEAR(spring->value, 290.808843395416, 1e-8);
@@ -87,7 +87,7 @@ TEST(SixInertiaChain, SpringTorquePeaksWhereTheTwoSpeedsMeet) {
 }
 
 TEST(SixInertiaChain, TransmittedTorquePeaksEarlierAndHigherThanTheSpringTorque) {
-  const Result r = run(text_of("scenes/six_inertia_chain.toml"));
+  const Result r = run(project_text("scenes/six_inertia_chain.toml"));
   const Figure* transmitted = r.find("peak_torque.c1");
   ASSERT_NE(transmitted, nullptr);
   EXPECT_NEAR(transmitted->value, 291.4212, 6e-5);  // four decimals are given
