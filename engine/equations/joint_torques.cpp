@@ -2,6 +2,7 @@
 #include "engine/equations/joint_torques.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace kurbel {
 namespace {
@@ -52,14 +53,19 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
 }
 
 void JointTorques::add_inertia_and_elements(const Given& given) {
-  const Model& m = *model_;
-  const Network& net = m.network;
-  for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    balance_[n] = net.nodes[n].inertia * m.gain_of_node[n] * given.alpha[m.shaft_of_node[n]];
-  for (std::size_t e = 0; e < net.elements.size(); ++e) {
-    const std::size_t n = at(net.elements[e].node);
-    balance_[n] +=
-        given.element_inertia[e] * m.gain_of_node[n] * given.alpha[m.shaft_of_node[n]] - given.element_torque[e];
+  // Names of this function alone, which what is written cannot change: the compiler need not fetch them anew.
+  const Network& net = model_->network;
+  const double* const gain = model_->gain_of_node.data();
+  const int* const shaft = model_->shaft_of_node.data();
+  const auto [alpha, torque, inertia] = std::tuple(given.alpha, given.element_torque, given.element_inertia);
+  double* const need = balance_.data();
+  const Network::Node* const node = net.nodes.data();
+  for (std::size_t n = 0, count = net.nodes.size(); n < count; ++n)
+    need[n] = node[n].inertia * gain[n] * alpha[shaft[n]];
+  const Network::ShaftElement* const element = net.elements.data();
+  for (std::size_t e = 0, count = net.elements.size(); e < count; ++e) {
+    const std::size_t n = at(element[e].node);
+    need[n] += inertia[e] * gain[n] * alpha[shaft[n]] - torque[e];
   }
 }
 
@@ -94,14 +100,16 @@ void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold
 }
 
 void JointTorques::walk_to_the_roots() {
-  for (const Step& step : steps_) {
-    const double ratio = model_->network.joints[at(step.joint)].ratio, need = balance_[at(step.child)];
+  double *const torque = torque_.data(), *const balance = balance_.data();
+  const Network::Joint* const joint = model_->network.joints.data();
+  for (const Step& step : std::span<const Step>(steps_)) {
+    const double ratio = joint[step.joint].ratio, need = balance[step.child];
     if (step.child_is_b) {
-      torque_[at(step.joint)] = need / ratio;
-      balance_[at(step.parent)] += need / ratio;
+      torque[step.joint] = need / ratio;
+      balance[step.parent] += need / ratio;
     } else {
-      torque_[at(step.joint)] = -need;
-      balance_[at(step.parent)] += ratio * need;
+      torque[step.joint] = -need;
+      balance[step.parent] += ratio * need;
     }
   }
 }
