@@ -118,6 +118,7 @@ Json event_json(const Result& r, std::size_t k) {
 Json result_json(const Result& r) {
   Json j;
   j["title"] = r.title;
+  if (r.begins_at > 0) j["goes_on_from"] = r.begins_at;
   j["scene"] = r.scene_file;
   j["complete"] = r.complete;
   if (!r.complete) j["diagnosis"] = r.diagnosis;
@@ -241,8 +242,10 @@ std::string one_line(const Result& r) {
   if (r.energy.checks > 0)
     balance = nothing_turned_over(r.energy) ? ", no energy turned over"
                                             : fmt::format(", energy balance {:.1e}", r.energy.relative);
-  return fmt::format("{}: {} simulated, {}, {}{}{}", r.title, with_unit(r.until, "s", 6), r.label, peak, accuracy,
-                     balance);
+  const std::string span = r.begins_at > 0
+                               ? fmt::format("{} … {}", with_unit(r.begins_at, "s", 6), with_unit(r.until, "s", 6))
+                               : with_unit(r.until, "s", 6);
+  return fmt::format("{}: {} simulated, {}, {}{}{}", r.title, span, r.label, peak, accuracy, balance);
 }
 
 }  // namespace

@@ -234,6 +234,55 @@ TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
   }
 }
 
+// A state that one process wrote goes on in others to the same bits, and ends within the errors of a run that never
+// stopped.
+TEST_F(CommandLine, StatesGoOnInAnotherProcess) {
+  for (const char* name : {"crank_press", "worm_hoist", "planetary_brake"}) {
+    const std::string scene = KURBEL_SOURCE_DIR "/scenes/" + std::string(name) + ".toml";
+    ASSERT_EQ(kurbel({"run", scene, "--until", "0.7 s", "--save-state", "a", "--no-files"}).code, 0) << name;
+    std::string ends[2];
+    for (const char* end : {"b", "c"}) {
+      const Ended r =
+          kurbel({"run", scene, "--until", "1.5 s", "--from-state", "a", "--save-state", end, "--json", "--no-files"});
+      ASSERT_EQ(r.code, 0) << name << r.err;
+      EXPECT_EQ(nlohmann::json::parse(r.out)["goes_on_from"], 0.7);
+      ends[*end - 'b'] = r.out;
+    }
+    EXPECT_EQ(text_of(folder_ / "b"), text_of(folder_ / "c")) << name;
+    const Ended whole = kurbel({"run", scene, "--until", "1.5 s", "--json", "--no-files"});
+    const auto figures = [](const std::string& json) {
+      std::map<std::string, std::pair<double, double>> list;
+      const nlohmann::json read = nlohmann::json::parse(json);
+      for (const auto& [component, end] : read["final"].items())
+        for (const char* what : {"angle", "speed"})
+          list[component + "." + what] = {end[what].get<double>(), end[std::string(what) + "_error"].get<double>()};
+      return list;
+    };
+    const auto on = figures(ends[0]), through = figures(whole.out);
+    ASSERT_FALSE(on.empty());
+    for (const auto& [figure, value] : on)
+      EXPECT_NEAR(value.first, through.at(figure).first, 3 * (value.second + through.at(figure).second) + 1e-7)
+          << name << " " << figure;
+  }
+  const std::string hoist = KURBEL_SOURCE_DIR "/scenes/worm_hoist.toml";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--from-state", "a"}, "is of another machine: its state "},
+      {{"--from-state", "none"}, "--from-state none: no such file; kurbel run SCENE --until TIME --save-state none"},
+      {{"--save-state", "no/such/folder"}, "--save-state"},
+      {{"--save-state", "d", "--method", "work"}, "work"}};
+  for (auto [words, said] : wrong) {
+    words.insert(words.begin(), {"run", hoist, "--no-files"});
+    const Ended r = kurbel(words);
+    EXPECT_EQ(r.code, 2) << said;
+    EXPECT_NE(r.err.find(said), std::string::npos) << r.err;
+  }
+  const std::string brake = KURBEL_SOURCE_DIR "/scenes/planetary_brake.toml";
+  const Ended early = kurbel({"run", brake, "--until", "0.5 s", "--from-state", "a", "--no-files"});
+  EXPECT_EQ(early.code, 2);
+  EXPECT_NE(early.err.find("is of 0.7 s, and the run ends at 0.5 s; let it run on with --until"), std::string::npos)
+      << early.err;
+}
+
 TEST_F(CommandLine, MultibodyModelRefusesMethodsOfTheReducedOne) {
   std::ofstream(folder_ / "crank.toml")
       << "line = [\"crank\"]\n[crank]\nkind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\n"
