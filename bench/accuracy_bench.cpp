@@ -87,9 +87,9 @@ void free_crank(BenchBook& book) {
   BenchPoint p;
   constexpr int many = 1000;
   take_times(p, [&] {
-    const double before = processor_seconds();
+    const double before = processor_time();
     for (int i = 0; i < many; ++i) end = work.advance(0, 30, 10);
-    return (processor_seconds() - before) / many;
+    return (processor_time() - before) / many;
   });
   p.error = std::abs(static_cast<double>(end.cycles) * work.cycle() + end.s - reference);
   diagram.points.push_back(p);
@@ -117,10 +117,10 @@ void free_crank(BenchBook& book) {
       BenchPoint a{.setting = accuracy}, b{.setting = accuracy};
       problem.accuracy = accuracy;
       problem.integrator = integrator;
-      double before = processor_seconds();
+      double before = processor_time();
       try {
         const MultibodyResult result = run_multibody(problem);
-        a.seconds = a.fastest = a.slowest = processor_seconds() - before;
+        a.seconds = a.fastest = a.slowest = processor_time() - before;
         a.error = std::abs(result.samples.back().phi - reference);
         a.steps = result.steps;
         plane.points.push_back(a);
@@ -128,10 +128,10 @@ void free_crank(BenchBook& book) {
         std::printf("%s at %.0e: %s\n", plane.solver.c_str(), accuracy, failure.what());
       }
       if (accuracy < 1e-10) continue;  // the ball costs twice as much
-      before = processor_seconds();
+      before = processor_time();
       try {
         const SimbodyEnd end_of_ball = simbody_r1_with_slider(integrator, accuracy);
-        b.seconds = b.fastest = b.slowest = processor_seconds() - before;
+        b.seconds = b.fastest = b.slowest = processor_time() - before;
         b.error = std::abs(end_of_ball.phi - reference);
         b.steps = end_of_ball.steps;
         ball.points.push_back(b);
@@ -146,9 +146,9 @@ void free_crank(BenchBook& book) {
   BenchCurve mujoco{.problem = "R1", .solver = "MuJoCo RK4", .peer = true, .points = {}};
   for (const double step : {2e-4, 1e-4, 3e-5}) {
     BenchPoint m{.setting = step};
-    const double before = processor_seconds();
+    const double before = processor_time();
     m.error = std::abs(mujoco_r1(step) - reference);
-    m.seconds = m.fastest = m.slowest = processor_seconds() - before;
+    m.seconds = m.fastest = m.slowest = processor_time() - before;
     m.steps = std::lround(10 / step);
     mujoco.points.push_back(m);
   }
@@ -241,14 +241,14 @@ void whole_program(BenchBook& book) {
   BenchPoint p;
   const auto folder = std::filesystem::temp_directory_path() / "kurbel_bench_press";
   take_times(p, [&] {
-    const double before = processor_seconds();
+    const double before = processor_time();
     Scene scene = read_scene(std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml", all_kinds());
     SimulateOptions options;
     options.traces = true;
     options.accuracy = 1e-6;
     const Result result = simulate(scene, scene.effects, "elastic", options);
     write_output(output_of(result), folder.string());
-    return processor_seconds() - before;
+    return processor_time() - before;
   });
   std::filesystem::remove_all(folder);
   book.target("press, elastic, to 1e-6, whole program with report", "≤ 500 ms", in_ms(p.seconds), p.seconds <= 0.5);

@@ -1,8 +1,6 @@
 // machines.h — the reference problems as models, and a clock.
 #pragma once
 
-#include <ctime>
-
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -11,6 +9,7 @@
 #include "drivetrain/couplings/coupling.h"
 #include "drivetrain/loads/loads.h"
 #include "drivetrain/shared/torque_source.h"
+#include "engine/numerics/deadline.h"
 #include "engine/run/run.h"
 #include "studies/scenes/kinds.h"
 
@@ -69,12 +68,6 @@ inline TimedRun timed(int repetitions, const std::function<RunOutcome()>& run) {
   std::nth_element(seconds.begin(), seconds.begin() + repetitions / 2, seconds.end());
   result.median_seconds = seconds[static_cast<std::size_t>(repetitions / 2)];
   return result;
-}
-
-inline double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 inline double final_angle(const std::shared_ptr<const Model>& model, double tolerance, const std::string& method) {

@@ -40,15 +40,15 @@ void report(const char* what, const std::shared_ptr<const Model>& model) {
   double linear = 1e9, modes = 1e9, damped = 1e9;
   UndampedModes found;
   for (int repeat = 0; repeat < 3; ++repeat) {
-    double begin = processor_seconds();
+    double begin = processor_time();
     const LinearDrive drive = linearise(model, {.speed = 100});
-    linear = std::min(linear, processor_seconds() - begin);
-    begin = processor_seconds();
+    linear = std::min(linear, processor_time() - begin);
+    begin = processor_time();
     found = undamped_modes(drive, {.count = 20});
-    modes = std::min(modes, processor_seconds() - begin);
-    begin = processor_seconds();
+    modes = std::min(modes, processor_time() - begin);
+    begin = processor_time();
     const auto swings = damped_modes(drive, found, {.count = 20});
-    damped = std::min(damped, processor_seconds() - begin);
+    damped = std::min(damped, processor_time() - begin);
   }
   std::printf(
       "%-28s %7zu inertias  M, C, K %7.1f ms  20 modes %7.1f ms  damped %7.1f ms  basis %3d  residual %.1e  "

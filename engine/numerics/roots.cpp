@@ -25,4 +25,19 @@ double find_root(const std::function<double(double)>& f, double a, double fa, do
   return b;
 }
 
+Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps) {
+  constexpr double part = 0.38196601125010515;  // (3 − √5)/2
+  double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
+  for (int i = 0; i < steps; ++i) {
+    if (fx > fy) {
+      b = y, y = x, fy = fx;
+      fx = f(x = a + part * (b - a));
+    } else {
+      a = x, x = y, fx = fy;
+      fy = f(y = b - part * (b - a));
+    }
+  }
+  return fx > fy ? Maximum{x, fx} : Maximum{y, fy};
+}
+
 }  // namespace kurbel

@@ -1,4 +1,5 @@
-// roots.h — where a function of one variable vanishes between two places at which its signs differ.
+// roots.h — where a function of one variable vanishes between two places at which its signs differ, and where it is
+// greatest between two places.
 #pragma once
 
 #include <functional>
@@ -7,5 +8,12 @@ namespace kurbel {
 
 // Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
+
+// The place and value of the maximum of f in [a, b], where f rises to it and falls after it; by the golden section,
+// each of whose steps leaves 0.618 of the interval.
+struct Maximum {
+  double at = 0, value = 0;
+};
+Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps);
 
 }  // namespace kurbel

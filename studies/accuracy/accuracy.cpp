@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
 #include "engine/rigid/work_equation.h"
 #include "studies/run/simulate.h"
@@ -21,12 +21,6 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double reference_tolerance = 1e-13;
 // A method whose trajectory is this near to what the references agree on has nothing more to gain.
 constexpr double floor_is_reached = 2;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // A level at work.
 struct Level {
@@ -69,7 +63,7 @@ class AccuracyRun {
   }
 
   AccuracyStudy run() {
-    begin_ = processor_seconds();
+    begin_ = processor_time();
     choose_levels();
     for (Level& level : levels_) make_reference(level);
     std::erase_if(levels_, [](const Level& level) { return !level.reference.complete; });
@@ -86,7 +80,7 @@ class AccuracyRun {
     add_energy_method();
     add_multibody();
     fill_model_errors();
-    study_.seconds = processor_seconds() - begin_;
+    study_.seconds = processor_time() - begin_;
     study_.complete = !interrupted();
     if (!study_.complete) study_.diagnosis = "interrupted";
     judge_accuracy(study_, options_);
@@ -95,7 +89,7 @@ class AccuracyRun {
 
  private:
   bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
-  double spent() const { return processor_seconds() - begin_; }
+  double spent() const { return processor_time() - begin_; }
   void log(const std::string& text) const {
     if (options_.log) options_.log(text);
   }
@@ -459,9 +453,9 @@ class AccuracyRun {
     std::vector<double> seconds;
     constexpr int many = 200;
     for (int i = 0; i < options_.most_repetitions; ++i) {
-      const double before = processor_seconds();
+      const double before = processor_time();
       for (int k = 0; k < many; ++k) end = diagram.advance(s0, std::abs(omega), scene_.run.until);
-      seconds.push_back((processor_seconds() - before) / many);
+      seconds.push_back((processor_time() - before) / many);
     }
     if (end.stalled) return omit("energy method", "the machine comes to rest, and the diagram ends there");
     MeasuredSetting s;

@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "engine/numerics/roots.h"
 #include "studies/forces/force_cycle.h"
 
 namespace kurbel {
@@ -52,15 +53,9 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
     for (const CyclePosition& p : positions) largest = std::max(largest, shaking(moment, p));
     return largest;
   };
-  double a = rotating - 2 * reciprocating, b = rotating + 2 * reciprocating;
-  constexpr double part = 0.38196601125010515;
-  for (int i = 0; i < 100; ++i) {
-    const double x = a + part * (b - a), y = b - part * (b - a);
-    if (on_grid(x) < on_grid(y))
-      b = y;
-    else
-      a = x;
-  }
+  const double best = find_maximum([&](double moment) { return -on_grid(moment); }, rotating - 2 * reciprocating,
+                                   rotating + 2 * reciprocating, 100)
+                          .at;
   std::vector<double> phi;
   for (const CyclePosition& p : turn_of_crank.samples()) phi.push_back(p.state.phi);
   const auto peak = [&](auto&& value) {
@@ -92,7 +87,7 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
   propose("as it is", 0);
   propose("rotating masses", rotating);
   propose("rotating masses and half the reciprocating ones", rotating + 0.5 * reciprocating);
-  propose("least peak of the shaking force", 0.5 * (a + b));
+  propose("least peak of the shaking force", best);
   return proposals;
 }
 

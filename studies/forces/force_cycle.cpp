@@ -11,6 +11,7 @@
 
 #include "engine/model/model.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -32,22 +33,6 @@ std::shared_ptr<const Model> alone(const Scene& scene, const std::string& compon
   Scene bare;
   bare.file = scene.file;
   return compile_network(std::move(network), bare, rigid_effects());
-}
-
-// By the golden section.
-std::pair<double, double> highest(const std::function<double(double)>& f, double a, double b) {
-  constexpr double part = 0.38196601125010515;
-  double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
-  for (int i = 0; i < 40; ++i) {
-    if (fx > fy) {
-      b = y, y = x, fy = fx;
-      fx = f(x = a + part * (b - a));
-    } else {
-      a = x, x = y, fx = fy;
-      fy = f(y = b - part * (b - a));
-    }
-  }
-  return fx > fy ? std::pair{x, fx} : std::pair{y, fy};
 }
 
 }  // namespace
@@ -136,7 +121,7 @@ Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
     for (const std::size_t k : {i, i + 1}) {  // the pieces before and after it
       if (!refine) break;
       if (k == 0 || k >= n || !(phi[k] > phi[k - 1])) continue;
-      const auto [where, found] = highest([&](double x) { return sense * value(x); }, phi[k - 1], phi[k]);
+      const auto [where, found] = find_maximum([&](double x) { return sense * value(x); }, phi[k - 1], phi[k], 40);
       if (found > sense * local.value) local = {sense * found, where, {}};
     }
     consider(local.value, local.phi);

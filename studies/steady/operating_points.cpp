@@ -112,12 +112,9 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
                                        [](const auto& a, const auto& b) { return a.drive < b.drive; });
   // Breakdown between the scanned points: golden section.
   const double best = std::abs(result.strongest.omega);
-  double a = std::max(best - step, 1e-6 * rated), b = best + step;
-  for (int i = 0; i < 40; ++i) {
-    const double c = b - 0.6180339887498949 * (b - a), d = a + 0.6180339887498949 * (b - a);
-    (mean.at(c).drive > mean.at(d).drive ? b : a) = mean.at(c).drive > mean.at(d).drive ? d : c;
-  }
-  if (const MeanTorques peak = mean.at(0.5 * (a + b)); peak.drive > result.strongest.drive) result.strongest = peak;
+  const Maximum highest =
+      find_maximum([&](double w) { return mean.at(w).drive; }, std::max(best - step, 1e-6 * rated), best + step, 40);
+  if (const MeanTorques peak = mean.at(highest.at); peak.drive > result.strongest.drive) result.strongest = peak;
   if (!result.uses_speed) return result;  // parallel lines: they meet nowhere, or everywhere
   for (std::size_t i = 0; i + 1 < result.curve.size(); ++i) {
     const double n0 = result.curve[i].net(), n1 = result.curve[i + 1].net();

@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -27,12 +26,6 @@ constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
 constexpr double enough = 1e-11;         // residual of the map, over the rated values
 constexpr double neutral_within = 1e-6;  // of 1
 constexpr double far_beyond = 30;        // rated speeds: that is no cycle but flight
-
-double cpu_now() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::string rpm(double omega) { return with_unit(omega * 30 / std::numbers::pi, "rpm", 5); }
 
@@ -325,7 +318,7 @@ class Search {
   }
 
   SteadyCycle run() {
-    const double begin = cpu_now();
+    const double begin = processor_time();
     out_.effects = effects_.describe();
     if (options_.mean_speed) {
       at_speed(*options_.mean_speed);
@@ -333,7 +326,7 @@ class Search {
       freely();
     }
     if (out_.found) describe();
-    out_.cpu_seconds = cpu_now() - begin;
+    out_.cpu_seconds = processor_time() - begin;
     return std::move(out_);
   }
 
