@@ -139,9 +139,9 @@ BenchPoint measured(double tolerance, Run run) {
   run(p);  // warm
   double sum = 0;
   while (seconds.size() < 5 || (seconds.size() < 101 && sum < 0.2)) {
-    const double before = processor_seconds();
+    const double before = processor_time();
     run(p);
-    seconds.push_back(processor_seconds() - before);
+    seconds.push_back(processor_time() - before);
     sum += seconds.back();
   }
   std::sort(seconds.begin(), seconds.end());
