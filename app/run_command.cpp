@@ -86,6 +86,9 @@ std::string label_of(const Model& model) {
 
 std::string text_of_state(const std::string& file) {
   std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw std::invalid_argument(
+        fmt::format("--from-state {}: is no regular file; give one that --save-state wrote", file));
   if (!std::filesystem::is_regular_file(file, error))
     throw std::invalid_argument(fmt::format(
         "--from-state {}: no such file; kurbel run SCENE --until TIME --save-state {} writes one", file, file));

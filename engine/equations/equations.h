@@ -75,7 +75,7 @@ class Equations final : public OdeSystem {
 
   // --- the modes, which with (t, y) are the whole state ---
   const Modes& modes() const { return modes_; }
-  // From now on it computes with these. Without allocating where they are of this machine, as they must be.
+  // From now on it computes with these, which must be of this machine; the rows of what is tied are made anew.
   void bind(const Modes& modes);
 
   // --- events ---

@@ -191,7 +191,8 @@ void Equations::tie_stuck_contacts() {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!makes_a_row(c)) continue;
     const Contact& contact = contacts_[c];
-    rows.push_back({contact.motion, contact.torque, modes_.capacity[c]});
+    rows.push_back(
+        {contact.motion, contact.torque, std::max(modes_.capacity[c], least_capacity * contact.torque_scale)});
     row_contact_.push_back(c);
     tied_ = tied_ || contact.kind != Contact::Kind::frame;
   }
