@@ -152,8 +152,7 @@ bool Equations::makes_a_row(std::size_t contact) const {
   return sense(contact) == 0 && !modes_.regularised[contact] && !is_prescribed(contacts_[contact]);
 }
 
-// A one-way clutch holds its drag one way, and whatever comes the other. True: one carries another way than it was tied
-// for.
+// A one-way clutch holds its drag one way, and whatever comes the other. True: one carries otherwise than it was tied.
 bool Equations::follow_what_is_carried() {
   if (!tied_ || !constraints_.repeats()) return false;
   bool changed = false;
