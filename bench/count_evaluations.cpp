@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "studies/scenes/kinds.h"
 #include "tests/support/without_effect.h"

@@ -5,7 +5,7 @@
 //     ω_s  Stribeck speed [rad/s], where mixed friction has fallen to 1/e; n its exponent, 0.5 … 10
 //     b    viscous friction [N·m·s/rad]
 // Three models of one curve:
-//   exact        sticks and slips: at standstill it holds up to M_s (engine/equations/equations_contacts.cpp)
+//   exact        sticks and slips: at standstill it holds up to M_s (engine/events/contacts.h)
 //   regularised  g tanh(ω/ω_c) in place of g sgn ω: smooth, holds nothing: it creeps
 //   LuGre        bristles bend by z before they slip: ż = ω − σ₀ |ω| z/g(|ω|), M = −(σ₀ z + σ₁ ż + b ω); at constant
 //                speed it is the curve above. |ω| has a kink at standstill, where ż stays continuous; the many

@@ -28,10 +28,10 @@
 //
 // Either may have, with x its local motion (Twist or ShaftState):
 //   static constexpr int guards = n;                         piecewise; then
-//     void guard(x, double* g) const;                          n values, positive while the mode x.mode holds, of order
-//     1 int first_mode(x) const;                                 mode for a state from nowhere int next_mode(x, int
-//     which) const;                       after guard `which` fell through zero std::string mode_name(int mode) const;
-//     for the list of events; empty: not worth telling
+//     void guard(x, double* g) const;                          n values of order 1, positive while x.mode holds
+//     int first_mode(x) const;                                 mode for a state from nowhere
+//     int next_mode(x, int which) const;                       after guard `which` fell through zero
+//     std::string mode_name(int mode) const;                   for the list of events; empty: not worth telling
 //   static constexpr int regularised_mode = m;               a mode without guards, for events that find no rest
 //   static constexpr int states = n;                         states of its own, x.own[0 … n−1]; then
 //     template <class T> void rates(const X<T>& x, T* rate) const;   their time derivatives

@@ -20,7 +20,7 @@ constexpr double is_lost = 1e-7;                 // above this part of all that 
 
 int magnitude_of(double inertia) {
   if (inertia == 0) return -most_magnitude;
-  const int exponent = std::ilogb(inertia);
+  const int exponent = std::isfinite(inertia) ? std::ilogb(inertia) : binades * most_magnitude;  // of a lost trial
   return std::clamp(exponent >= 0 ? exponent / binades : -((binades - 1 - exponent) / binades), -most_magnitude,
                     most_magnitude);
 }
@@ -62,8 +62,9 @@ bool invert(Matrix& a, double size) {
 
 Constraints::Constraints(std::size_t free_shafts) : free_(free_shafts) { list_shafts(); }
 
-void Constraints::set(std::vector<ConstraintRow> rows) {
-  rows_ = std::move(rows);
+void Constraints::set(const std::vector<ConstraintRow>& rows) {
+  if (rows == rows_) return;
+  rows_ = rows;
   list_shafts();
 }
 
@@ -111,9 +112,8 @@ void Constraints::factorise(std::span<const double> inertia) {
   bool same = inertia_.size() == n;
   for (std::size_t s = 0; same && s < n; ++s) same = inertia_[s] == inertia[at(tied_[s])];
   if (same) return;
-  inertia_.resize(n);
   bool alike = magnitude_.size() == n;
-  magnitude_.resize(n);
+  inertia_.resize(n), magnitude_.resize(n);
   for (std::size_t s = 0; s < n; ++s) {
     inertia_[s] = inertia[at(tied_[s])];
     const int magnitude = magnitude_of(inertia_[s]);

@@ -31,13 +31,15 @@ struct ConstraintRow {
   std::vector<ShaftGain> motion;  // G: Σ gain ω = 0
   std::vector<ShaftGain> torque;  // T: what λ = 1 does to the shafts
   double capacity = 1;            // [N·m], > 0
+  bool operator==(const ConstraintRow&) const = default;
 };
 
 class Constraints {
  public:
   // Shafts from free_shafts on are prescribed: their accelerations are given.
   explicit Constraints(std::size_t free_shafts = 0);
-  void set(std::vector<ConstraintRow> rows);
+  // From now on these; the same ones again cost nothing.
+  void set(const std::vector<ConstraintRow>& rows);
   bool empty() const { return rows_.empty(); }
   bool repeats() const { return !repeating_.empty(); }  // some rows say what others say, as the last solve found
 

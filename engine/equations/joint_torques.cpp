@@ -2,7 +2,6 @@
 #include "engine/equations/joint_torques.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace kurbel {
 namespace {
@@ -15,6 +14,16 @@ JointTorques::JointTorques(const Model& model) : model_(&model) {
   torque_.assign(model.network.joints.size(), 0);
   balance_.assign(model.network.nodes.size(), 0);
   list_trees();
+  list_places();
+}
+
+// What is read at every step stands close together.
+void JointTorques::list_places() {
+  const Model& m = *model_;
+  for (std::size_t n = 0; n < m.network.nodes.size(); ++n)
+    nodes_.push_back({m.network.nodes[n].inertia * m.gain_of_node[n], m.shaft_of_node[n]});
+  for (const Network::ShaftElement& e : m.network.elements)
+    elements_.push_back({e.node, m.shaft_of_node[at(e.node)], m.gain_of_node[at(e.node)]});
 }
 
 // The rigid joints within each merged shaft, leaves first, seen from its reference node.
@@ -36,7 +45,7 @@ void JointTorques::list_trees() {
         const int other = joint.a == queue[next] ? joint.b : joint.a;
         if (seen[at(other)]) continue;
         seen[at(other)] = 1;
-        steps_.push_back({j, other, queue[next], other == joint.b});
+        steps_.push_back({j, other, queue[next], other == joint.b, joint.ratio});
         queue.push_back(other);
       }
   }
@@ -54,19 +63,13 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
 
 void JointTorques::add_inertia_and_elements(const Given& given) {
   // Names of this function alone, which what is written cannot change: the compiler need not fetch them anew.
-  const Network& net = model_->network;
-  const double* const gain = model_->gain_of_node.data();
-  const int* const shaft = model_->shaft_of_node.data();
-  const auto [alpha, torque, inertia] = std::tuple(given.alpha, given.element_torque, given.element_inertia);
+  const double *const alpha = given.alpha, *const torque = given.element_torque, *const inertia = given.element_inertia;
   double* const need = balance_.data();
-  const Network::Node* const node = net.nodes.data();
-  for (std::size_t n = 0, count = net.nodes.size(); n < count; ++n)
-    need[n] = node[n].inertia * gain[n] * alpha[shaft[n]];
-  const Network::ShaftElement* const element = net.elements.data();
-  for (std::size_t e = 0, count = net.elements.size(); e < count; ++e) {
-    const std::size_t n = at(element[e].node);
-    need[n] += inertia[e] * gain[n] * alpha[shaft[n]] - torque[e];
-  }
+  const NodeInertia* const node = nodes_.data();
+  for (std::size_t n = 0, count = nodes_.size(); n < count; ++n) need[n] = node[n].inertia_gain * alpha[node[n].shaft];
+  const ElementPlace* const element = elements_.data();
+  for (std::size_t e = 0, count = elements_.size(); e < count; ++e)
+    need[element[e].node] += inertia[e] * element[e].gain * alpha[element[e].shaft] - torque[e];
 }
 
 void JointTorques::add_connections(const Given& given) {
@@ -101,9 +104,8 @@ void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold
 
 void JointTorques::walk_to_the_roots() {
   double *const torque = torque_.data(), *const balance = balance_.data();
-  const Network::Joint* const joint = model_->network.joints.data();
   for (const Step& step : std::span<const Step>(steps_)) {
-    const double ratio = joint[step.joint].ratio, need = balance[step.child];
+    const double ratio = step.ratio, need = balance[step.child];
     if (step.child_is_b) {
       torque[step.joint] = need / ratio;
       balance[step.parent] += need / ratio;
@@ -126,7 +128,7 @@ void JointTorques::bear_reactions() {
     int node = gear.node;
     for (const Step& step : steps_) {  // leaves first: the way to the root is in order
       if (step.child != node) continue;
-      const double ratio = m.network.joints[at(step.joint)].ratio;
+      const double ratio = step.ratio;
       torque_[at(step.joint)] += step.child_is_b ? need / ratio : -need;
       need = step.child_is_b ? need / ratio : ratio * need;
       node = step.parent;

@@ -42,8 +42,18 @@ class JointTorques {
   struct Step {  // one joint of the tree within a merged shaft, leaves first
     int joint, child, parent;
     bool child_is_b;
+    double ratio;
+  };
+  struct NodeInertia {  // J ε = inertia · gain · α of its shaft
+    double inertia_gain;
+    int shaft;
+  };
+  struct ElementPlace {
+    int node, shaft;
+    double gain;
   };
   void list_trees();
+  void list_places();
   void add_inertia_and_elements(const Given& given);
   void add_connections(const Given& given);
   void add_held(const Held& held, const Hold& shaft_hold, const Hold* element_hold);
@@ -52,6 +62,8 @@ class JointTorques {
 
   const Model* model_;
   std::vector<Step> steps_;
+  std::vector<NodeInertia> nodes_;
+  std::vector<ElementPlace> elements_;
   std::vector<double> torque_, balance_;
 };
 

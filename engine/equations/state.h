@@ -52,5 +52,9 @@ struct State {
 
 // Of a tracked angle, all turns counted [rad].
 double angle_with_turns(const Modes& modes, std::size_t tracked, std::span<const double> y);
+// Takes whole multiples of two turns out of the angles, which come first in y; true if any changed.
+bool wrap(Modes& modes, std::span<double> y);
+// Angles have grown so far that it pays.
+bool needs_wrap(const Modes& modes, std::span<const double> y);
 
 }  // namespace kurbel

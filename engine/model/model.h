@@ -40,6 +40,7 @@ struct ElasticJoint {
 struct ShaftGain {
   int shaft = 0;
   double gain = 1;
+  bool operator==(const ShaftGain&) const = default;
 };
 
 // A relation of the network over the merged shafts.

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/model/cycle_of.h"
 #include "engine/model/model.h"
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/steppers/explicit_runge_kutta.h"
 

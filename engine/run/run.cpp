@@ -2,10 +2,6 @@
 #include "engine/run/run.h"
 
 #include <fmt/format.h>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,24 +13,11 @@
 #include "engine/rigid/work_stepper.h"
 #include "engine/run/diagnosis.h"
 #include "engine/run/event_location.h"
+#include "engine/run/flush_denormals.h"
+#include "engine/run/method_choice.h"
 
 namespace kurbel {
 namespace {
-
-// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual; within a
-// run they count as zero.
-class FlushDenormals {
- public:
-#if defined(__SSE2__)
-  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }  // flush to zero, denormals are zero
-  ~FlushDenormals() { _mm_setcsr(before_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned before_;
-#endif
-};
 
 constexpr int most_events_at_once = 100;
 // So many at one instant, and no mode goes on from there: the motion jams. Far more than contacts that change together.
@@ -46,16 +29,6 @@ constexpr int steps_to_a_jam = 500;
 constexpr std::size_t restless_events = 60;
 constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
 
-// Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
-// ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
-// Counted in steps, not in seconds, so that a run repeats bit for bit.
-const int held_steps_before_trial = LoopMemory{}.held_needed;
-constexpr int trial_warm_up = 30, trial_length = 60;
-constexpr double implicit_step_cost = 3;
-
-// Turns after which the work equation has earned its search for the edges.
-constexpr double turns_to_pay = 3;
-
 class Loop {
  public:
   Loop(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers)
@@ -64,11 +37,12 @@ class Loop {
         observers_(observers),
         system_(options.extension ? static_cast<OdeSystem&>(*options.extension) : equations),
         view_(equations, system_.size()),
-        location_(equations, options, system_.size()) {}
+        location_(equations, options, system_.size()),
+        choice_(equations, options, memory_) {}
 
   RunOutcome run() {
     begin_ = processor_time();
-    choose_method();
+    method_ = choice_.first();
     try {
       const Deadline deadline(options_.budget, options_.interrupted);
       start();
@@ -88,59 +62,6 @@ class Loop {
   }
 
  private:
-  void choose_method() {
-    if (options_.elsewhere) explicit_ = Method::verner_65, implicit_ = Method::esdirk_54;
-    method_ = options_.method == "auto" ? explicit_ : method_named(options_.method);
-    std::string& reason = out_.statistics.reason;
-    if (options_.method != "auto") {
-      reason = "asked for";
-      if (method_ == Method::work_equation && (options_.checkpoint || options_.to_go_on))
-        refuse_method("it goes over the angle, and keeps no state to go on from");
-      if (method_ == Method::work_equation)
-        if (const std::string why = WorkTables::refusal(equations_.shared_model()); !why.empty()) refuse_method(why);
-      if (method_ == Method::fehlberg_87)
-        if (const std::string why = rates_of_time_alone(); !why.empty()) refuse_method(why);
-    } else if (work_equation_pays()) {
-      method_ = Method::work_equation;
-      reason = "rigid, torques of angle and speed: load edges lie at known angles";
-    } else if (equations_.model().elastic.empty() && equations_.model().own_states.empty()) {
-      reason = "rigid: nothing is stiff, and a high order takes the longest steps";
-    } else {
-      reason = "explicit while its steps are held by accuracy, not by stability";
-    }
-    out_.statistics.method = std::string(name_of(method_));
-  }
-
-  // With its place where the scene asks for it.
-  [[noreturn]] void refuse_method(const std::string& why) const {
-    const Scene& scene = equations_.model().scene;
-    const std::string text = fmt::format("method \"{}\": {}", options_.method, why);
-    if (scene.run.method != options_.method || scene.run.method_at.line == 0) throw std::invalid_argument(text);
-    throw SceneError({{scene.file, scene.run.method_at, text}});
-  }
-
-  // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
-  std::string rates_of_time_alone() const {
-    const Model& m = equations_.model();
-    const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
-    if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
-    for (const Network::ShaftElement& e : m.network.elements)
-      if (e.element->uses_time())
-        return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
-    return {};
-  }
-
-  // Where inertia or torques vary with the angle, over more than a few turns.
-  bool work_equation_pays() const {
-    const Model& m = equations_.model();
-    if (options_.from || options_.checkpoint || options_.to_go_on) return false;
-    if (options_.stop || options_.extension || options_.elsewhere) return false;
-    if (!m.elastic.empty() || m.free_shafts != 1) return false;
-    if (!m.shafts[0].variable && equations_.guard_count() == 0) return false;
-    if (m.speed_scale * options_.until < turns_to_pay * 2 * M_PI) return false;
-    return options_.work_tables || WorkTables::refusal(equations_.shared_model()).empty();
-  }
-
   void start() {
     if (options_.checkpoint) return go_on(*options_.checkpoint);
     const double t = options_.from ? options_.from->t : 0;
@@ -159,7 +80,7 @@ class Loop {
     y.resize(system_.size());
     equations_.wrap(y);  // angles may be kept elsewhere now
     memory_ = checkpoint.loop;
-    if (options_.method == "auto" && memory_.implicit) method_ = implicit_;
+    method_ = choice_.resumed(method_);
     out_.limits.begin(system_.size(), location_.guard_count());
     make(method_, checkpoint.state.t, y);
     for (Observer* observer : observers_) observer->begin(checkpoint.state.t, stepper_->y(), equations_);
@@ -170,7 +91,7 @@ class Loop {
     const std::size_t states = equations_.size() - (equations_.audit() ? equations_.integral_count() : 0);
     here.integrals.assign(out_.state.begin() + static_cast<std::ptrdiff_t>(states), out_.state.end());
     here.state.y.resize(states);
-    here.loop.implicit = options_.method == "auto" && before_jam_.value_or(method_) == implicit_;
+    here.loop.implicit = choice_.is_implicit(before_jam_.value_or(method_));
     return here;
   }
 
@@ -190,9 +111,10 @@ class Loop {
     restart(t, y);
   }
 
-  static bool is_of_library(Method method) {
-    return method == Method::esdirk_32 || method == Method::esdirk_43 || method == Method::esdirk_54 ||
-           method == Method::bdf || method == Method::adams;
+  void go_on_with(Method method) {
+    const double t = stepper_->t();
+    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    make(method, t, y);
   }
 
   // Newton's iteration leaves off when the states that are under control stand still, with quadratures one iterate
@@ -218,6 +140,15 @@ class Loop {
     view_.set_anew(true);
     location_.begin(t, state_);
     edge_ = equations_.next_edge(t);
+    if (edge_ <= t) broken_clock(t);
+  }
+
+  // Steps of the sequence that wait for nothing, again and again.
+  [[noreturn]] static void broken_clock(double t) {
+    throw std::runtime_error(
+        fmt::format("the operating sequence goes round without a pause at {:.9g} s: all its steps are due at once, and "
+                    "the first one again; let one of them wait for a time, an angle or a speed",
+                    t));
   }
 
   // A step may come to where joints jam and be whole itself; then what looks at it finds out.
@@ -238,7 +169,10 @@ class Loop {
       stepper_->step(until);
     } catch (const StepFailure& failure) {
       if (equations_.jam() && pass_jam()) return true;
-      if (failure.not_finite || !leave_implicit(failure.what())) throw;
+      if (failure.not_finite) throw;
+      const auto other = choice_.after_failure(stepper_->t(), method_, failure.what());
+      if (!other) throw;
+      go_on_with(*other);
       return true;
     }
     if (equations_.jam()) equations_.forget_jam();  // a trial step was too long, no more
@@ -275,7 +209,7 @@ class Loop {
     }
     location_.go_on();
     if (before_jam_ && ++steps_to_jam_ > steps_to_a_jam) return resume();
-    watch_stiffness();
+    if (const auto other = choice_.after(*stepper_, method_)) go_on_with(*other);
     return true;
   }
 
@@ -359,11 +293,9 @@ class Loop {
   bool pass_jam() {
     if (options_.extension) return false;
     if (is_of_library(method_)) {
-      const double t = stepper_->t();
-      const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
       before_jam_ = method_;
       steps_to_jam_ = 0;
-      make(Method::dormand_prince_853, t, y);
+      go_on_with(Method::dormand_prince_853);
       return true;
     }
     return stop_by_jam();
@@ -387,8 +319,7 @@ class Loop {
 
   // Back to the method that was asked for.
   bool resume() {
-    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
-    make(*std::exchange(before_jam_, std::nullopt), stepper_->t(), y);
+    go_on_with(*std::exchange(before_jam_, std::nullopt));
     return true;
   }
 
@@ -424,53 +355,6 @@ class Loop {
                                        restless_events, span)});
     out_.regularised.push_back(what);
     std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
-  }
-
-  // From explicit to implicit when stability holds the steps down, and back if that did not pay.
-  void watch_stiffness() {
-    const Model& m = equations_.model();
-    if (options_.method != "auto" || (m.elastic.empty() && m.own_states.empty()) || method_ == Method::work_equation)
-      return;
-    const double h = stepper_->t() - stepper_->t_previous(), left = options_.until - stepper_->t();
-    const double t = stepper_->t();
-    if (method_ == explicit_) {
-      held_ = stepper_->held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
-      if (held_ < memory_.held_needed || left < 5 * held_steps_before_trial * h) return;
-      explicit_step_ = h;
-      implicit_steps_ = held_ = 0;
-      change_method(implicit_,
-                    fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
-      return;
-    }
-    // After the trial the check goes on, over ever new windows of steps.
-    if (++implicit_steps_ == trial_warm_up) trial_begin_ = t;
-    if (implicit_steps_ < trial_warm_up + trial_length) return;
-    const double mean = (t - trial_begin_) / trial_length;
-    trial_begin_ = t;
-    implicit_steps_ = trial_warm_up;
-    if (mean >= implicit_step_cost * explicit_step_) return;
-    memory_.held_needed *= 4;
-    change_method(explicit_,
-                  fmt::format("implicit steps of {:.3g} s did not pay for themselves against explicit ones of {:.3g} s",
-                              mean, explicit_step_));
-  }
-
-  // Implicit steps that were only tried give way to explicit ones, for good, where they fail. False: none were tried.
-  bool leave_implicit(const std::string& why) {
-    if (options_.method != "auto" || method_ != implicit_) return false;
-    memory_.held_needed = std::numeric_limits<int>::max();
-    change_method(explicit_, fmt::format("implicit steps failed: {}", why));
-    return true;
-  }
-
-  void change_method(Method method, const std::string& reason) {
-    const double t = stepper_->t();
-    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
-    make(method, t, y);
-    ++changes_;
-    out_.statistics.method = fmt::format("{}, at the end {} ({} change{})", name_of(explicit_), name_of(method),
-                                         changes_, changes_ == 1 ? "" : "s");
-    out_.statistics.reason = fmt::format("at {:.4g} s: {}", t, reason);
   }
 
   // Between steps. What takes long within one asks for itself.
@@ -512,6 +396,8 @@ class Loop {
     }
     if (out_.complete && !options_.extension && method_ != Method::work_equation) out_.checkpoint = checkpoint();
     if (out_.complete && !options_.extension) out_.held = equations_.held(out_.t, out_.state);
+    out_.statistics.method = choice_.describe();
+    out_.statistics.reason = choice_.reason();
     out_.statistics.cpu_seconds = processor_time() - begin_;
     if (broken_) out_.diagnosis = diagnosis(*broken_, equations_, options_, out_);
   }
@@ -524,15 +410,13 @@ class Loop {
   EventLocation location_;
   std::unique_ptr<Stepper> stepper_;
   Method method_ = Method::dormand_prince_853;
-  Method explicit_ = Method::dormand_prince_853, implicit_ = Method::esdirk_43;  // that "auto" takes
   RunOutcome out_;
   std::optional<Breakdown> broken_;
   StepLimits::Bound bound_ = StepLimits::Bound::until;
   std::vector<double> state_;
   LoopMemory memory_;
+  MethodChoice choice_;
   double begin_ = 0, edge_ = 0;
-  int held_ = 0, implicit_steps_ = 0, changes_ = 0;
-  double explicit_step_ = 0, trial_begin_ = 0;
   std::optional<Method> before_jam_;  // explicit steps go to the jam; this method goes on
   int steps_to_jam_ = 0;
   std::int64_t checks_ = 0;

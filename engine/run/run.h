@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/step_limits.h"
 #include "engine/steppers/stepper.h"
 

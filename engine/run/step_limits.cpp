@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 
 namespace kurbel {
 namespace {

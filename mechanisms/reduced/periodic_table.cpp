@@ -18,6 +18,10 @@ namespace {
 
 constexpr std::size_t most_nodes = PeriodicTable::degree + 1;
 constexpr std::size_t deepest_level = 14;  // shortest of 16 pieces: 2π/(16·2¹⁴) = 2.4e-5 rad
+// What is smooth gains 2^(degree+1) by a halving, a kink 2: an error this small that so many halvings in a row have not
+// brought down is the samples' own round-off.
+constexpr double may_be_noise = 1e-6, hardly_falls = 0.7;
+constexpr int halvings_of_noise = 3;
 
 // Nodes x_k = cos(π (k + ½)/n). Between them the interpolation error peaks at cos(kπ/n).
 double chebyshev_node(std::size_t k, std::size_t n) {
@@ -85,6 +89,8 @@ class TableBuilder {
     std::size_t level = 0, index = 0;
     std::vector<double> coefficients;  // channel after channel
     std::vector<double> error;         // per channel: absolute for own_maximum, relative for own_value
+    double error_before = 0;           // of the piece that was halved: the worst
+    int in_vain = 0;                   // halvings in a row that hardly brought it down
   };
 
   // Shifted seams cut a piece in two at 0, which is there at both ends of the period.
@@ -153,17 +159,28 @@ class TableBuilder {
     return true;
   }
 
+  double worst_error(const Piece& piece) const {
+    double worst = 0;
+    for (std::size_t c = 0; c < channels_.size(); ++c) worst = std::max(worst, relative_error(piece, c));
+    return worst;
+  }
+
   // Keeps the good pieces and halves the others while there is room; returns the halves.
   std::vector<Piece> split_or_keep(std::vector<Piece>& level) {
     std::vector<Piece> halves;
     std::size_t total = kept_.size() + level.size();
     for (Piece& piece : level) {
-      if (good(piece) || total == max_pieces_ || piece.level == deepest_level) {
+      const double error = worst_error(piece);
+      const bool fell = piece.level == 0 || !(error > hardly_falls * piece.error_before);
+      const int in_vain = fell ? 0 : piece.in_vain + 1;
+      const bool is_noise = in_vain >= halvings_of_noise && error < may_be_noise;
+      if (good(piece) || is_noise || total == max_pieces_ || piece.level == deepest_level) {
         kept_.push_back(std::move(piece));
         continue;
       }
       ++total;
-      for (std::size_t side = 0; side < 2; ++side) halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}});
+      for (std::size_t side = 0; side < 2; ++side)
+        halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}, error, in_vain});
     }
     return halves;
   }

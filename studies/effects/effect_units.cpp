@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 
 namespace kurbel {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/forces/forces.h"
 

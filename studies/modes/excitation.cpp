@@ -8,7 +8,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/rigid/rigid_machine.h"
 
 namespace kurbel {

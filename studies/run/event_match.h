@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 
 namespace kurbel {
 

@@ -1,7 +1,7 @@
 // single_run.cpp — asks the study for one rung of its ladder.
 #include "tests/coverage/single_run.h"
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel::coverage {

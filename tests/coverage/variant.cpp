@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/scene/document.h"
 #include "studies/scenes/kinds.h"

@@ -282,6 +282,20 @@ TEST(Ties, OfAGearThatLocksItselfHaveNoAnswerAndSaySo) {
   }
 }
 
+// A trial step that went nowhere has inertias that are no numbers: so are its answers, and the next ones are as before.
+TEST(Ties, SurviveInertiasThatAreNoNumbers) {
+  Constraints constraints(2);
+  constraints.set({{{{0, 1}, {1, -2}}, {{0, -1}, {1, 2}}, 1}});
+  std::vector<double> alpha(2), lambda(1);
+  for (const double lost : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    constraints.solve(std::vector{0.5, lost}, std::vector{3.0, 0.0}, alpha, lambda);
+    constraints.solve(std::vector{0.5, 0.25}, std::vector{3.0, 0.0}, alpha, lambda);
+    EXPECT_FALSE(constraints.trouble().has_value());
+    EXPECT_NEAR(alpha[0], 3 / (0.5 + 0.25 / 4), 1e-14);
+    EXPECT_NEAR(alpha[1], alpha[0] / 2, 1e-14);
+  }
+}
+
 // ω₀ = ω₁ between two shafts that are both driven: only where they are driven alike.
 TEST(Ties, OfPrescribedShaftsSayWhenTheyAreNotKept) {
   Constraints constraints(1);

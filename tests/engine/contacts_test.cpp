@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/equations/constraints.h"
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "tests/support/scenes.h"
 

@@ -10,7 +10,7 @@
 
 #include "drivetrain/couplings/coupling.h"
 #include "drivetrain/loads/loads.h"
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

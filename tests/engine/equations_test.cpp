@@ -1,5 +1,5 @@
 // equations_test.cpp — the equations of compiled scenes: Jacobians, merging, d'Alembert torques, starts, standstill.
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 
 #include <cmath>
 #include <random>

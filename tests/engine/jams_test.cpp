@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "engine/run/run.h"
 #include "tests/published/published.h"

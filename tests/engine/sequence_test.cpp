@@ -142,6 +142,35 @@ TEST(Sequence, RepeatsUntilTheEnd) {
   EXPECT_NEAR(again.events[0].t, first, 1e-9);
 }
 
+// A ramp that is over before time has moved on is a jump.
+TEST(Sequence, RampWithinNoTimeIsAJump) {
+  const auto final_speed = [](const std::string& over) {
+    const Result r =
+        run(machine("{ at = \"1.75969 s\", set = \"motor\", to = 0.25" + over + " }", "until = \"3 s\"\n"));
+    EXPECT_TRUE(r.complete) << r.diagnosis;
+    return figure(r, "final_speed.motor");
+  };
+  const double jump = final_speed("");
+  for (const char* over : {"1e-30 s", "1e-17 s", "1e-14 s"})
+    EXPECT_EQ(final_speed(fmt::format(", over = \"{}\"", over)), jump) << over;
+  EXPECT_NEAR(final_speed(", over = \"1e-9 s\""), jump, 1e-7);
+}
+
+// Steps that wait for nothing, again and again: the run says so.
+TEST(Sequence, ThatNeverPausesIsToldAndEndsTheRun) {
+  for (const char* pause : {"0 s", "1e-30 s", "1e-20 s"}) {
+    const std::string steps = fmt::format(
+        "{{ at = \"1 s\", set = \"motor\", to = 0.5 }}, {{ after = \"{0}\", set = \"motor\", to = 0.25 }}, "
+        "{{ after = \"{0}\", set = \"motor\" }}",
+        pause);
+    const Result r =
+        run(test::with(machine(steps, "until = \"3 s\"\n"), "[sequence]\n", "[sequence]\nrepeat = true\n"));
+    EXPECT_FALSE(r.complete);
+    EXPECT_NE(r.diagnosis.find("goes round without a pause at 1 s"), std::string::npos) << r.diagnosis;
+    EXPECT_NE(r.diagnosis.find("let one of them wait"), std::string::npos) << r.diagnosis;
+  }
+}
+
 // Steps that fall due together happen together, in their order; one may set several components.
 TEST(Sequence, SetsSeveralAtOneTime) {
   const Result r =

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

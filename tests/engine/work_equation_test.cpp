@@ -17,8 +17,8 @@ namespace {
 
 using std::numbers::pi;
 using test::figure;
-using test::scene_from;
 using test::project_text;
+using test::scene_from;
 using test::with;
 
 std::shared_ptr<const Model> rigid(const Scene& scene) { return compile(scene, Effects{}); }

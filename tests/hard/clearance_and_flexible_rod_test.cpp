@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/recorders.h"
 #include "engine/run/run.h"
 #include "tests/support/scenes.h"

@@ -65,8 +65,8 @@ TEST(LargeAngle, PeakTorqueOfAChainIsThatOfTheReferenceAtAMillionRadians) {
 // --- a crank mechanism; φ and φ − 2πn are the same configuration ---
 
 Scene driven_crank(double angle) {
-  Scene scene =
-      test::scene_from(with(test::project_text("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-10"));
+  Scene scene = test::scene_from(
+      with(test::project_text("scenes/driven_slider_crank.toml"), "accuracy = 1e-7", "accuracy = 1e-10"));
   scene.run.start.angle = angle;
   scene.run.until = 3;
   return scene;

@@ -11,8 +11,8 @@
 namespace kurbel {
 namespace {
 
-using test::run;
 using test::project_text;
+using test::run;
 using test::with;
 
 // A scene's text cut at its table headers; the first piece is what stands above them.
@@ -168,7 +168,8 @@ TEST(EffectOff, ItsDampingMayStayInTheFileOrNot) {
 }
 
 TEST(EffectOff, ARigidMachineKnowsNoStiffness) {
-  const std::string chain = with(project_text("scenes/six_inertia_chain.toml"), "elasticity = true", "elasticity = false");
+  const std::string chain =
+      with(project_text("scenes/six_inertia_chain.toml"), "elasticity = true", "elasticity = false");
   std::string other = with(chain, "\"4 kN*m/rad\"", "\"9 kN*m/rad\"");
   other = with(with(other, "\"2 N*m*s/rad\"", "\"0 N*m*s/rad\""), "\"10 N*m*s/rad\"", "\"7 N*m*s/rad\"");
   expect_same_bits(run(chain), run(other));
@@ -176,8 +177,8 @@ TEST(EffectOff, ARigidMachineKnowsNoStiffness) {
 
 // A coupling without hubs whose elasticity is off leaves no trace.
 TEST(EffectOff, ACouplingWithoutHubsMayAsWellBeAbsent) {
-  const std::string with_coupling = with(project_text("scenes/driven_slider_crank.toml"), "line  = [\"motor\", \"crank\"]",
-                                         "line  = [\"motor\", \"soft\", \"crank\"]") +
+  const std::string with_coupling = with(project_text("scenes/driven_slider_crank.toml"),
+                                         "line  = [\"motor\", \"crank\"]", "line  = [\"motor\", \"soft\", \"crank\"]") +
                                     "\n[soft]\nkind = \"coupling\"\nstiffness = \"700 N*m/rad\"\ndamping_ratio = 0.1\n";
   expect_same_bits(run(project_text("scenes/driven_slider_crank.toml")), run(with_coupling));
 }

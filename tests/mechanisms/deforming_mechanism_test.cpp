@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "mechanisms/slider_crank/joint_contact.h"
 #include "tests/published/published.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/support/scenes.h"
 

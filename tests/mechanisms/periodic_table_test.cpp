@@ -77,6 +77,22 @@ TEST(PeriodicTable, SaysWhenItRanOutOfPieces) {
   EXPECT_LT(table.report().channels[0].error, 1e-2);
 }
 
+// Samples that are known to 1e-9 are not resolved any further: 1e-9 is what remains, not the pieces. A kink, which a
+// halving brings down by half, is resolved until they run out.
+TEST(PeriodicTable, DoesNotResolveRoundOff) {
+  const auto noisy = [](double phi, std::span<double> values) {
+    const double chance = std::fmod(std::fabs(std::sin(phi * 1e7)) * 1e4, 1.0) - 0.5;
+    values[0] = std::cos(phi) + 2e-9 * chance;
+  };
+  const TableReport report = PeriodicTable::build(noisy, {{"noisy", ErrorScale::own_maximum, 0}}, 1e-12, 4096).report();
+  EXPECT_FALSE(report.converged);
+  EXPECT_LE(report.pieces, 16u << 4);
+  EXPECT_LT(report.channels[0].error, 1e-7);
+  const auto kink = [](double phi, std::span<double> values) { values[0] = 1e-7 * std::fabs(phi - 2) + std::cos(phi); };
+  const TableReport sharp = PeriodicTable::build(kink, {{"kink", ErrorScale::own_maximum, 0}}, 1e-11, 4096).report();
+  EXPECT_TRUE(sharp.converged);
+}
+
 // A channel in another unit is the same channel: errors count by its largest value.
 TEST(PeriodicTable, ErrorsDoNotDependOnTheUnit) {
   const auto wave = [](double factor) {

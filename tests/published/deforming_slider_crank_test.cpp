@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/support/scenes.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/analysis/eigen_modes.h"
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/scene/csv.h"
 #include "tests/support/scenes.h"
 

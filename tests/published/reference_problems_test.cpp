@@ -14,8 +14,8 @@ namespace kurbel {
 namespace {
 
 using test::figure;
-using test::run;
 using test::project_text;
+using test::run;
 using test::with;
 
 // --- R1: I_r(φ) ω² = const ---

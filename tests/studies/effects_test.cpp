@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "studies/advise/advise.h"
 #include "studies/effects/effect_study.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test {

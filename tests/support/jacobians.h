@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/equations/equations.h"
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "tests/support/scenes.h"
 

@@ -1,5 +1,5 @@
 // unloaded_motion.cpp — one walk through all that ties shafts together.
-#include "engine/equations/unloaded_motion.h"
+#include "engine/events/unloaded_motion.h"
 
 #include <algorithm>
 #include <cmath>

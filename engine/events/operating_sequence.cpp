@@ -1,5 +1,5 @@
 // operating_sequence.cpp — steps are armed, fall due, and set commands.
-#include "engine/equations/operating_sequence.h"
+#include "engine/events/operating_sequence.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +13,9 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double never = 1e300;
+
+// A ramp that ends at the moment at which it begins is a jump.
+bool takes_time(double over, double t) { return over > 1e-13 * std::max(1.0, std::abs(t)); }
 
 std::string value_text(double to) { return to == 0 ? "off" : to == 1 ? "on" : fmt::format("{:.4g}", to); }
 
@@ -51,7 +54,7 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
       const auto c = std::find_if(model_->commands.begin(), model_->commands.end(), is) - model_->commands.begin();
       Command& command = modes.command[static_cast<std::size_t>(c)];
       const double value = command.at(t);
-      if (step.over > 0 && value != step.to)
+      if (takes_time(step.over, t) && value != step.to)
         command = {value, (step.to - value) / step.over, t, t + step.over, step.to};
       else
         command = {.value = step.to, .to = step.to};

@@ -6,9 +6,9 @@
 
 #include <span>
 
-#include "engine/equations/event.h"
-#include "engine/model/model.h"
 #include "engine/equations/state.h"
+#include "engine/events/event.h"
+#include "engine/model/model.h"
 
 namespace kurbel {
 

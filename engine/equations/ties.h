@@ -1,0 +1,116 @@
+// ties.h — what the present modes tie together, and what that transmits: stuck contacts, relations of gears with their
+// losses, contacts whose events found no rest.
+//
+//     stuck contact            a row G ω = 0; its torque is the multiplier λ              (constraints.h)
+//     gear in motion           a row, of whose λ the part L = slope λ + offset is lost
+//     regularised contact      λ = limit · tanh(v/v₀): it creeps
+//
+// Torques and holds are those of the state looked at last: nothing of them lives on.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/elements/element_pool.h"
+#include "engine/equations/constraints.h"
+#include "engine/equations/contact.h"
+
+namespace kurbel {
+
+class Ties {
+ public:
+  // Both must outlive it; whoever changes the modes calls make_rows() before the next question.
+  Ties(const Model& model, const Modes& modes);
+
+  bool any() const { return !contacts_.empty() || !model_.relations.empty(); }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  const std::vector<int>& lossy() const { return lossy_; }  // relations with losses
+  std::size_t contact_of_loss(int relation) const { return contact_of_loss_[static_cast<std::size_t>(relation)]; }
+
+  // --- rows ---
+  // The constraint rows of the present modes, and the shafts that they tie to the frame.
+  void make_rows();
+  bool makes_a_row(std::size_t contact) const;
+  const std::vector<std::size_t>& contacts_in_rows() const { return row_contact_; }
+  // Some rows say what others say, as the last solution found: they share by capacity.
+  bool repeats() const { return tied_ && constraints_.repeats(); }
+  bool stands(std::size_t shaft) const { return still_[shaft]; }        // tied to the frame
+  bool is_coupled(std::size_t shaft) const { return coupled_[shaft]; }  // its row of the Jacobian mixes with others
+  // Speeds made equal where they are tied, to the last bit, with the least change of kinetic energy.
+  void project(std::span<const double> inertia, std::span<double> speed);
+  // Of what a torque of the contact accelerates, by whatever else is tied [kg·m²].
+  double effective_inertia(const Contact& contact, std::span<const double> inertia);
+
+  // --- the stages of an evaluation ---
+  // Torques that hang on the state alone: what losses have besides their share of λ, and regularised contacts.
+  void add_known(const Instant& now, double* torque);
+  // Accelerations of the free shafts from inertia and torque, and what is transmitted.
+  void accelerate(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
+  // What contacts and relations transmit, as torques on the shafts, of the connections, and as work lost.
+  void publish(const Instant& now, Sums& sums);
+  // Rows of tied shafts in the Jacobian: ∂α = W ∂(M − I α), W = mobility. Comes before the division by the inertia,
+  // which these rows skip.
+  void mix_rows(const Instant& now, std::span<const double> inertia, std::span<double> values);
+
+  // --- what they can hold ---
+  // What every contact can hold at this state.
+  void find_holds(const Instant& now);
+  // Range of λ that a stuck contact can carry [N·m].
+  Hold limits(std::size_t contact) const;
+  // Positive while the flank that the mode says is the one that carries; of order one.
+  double flank_margin(std::size_t relation) const;
+  // Measure of its share where rows repeat: what it can hold the way it carries [N·m].
+  double capacity(std::size_t contact) const;
+  const std::vector<Hold>& shaft_hold() const { return shaft_hold_; }
+  const std::vector<Hold>& element_hold() const { return element_hold_; }
+
+  // --- what they transmit, as found last ---
+  double torque(std::size_t contact) const { return contact_torque_[contact]; }    // λ [N·m]
+  const std::vector<double>& relation_torque() const { return relation_torque_; }  // per relation: λ [N·m]
+  const std::vector<double>& relation_loss() const { return relation_loss_; }      // per relation: L [N·m]
+  struct Torques {
+    std::vector<double> contact, relation, loss;
+  };
+  Torques torques() const { return {contact_torque_, relation_torque_, relation_loss_}; }
+  void set_torques(const Torques& known);
+  void forget_torques();
+
+  // The gear with whose losses the last accelerations could not be found; −1: none.
+  int relation_that_locks() const;
+  // A run whose ties are not kept must not go on: std::runtime_error with which, when and why.
+  void refuse_broken(double t) const;
+
+  static constexpr double creep = 1e-4;         // of the speed scale: where a regularised one reaches three quarters
+  static constexpr double most_capacity = 1e3;  // of the torque scale: "holds anything"
+
+ private:
+  void list_still_shafts(const std::vector<ConstraintRow>& rows);
+  void write_relation_rows();
+  double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
+  void publish_contact(std::size_t contact, const Instant& now, Sums& sums) const;
+  void publish_relation(std::size_t relation, const Instant& now, Sums& sums);
+  void add_regularised_slopes(const Instant& now, std::span<double> values) const;
+  const std::string& name_of_row(std::size_t row) const;
+
+  const Model& model_;
+  const Modes& modes_;
+  std::vector<Contact> contacts_;
+  std::vector<int> lossy_;
+  std::vector<std::size_t> contact_of_loss_;  // per relation
+  std::vector<char> coupled_;                 // per shaft
+
+  // by the modes
+  Constraints constraints_;
+  std::vector<ConstraintRow> rows_;       // of relations, then of stuck contacts
+  std::vector<std::size_t> row_contact_;  // contact of each row behind those of relations
+  std::vector<char> still_;               // per shaft
+  bool tied_ = false;                     // beyond single shafts at standstill
+  bool smooth_ = false;                   // some contact is regularised
+
+  // by the state looked at last
+  std::vector<double> contact_torque_, relation_torque_, relation_loss_, multiplier_, all_alpha_;
+  std::vector<Hold> shaft_hold_, element_hold_, slip_hold_;
+};
+
+}  // namespace kurbel

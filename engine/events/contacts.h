@@ -1,0 +1,93 @@
+// contacts.h — what sticks and what slips: the guards of contacts, and the set of modes that fits.
+//
+// Of all contacts whose speed of slip is zero each may stick or slip either way. A set of modes fits when every stuck
+// one needs no more torque than it can hold, and every released one is accelerated the way it was let go. First all
+// that stopped stick; then the worst misfit is changed until there is none; where that goes in circles, all sets of a
+// few contacts are tried.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/equations/flow.h"
+#include "engine/events/event.h"
+
+namespace kurbel {
+
+class Contacts {
+ public:
+  // Changes the modes of this flow, which must outlive it.
+  explicit Contacts(Flow& flow) : flow_(flow) {}
+
+  // Two guards a contact, one a gear with losses.
+  std::size_t guard_count() const { return 2 * list().size() + flow_.ties().lossy().size(); }
+  // Positive while the modes hold, of order one.
+  void guards(double t, std::span<const double> y, double* g);
+  // A contact, or the gear whose flanks change, that this guard watches.
+  std::size_t contact_of(std::size_t guard) const;
+  std::string owner(std::size_t guard) const { return list()[contact_of(guard)].name; }
+
+  // Contacts that stopped, and those that break away in a sense.
+  struct Changes {
+    std::vector<std::size_t> stopped;
+    std::vector<std::pair<std::size_t, int>> released;
+  };
+  // What the guard says that fired; flanks change at once.
+  void take(std::size_t guard, double t, std::span<const double> y, Changes& changes);
+  // The modes that fit, found anew; what is tied gets speeds that are equal.
+  void settle(double t, std::span<double> y, const Changes& changes, EventLog* log);
+  // Rows and shares by what holds at this state; no mode changes.
+  void tie(double t, std::span<const double> y);
+
+  // No set of modes goes on from here: what slips at these guards, or jammed last, comes to rest at once by an impact
+  // that takes the least kinetic energy; what springs tie to it keeps its speed, the energy lost is work of the
+  // friction concerned. False: nothing there moves.
+  bool stop_jam(double t, std::span<double> y, std::span<const std::size_t> guards, EventLog& log);
+  // The contact gets a law without events; in words, empty where it has none.
+  std::string regularise(std::size_t guard);
+  // Each contact that holds: by whom, what acts, what is held, and what is missing to move either way.
+  std::vector<std::string> held(double t, std::span<const double> y);
+
+ private:
+  struct Misfit {
+    double size = 0;
+    std::size_t contact = 0;  // or relation + number of contacts
+    int better = 0;
+    double total = 0;  // of all
+  };
+  const std::vector<Contact>& list() const { return flow_.ties().contacts(); }
+  Modes& modes() const { return flow_.changing_modes(); }
+  int& sense(std::size_t contact) const { return sense_of(list()[contact], modes()); }
+  bool is_open(std::size_t contact) const;
+  bool is_given(std::size_t contact) const { return is_prescribed(list()[contact], flow_.model()); }
+  double slip_speed(std::size_t contact, const Instant& now) const {
+    return sum_over(list()[contact].motion, now.speed);
+  }
+  void find_capacities();
+  bool follow_what_is_carried();
+  void slip_as_given(double t, std::span<const double> y);
+  void tie_speeds(double t, std::span<double> y);
+  bool evaluate_sharing(double t, std::span<const double> y, const std::vector<std::size_t>& among, Misfit& jammed);
+  Misfit worst_misfit(double t, std::span<const double> y, const std::vector<std::size_t>& among);
+  void consider(Misfit& worst, double size, std::size_t which, int better) const;
+  void consider_contact(Misfit& worst, std::size_t contact, double t);
+  bool gives_way(std::size_t contact, int way, double t);
+  bool change_worst(double t, std::span<const double> y, const std::vector<std::size_t>& among, int& changes);
+  bool try_all(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+               const std::vector<std::size_t>& fixed);
+  bool release_otherwise(double t, std::span<const double> y, const std::vector<std::size_t>& among,
+                         const std::vector<std::pair<std::size_t, int>>& released);
+  std::vector<std::size_t> jammed_contacts(std::span<const std::size_t> guards) const;
+  int account_of_friction(const Contact& contact) const;
+  // words (contact_words.cpp)
+  void tell(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
+            const std::vector<std::size_t>& always, EventLog& log) const;
+  std::string sharing(const Contact& contact) const;
+  std::string holders(const Contact& contact) const;
+
+  Flow& flow_;
+};
+
+}  // namespace kurbel

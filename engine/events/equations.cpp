@@ -1,0 +1,124 @@
+// equations.cpp — guards, and the modes that change when they fire: pieces of laws, contacts, steps of the sequence.
+#include "engine/events/equations.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/numerics/fp_traps.h"
+
+namespace kurbel {
+
+Equations::Equations(std::shared_ptr<const Model> model, bool audit)
+    : Flow(std::move(model), audit), contacts_(*this), switching_(*this), start_(*this, contacts_, switching_) {
+  for (const auto& pool : this->model().pools) {
+    guard_begin_.push_back(guard_count_);
+    guard_count_ += static_cast<std::size_t>(pool->guard_count());
+  }
+  contact_guards_ = guard_count_;
+  sequence_guard_ = contact_guards_ + contacts_.guard_count();
+  guard_count_ = sequence_guard_ + (switching_.has_sequence() ? 1 : 0);
+}
+
+void Equations::modes_at(double t, std::span<const double> y) {
+  for (const auto& pool : model().pools) pool->first_modes(instant(t, y), changing_modes().piece.data());
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Guards
+
+void Equations::guards(double t, std::span<const double> y, std::span<double> g) {
+  [[maybe_unused]] const FpTraps traps(y);
+  const Model& m = model();
+  const Instant now = instant(t, y);
+  for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
+  if (contact_guards_ < sequence_guard_) contacts_.guards(t, y, g.data() + contact_guards_);
+  if (switching_.has_sequence()) g[sequence_guard_] = switching_.guard(y, now.speed);
+}
+
+Equations::PoolGuard Equations::pool_guard(std::size_t guard) const {
+  std::size_t p = model().pools.size() - 1;
+  while (guard_begin_[p] > guard) --p;
+  return {p, static_cast<int>(guard - guard_begin_[p])};
+}
+
+std::string Equations::guard_owner(std::size_t guard) const {
+  if (guard >= sequence_guard_) return "sequence";
+  if (guard >= contact_guards_) return contacts_.owner(guard - contact_guards_);
+  const PoolGuard of = pool_guard(guard);
+  Instant modes_alone;
+  modes_alone.mode = modes().piece.data();
+  modes_alone.direction = modes().direction.data();
+  return model().pools[of.pool]->label(of.local, modes_alone).component;
+}
+
+std::string Equations::regularise(const std::vector<std::size_t>& guards) {
+  std::set<std::string> changed;
+  for (const std::size_t guard : guards) {
+    std::string what;
+    if (guard >= contact_guards_) {
+      what = contacts_.regularise(guard - contact_guards_);
+    } else if (const PoolGuard of = pool_guard(guard);
+               model().pools[of.pool]->regularise(of.local, changing_modes().piece.data())) {
+      what = guard_owner(guard);
+    }
+    if (!what.empty()) changed.insert(what);
+  }
+  ties().make_rows();
+  std::string text;
+  for (const std::string& name : changed) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Events and edges
+
+// What gears lose by their present torques is asked for by what comes next; nothing may hang on who asked last.
+void Equations::look_at_losses(double t, std::span<const double> y) {
+  if (ties().lossy().empty()) return;
+  try {
+    evaluate(t, y);
+  } catch (const Jam&) {  // which is why these modes change
+  }
+}
+
+void Equations::fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, EventLog& log) {
+  look_at_losses(t, y);
+  Contacts::Changes changes;
+  for (const std::size_t guard : fired) {
+    if (guard >= sequence_guard_) {
+      switching_.take_steps(t, y, &log);
+    } else if (guard >= contact_guards_) {
+      contacts_.take(guard - contact_guards_, t, y, changes);
+    } else {
+      fire_piece(pool_guard(guard), t, y, log);
+    }
+  }
+  contacts_.settle(t, y, changes, &log);
+  for (const auto& pool : model().pools) pool->follow_directions(instant(t, y), changing_modes().piece.data());
+}
+
+// Edges over the angle are told as such; elsewhere a label names the mode.
+void Equations::fire_piece(const PoolGuard& guard, double t, std::span<const double> y, EventLog& log) {
+  const ElementPool& pool = *model().pools[guard.pool];
+  const std::string before = pool.label(guard.local, instant(t, y)).what;
+  pool.fire(instant(t, y), guard.local, changing_modes().piece.data());
+  const GuardLabel label = pool.label(guard.local, instant(t, y));
+  const bool edge = pool.guards_are_of_angle();
+  if (!label.what.empty() && (edge || label.what != before))
+    log.push_back({t, label.component, label.what, edge ? "" : before});
+}
+
+void Equations::pass_edge(double t, std::span<double> y, EventLog& log) {
+  look_at_losses(t, y);
+  switching_.pass_edge(t, y, log);
+  contacts_.settle(t, y, {}, &log);
+}
+
+bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, EventLog& log) {
+  std::vector<std::size_t> of_contacts;  // others stay, as numbers that no contact has
+  for (const std::size_t guard : guards)
+    of_contacts.push_back(guard < contact_guards_ ? contacts_.guard_count() : guard - contact_guards_);
+  return contacts_.stop_jam(t, y, of_contacts, log);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,287 @@
+// start.cpp — a start: unloaded motion, twists in balance with the loads, and the modes that fit.
+#include "engine/events/start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/events/unloaded_motion.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t index(int number) { return static_cast<std::size_t>(number); }
+std::size_t shaft_of(const ShaftGain& g) { return index(g.shaft); }
+
+constexpr double at_rest = 1e-14;  // of the speed scale
+
+// What a scene's start says of angles and twists; given angles of components stand beside the others' usual ones.
+KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
+  KnownMotion known{.shaft = m.shaft_of_node[index(on)], .angle = start.angle / m.gain_of_node[index(on)]};
+  known.twists.resize(m.elastic.size());
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const auto c = start.components.find(m.network.joints[index(m.elastic[i].joint)].component);
+    if (c != start.components.end()) known.twists[i] = c->second.twist;
+  }
+  const double reduction_angle = start.angle / m.node_ratio[index(on)];
+  for (const auto& [component, c] : start.components) {
+    if (!c.angle) continue;
+    if (known.angles.empty())
+      for (const Shaft& shaft : m.shafts)
+        known.angles.push_back(m.node_ratio[index(shaft.reference)] * reduction_angle);
+    const int node = m.network.ports.at(component).in;
+    known.angles[index(m.shaft_of_node[index(node)])] = *c.angle / m.gain_of_node[index(node)];
+  }
+  return known;
+}
+
+}  // namespace
+
+// What it finds impossible is said where the scene tells of the start.
+std::vector<double> Start::at(double t, const StartSettings& settings) try {
+  const Model& m = model_;
+  std::vector<double> y(flow_.size(), 0.0);
+  const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
+  const KnownMotion known = known_at_start(m, settings, on);
+  UnloadedMotion unloaded = unloaded_motion(m, known);
+  if (!known.angles.empty()) flow_.set_shaft_angles(unloaded.twist.data(), unloaded.angle);  // twists may be given, too
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * unloaded.angle[index(m.angles[i].shaft)];
+  for (std::size_t i = 0; i < unloaded.twist.size(); ++i) y[flow_.twists_begin() + i] = unloaded.twist[i];
+  const double speed_on = m.node_ratio[index(on)];
+  for (std::size_t s = 0; s < m.free_shafts; ++s)
+    y[flow_.speed_index(static_cast<int>(s))] = settings.speed * unloaded.speed[s] / speed_on;
+  std::vector<char> given(m.shafts.size(), 0);
+  for (const auto& [component, c] : settings.components) {
+    if (!c.speed) continue;
+    const int node = m.network.ports.at(component).in;
+    const int s = m.shaft_of_node[index(node)];
+    if (index(s) < m.free_shafts) y[flow_.speed_index(s)] = *c.speed / m.gain_of_node[index(node)];
+    given[index(s)] = 1;
+  }
+  members_follow(y, given, t);
+  settle_modes(t, y, settings.equilibrium);
+  return y;
+} catch (const SceneError&) {
+  throw;
+} catch (const std::runtime_error& impossible) {
+  const Scene& scene = model_.scene;
+  if (scene.lines.empty()) throw;  // made by hand
+  throw SceneError({{scene.file, settings.at.line > 0 ? settings.at : scene.lines.front().at,
+                     fmt::format("[run]: start: {}", impossible.what())}});
+}
+
+std::vector<double> Start::with(double t, double link_angle, std::span<const double> twists,
+                                std::span<const double> speeds) {
+  const Model& m = model_;
+  std::vector<double> y(flow_.size(), 0.0), angles(m.shafts.size(), 0.0);
+  const TrackedAngle& link = m.angles[index(m.reduction_angle)];
+  angles[index(link.shaft)] = link_angle / link.gain;
+  flow_.set_shaft_angles(twists.data(), angles);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * angles[index(m.angles[i].shaft)];
+  std::copy(twists.begin(), twists.end(), y.begin() + static_cast<std::ptrdiff_t>(flow_.twists_begin()));
+  std::copy(speeds.begin(), speeds.end(), y.begin() + static_cast<std::ptrdiff_t>(flow_.speed_index(0)));
+  settle_modes(t, y, false);
+  return y;
+}
+
+std::vector<double> Start::rigid(double t, double link_angle, double link_speed) {
+  const Model& m = model_;
+  std::vector<double> y(flow_.size(), 0.0);
+  const auto speed = [&](std::size_t s) { return link_speed * m.node_ratio[index(m.shafts[s].reference)]; };
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * link_angle;
+  for (std::size_t s = 0; s < m.free_shafts; ++s) y[flow_.speed_index(static_cast<int>(s))] = speed(s);
+  Modes& modes = flow_.changing_modes();
+  std::fill(modes.turns.begin(), modes.turns.end(), 0.0);
+  wrap(modes, y);
+  switching_.set_timed_modes(t);
+  for (const Contact& contact : flow_.ties().contacts()) {
+    double sliding = 0;
+    for (const ShaftGain& g : contact.motion) sliding += g.gain * speed(shaft_of(g));
+    int& sense = sense_of(contact, modes);
+    if (contact.kind == Contact::Kind::frame) sense = sliding > 0 ? 1 : sliding < 0 ? -1 : 0;
+    if (contact.kind == Contact::Kind::connection) sense = 0;  // clutches locked
+    if (contact.kind == Contact::Kind::loss) sense = sliding >= 0 ? 1 : -1;
+  }
+  first_pieces(t, y);
+  first_states(t, y);
+  contacts_.tie(t, y);
+  return y;
+}
+
+void Start::first_pieces(double t, std::span<const double> y) {
+  for (const auto& pool : model_.pools) pool->first_modes(flow_.instant(t, y), flow_.changing_modes().piece.data());
+}
+
+void Start::first_states(double t, std::span<double> y) {
+  for (const auto& pool : model_.pools) pool->first_states(flow_.instant(t, y), y.data() + flow_.own_begin());
+}
+
+// Where several sets of modes fit, the search for one must not begin at what an earlier run ended with; a law that lost
+// its events then has them again. Turns are counted from here.
+void Start::forget_earlier_modes() {
+  Modes& modes = flow_.changing_modes();
+  std::fill(modes.turns.begin(), modes.turns.end(), 0.0);
+  std::fill(modes.piece.begin(), modes.piece.end(), 0);
+  std::fill(modes.loss_sign.begin(), modes.loss_sign.end(), 1);
+  flow_.ties().forget_torques();
+}
+
+// By the speeds; those that stand and may move are returned.
+std::vector<std::size_t> Start::senses_of_slip(double t, std::span<const double> y) {
+  Modes& modes = flow_.changing_modes();
+  const std::vector<Contact>& contacts = flow_.ties().contacts();
+  std::vector<std::size_t> still;
+  const Instant now = flow_.instant(t, y);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double v = sum_over(contacts[c].motion, now.speed);
+    int& sense = sense_of(contacts[c], modes);
+    sense = std::abs(v) <= at_rest * contacts[c].speed_scale ? 0 : v > 0 ? 1 : -1;
+    modes.regularised[c] = false;
+    modes.carries[c] = 0;
+    if (sense == 0 && !is_prescribed(contacts[c], model_)) still.push_back(c);
+  }
+  return still;
+}
+
+void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
+  forget_earlier_modes();
+  wrap(flow_.changing_modes(), y);
+  switching_.begin(t, y);
+  const Contacts::Changes changes{.stopped = senses_of_slip(t, y), .released = {}};
+  first_pieces(t, y);
+  first_states(t, y);
+  if (equilibrium) balance_twists(y, t);
+  first_states(t, y);
+  if (equilibrium && flow_.has_followers()) {
+    flow_.evaluate(t, y);
+    flow_.balance_followers(y.data() + flow_.own_begin());
+  }
+  contacts_.settle(t, y, changes, nullptr);
+  refuse_impossible_slip(t, y);
+  first_pieces(t, y);
+}
+
+// A contact that can only ever hold in the sense in which it slips: the sides would have to hit each other.
+void Start::refuse_impossible_slip(double t, std::span<const double> y) {
+  const std::vector<Contact>& contacts = flow_.ties().contacts();
+  if (contacts.empty()) return;
+  flow_.look(t, y);
+  flow_.ties().find_holds(flow_.now());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].kind != Contact::Kind::connection) continue;
+    const int sense = sense_of(contacts[c], flow_.modes());
+    const Hold hold = flow_.ties().limits(c);
+    if (sense == 0 || !std::isinf(sense > 0 ? hold.high : hold.low)) continue;
+    throw std::runtime_error(fmt::format(
+        "\"{}\" cannot slip in the sense in which the machine starts ({:.6g} rad/s): its driving side would "
+        "have to be no faster than its driven side. Start both sides at one speed",
+        contacts[c].name, sum_over(contacts[c].motion, flow_.now().speed)));
+  }
+}
+
+// Speeds that relations demand of members whose speeds are not given. Where a relation leaves a choice, its first
+// members keep the speeds of the usual motion.
+void Start::members_follow(std::span<double> y, std::vector<char> given, double t) {
+  const Model& m = model_;
+  const auto speed_at = [&](int shaft) -> double& { return y[flow_.speed_index(shaft)]; };
+  for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) given[s] = 1;
+  std::vector<const ShaftRelation*> open;
+  for (const ShaftRelation& relation : m.relations) open.push_back(&relation);
+  const auto unknown = [&](const ShaftRelation& relation) {
+    return std::count_if(relation.motion.begin(), relation.motion.end(),
+                         [&](const ShaftGain& g) { return !given[shaft_of(g)]; });
+  };
+  while (!open.empty()) {
+    const auto next = std::min_element(open.begin(), open.end(),
+                                       [&](const auto* a, const auto* b) { return unknown(*a) < unknown(*b); });
+    const ShaftRelation& relation = **next;
+    open.erase(next);
+    double sum = 0;
+    const ShaftGain* last = nullptr;
+    for (const ShaftGain& g : relation.motion) {
+      const bool is_free = shaft_of(g) < m.free_shafts;
+      sum += g.gain * (is_free ? speed_at(g.shaft) : prescribed_speed(m, flow_.modes(), shaft_of(g), t));
+      if (!given[shaft_of(g)]) last = &g;
+      given[shaft_of(g)] = 1;
+    }
+    if (last) {
+      speed_at(last->shaft) -= sum / last->gain;
+    } else if (std::abs(sum) > 1e-9 * m.speed_scale) {
+      throw std::runtime_error(fmt::format("the start speeds contradict \"{}\", which ties them; leave one of them out",
+                                           m.network.relations[index(relation.relation)].component));
+    }
+  }
+}
+
+// Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.
+// The machine as a whole may accelerate; all shafts then do so together.
+void Start::balance_twists(std::span<double> y, double t) {
+  const Model& m = model_;
+  if (m.elastic.empty()) return;
+  const std::size_t first = flow_.twists_begin();
+  std::vector<double> rest(m.elastic.size(), 0.0);
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    if (m.network.joints[index(m.elastic[i].joint)].element->uses_angle()) rest[i] = y[first + i];
+    y[first + i] = 0;
+  }
+  flow_.evaluate(t, y);
+  const std::vector<double> joint_torque = balanced_joints(m, needs_when_balanced(y));
+  std::vector<double> twists(m.elastic.size());
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const std::size_t j = index(m.elastic[i].joint);
+    twists[i] = m.network.joints[j].element->twist_at(joint_torque[j]);
+    y[first + i] = twists[i] + rest[i];
+  }
+  // Shafts away from the reduction link stand turned by the twists.
+  std::vector<double> angles(m.shafts.size(), 0.0);
+  flow_.set_shaft_angles(twists.data(), angles);
+  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] += m.angles[i].gain * angles[index(m.angles[i].shaft)];
+  wrap(flow_.changing_modes(), y);
+}
+
+// What every node needs from its joints [N·m] when all shafts accelerate together, at the state evaluated last, whose
+// twists must be none: only the elements' torques are there.
+std::vector<double> Start::needs_when_balanced(std::span<const double> y) {
+  const Model& m = model_;
+  const Network& net = m.network;
+  const std::vector<double>&element_torque = flow_.element_torque(), &element_inertia = flow_.element_inertia();
+  double torque = 0, inertia = 0;
+  bool free = true;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+    inertia += net.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
+    free = free && (net.nodes[n].prescribed < 0 || m.node_ratio[n] == 0);  // the frame holds nothing that moves
+  }
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const double ratio = m.node_ratio[index(net.elements[e].node)];
+    torque += element_torque[e] * ratio;
+    inertia += element_inertia[e] * ratio * ratio;
+  }
+  // At standstill the opposing elements may hold the machine.
+  double hold_low = 0, hold_high = 0;
+  flow_.ties().find_holds(flow_.now());
+  const std::vector<Hold>& hold = flow_.ties().element_hold();
+  const bool still =
+      std::all_of(y.begin() + static_cast<std::ptrdiff_t>(flow_.speed_index(0)),
+                  y.begin() + static_cast<std::ptrdiff_t>(flow_.state_count()), [](double w) { return w == 0; });
+  for (std::size_t e = 0; still && e < net.elements.size(); ++e) {
+    const double ratio = m.node_ratio[index(net.elements[e].node)];
+    hold_low += ratio * (ratio > 0 ? hold[e].low : hold[e].high);
+    hold_high += ratio * (ratio > 0 ? hold[e].high : hold[e].low);
+  }
+  const double held = std::clamp(-torque, hold_low, hold_high);
+  const double capacity = held > 0 ? hold_high : hold_low;
+  const double acceleration = free ? (torque + held) / inertia : 0;  // of the reduction link
+  std::vector<double> need(net.nodes.size());
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) need[n] = net.nodes[n].inertia * m.node_ratio[n] * acceleration;
+  for (std::size_t e = 0; e < net.elements.size(); ++e) {
+    const std::size_t n = index(net.elements[e].node);
+    need[n] += element_inertia[e] * m.node_ratio[n] * acceleration - element_torque[e];
+    const bool upwards = (held > 0) == (m.node_ratio[n] > 0);  // on the element's own shaft
+    if (still && capacity != 0) need[n] -= held / capacity * (upwards ? hold[e].high : hold[e].low);
+  }
+  return need;
+}
+
+}  // namespace kurbel
