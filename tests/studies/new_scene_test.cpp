@@ -131,11 +131,12 @@ TEST_F(NewScene, ConclusionIsBoldOnATerminalUnlessColoursAreUnwanted) {
   EXPECT_EQ(plain.text.find("\033[1m"), std::string::npos) << plain.text;
 }
 
-// Man page and completion know every command and option that --help names, README every command.
+// Man page and completion know every command and option that --help names, README and docs/commands.md every command.
 TEST_F(NewScene, ManPageAndCompletionNameEveryCommandAndOption) {
   std::string man = std::regex_replace(text_of(test::source_path("docs/kurbel.1")), std::regex("\\\\-"), "-");
   const std::string completion = text_of(test::source_path("scripts/kurbel.bash-completion"));
   const std::string readme = text_of(test::source_path("README.md"));
+  const std::string commands = text_of(test::source_path("docs/commands.md"));
   const std::string help = kurbel("--help").text;
   std::set<std::string> names;
   std::smatch found;
@@ -145,6 +146,7 @@ TEST_F(NewScene, ManPageAndCompletionNameEveryCommandAndOption) {
     const std::string name = (*it)[1];
     names.insert(name);
     EXPECT_NE(readme.find("kurbel " + name), std::string::npos) << "README.md lacks " << name;
+    EXPECT_NE(commands.find("kurbel " + name), std::string::npos) << "docs/commands.md lacks " << name;
     const std::string of_command = kurbel(name + " --help").text;
     const std::string options = of_command.substr(of_command.find("Options:"));
     for (std::sregex_iterator o(options.begin(), options.end(), option); o != end; ++o) names.insert((*o)[1]);
