@@ -184,4 +184,15 @@ std::vector<int> loose_trees(const Model& model) {
   return loose;
 }
 
+double GearTorque::value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const {
+  double sum = 0;
+  for (const Term& term : terms) {
+    if (term.joint >= 0)
+      sum += term.taken * joint_torque[term.joint];
+    else
+      sum += term.taken * relation_torque[term.relation] + term.lost * relation_loss[term.relation];
+  }
+  return sum;
+}
+
 }  // namespace kurbel

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "engine/model/build_component.h"
+#include "engine/model/build_network.h"
 #include "engine/model/network.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/data_files.h"

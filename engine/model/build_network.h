@@ -1,4 +1,4 @@
-// build_component.h — from one component's table to its nodes, joints and elements.
+// build_network.h — from one component's table to its nodes, joints and elements.
 #pragma once
 
 namespace kurbel {

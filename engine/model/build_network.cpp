@@ -1,0 +1,60 @@
+// build_network.cpp — from a scene's components to the machine as drawn; the one place where a kind's builder is
+// called.
+#include "engine/model/build_network.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "engine/model/model.h"
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+// The node that a branch begins at: "gearbox", "gearbox.in", "differential.left".
+int port_named(const Network& network, const std::string& from) {
+  const std::size_t dot = from.find('.');
+  const Network::Ports& ports = network.ports.at(from.substr(0, dot));
+  if (dot != std::string::npos)
+    if (const auto other = ports.others.find(from.substr(dot + 1)); other != ports.others.end()) return other->second;
+  return dot != std::string::npos && from.substr(dot + 1) == "in" ? ports.in : ports.out;
+}
+
+}  // namespace
+
+void build_component(const Section& section, Network& network, Messages& messages) {
+  Deadline::check();
+  const auto refuse = [&](const std::exception& why) {
+    messages.add(section.at, fmt::format("{} \"{}\": its values do not fit together: {}; check them, and their units",
+                                         section.kind->name, section.name, why.what()));
+  };
+  try {
+    section.kind->build(section, network, messages);
+  } catch (const std::invalid_argument& error) {
+    refuse(error);
+  } catch (const std::runtime_error& error) {
+    refuse(error);
+  }
+}
+
+Network build_network(const Scene& scene) {
+  Network network;
+  Messages messages(scene.file);
+  for (const Section& section : scene.components) {
+    network.components.push_back(section.name);
+    build_component(section, network, messages);
+  }
+  messages.throw_if_any();
+  for (const Line& line : scene.lines) {
+    int end = line.from.empty() ? -1 : port_named(network, line.from);
+    for (const std::string& name : line.names) {
+      const Network::Ports& ports = network.ports.at(name);
+      if (end >= 0) network.join(end, ports.in, 1, "");
+      end = ports.out;
+    }
+  }
+  return network;
+}
+
+}  // namespace kurbel

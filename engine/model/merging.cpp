@@ -1,0 +1,163 @@
+// merging.cpp — which nodes hang together rigidly, whether all of them form a tree, and how fast each turns.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/model/compile_steps.h"
+#include "engine/model/relations.h"
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Goes from node to node, breadth first, and notes each one's speed relative to the first.
+class Walk {
+ public:
+  Walk(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations)
+      : network_(network), through_(relations), joints_at_(network.nodes.size()), relations_at_(network.nodes.size()) {
+    for (std::size_t j = 0; j < network.joints.size(); ++j)
+      if (is_rigid(network.joints[j])) {
+        joints_at_[at(network.joints[j].a)].push_back(j);
+        joints_at_[at(network.joints[j].b)].push_back(j);
+      }
+    for (const Network::Relation& relation : network.relations)
+      for (int k = 0; k < relation.members(); ++k)
+        if (is_walked(relation, k)) relations_at_[at(relation.node[at(k)])].push_back(&relation);
+  }
+
+  Merging merging() {
+    const std::size_t n = network_.nodes.size();
+    merging_ = {std::vector<int>(n, -1), std::vector<double>(n, 1.0), 0};
+    for (std::size_t first = 0; first < n; ++first) {
+      if (merging_.group[first] >= 0) continue;
+      Deadline::check();
+      queue_ = {first};
+      merging_.group[first] = merging_.groups;
+      for (std::size_t next = 0; next < queue_.size(); ++next) {
+        walk_joints(queue_[next]);
+        walk_relations(queue_[next]);
+      }
+      ++merging_.groups;
+    }
+    return std::move(merging_);
+  }
+
+ private:
+  bool is_walked(const Network::Relation& relation, int k) const {
+    return through_ == Through::all || (through_ == Through::turning && relation.usual[at(k)] != 0);
+  }
+  void walk_joints(std::size_t node) {
+    for (const std::size_t j : joints_at_[node]) {
+      const Network::Joint& joint = network_.joints[j];
+      const bool from_a = at(joint.a) == node;
+      const std::size_t other = at(from_a ? joint.b : joint.a);
+      if (merging_.group[other] >= 0) continue;
+      merging_.group[other] = merging_.groups;
+      merging_.gain[other] = from_a ? merging_.gain[node] / joint.ratio : merging_.gain[node] * joint.ratio;
+      queue_.push_back(other);
+    }
+  }
+  void walk_relations(std::size_t node) {
+    for (const Network::Relation* relation : relations_at_[node]) {
+      const auto own = static_cast<std::size_t>(
+          std::find(relation->node.begin(), relation->node.end(), static_cast<int>(node)) - relation->node.begin());
+      for (int k = 0; k < relation->members(); ++k) {
+        const std::size_t other = at(relation->node[at(k)]);
+        if (merging_.group[other] >= 0 || !is_walked(*relation, k)) continue;
+        merging_.group[other] = merging_.groups;
+        const double usual = relation->usual[own];
+        merging_.gain[other] =
+            usual == 0 ? relation->usual[at(k)] : merging_.gain[node] * relation->usual[at(k)] / usual;
+        queue_.push_back(other);
+      }
+    }
+  }
+
+  const Network& network_;
+  Through through_;
+  std::vector<std::vector<std::size_t>> joints_at_;
+  std::vector<std::vector<const Network::Relation*>> relations_at_;
+  Merging merging_;
+  std::vector<std::size_t> queue_;
+};
+
+bool any_joint(const Network::Joint&) { return true; }
+
+// Compiling takes time in proportion to the shafts, and to the cube of the relations between their speeds.
+void check_sizes(Compilation& c) {
+  constexpr std::size_t most_shafts = 1'000'000, most_relations = 1000;
+  const Network& net = c.net();
+  const auto refuse = [&](const std::string& component, const std::string& text) {
+    throw SceneError({{c.messages.file(), c.place_of(component), text}});
+  };
+  if (net.nodes.size() > most_shafts)
+    refuse(net.nodes[most_shafts].component,
+           fmt::format("the machine has {} shaft ends; must be at most {}; give fewer segments or components",
+                       net.nodes.size(), most_shafts));
+  if (net.relations.size() > most_relations)
+    refuse(net.relations[most_relations].component,
+           fmt::format("the machine has {} gears with losses, planetary gears and gears in housings; must be at most "
+                       "{}; give some of the gears without losses",
+                       net.relations.size(), most_relations));
+}
+
+}  // namespace
+
+Merging merge(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations) {
+  return Walk(network, is_rigid, relations).merging();
+}
+
+Merging merge_shafts(const Network& network) {
+  return merge(network, [](const Network::Joint& joint) { return !joint.elastic; });
+}
+
+void check_tree(Compilation& c) {
+  const Network& net = c.net();
+  const auto refuse = [&](const char* text) { throw SceneError({{c.messages.file(), c.place_of_line(), text}}); };
+  if (net.nodes.empty()) refuse("the machine has no shaft");
+  check_sizes(c);
+  const Merging all = merge(net, any_joint, Through::all);
+  const Merging joined = merge(net, any_joint);
+  const bool loop = net.joints.size() + at(joined.groups) != net.nodes.size();
+  if (all.groups > 1 || loop || !relations_are_independent(net, joined.group))
+    refuse("the shafts do not form a tree: a part is unconnected or a loop is closed; check the lines and branches");
+}
+
+// The reduction link is the crank of the first mechanism, else the first shaft of the line.
+void choose_reduction_link(Compilation& c) {
+  Model& m = c.model;
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+    if (m.network.elements[e].element->cycle() > 0) {
+      m.reduction_node = m.network.elements[e].node;
+      m.cycle = m.network.elements[e].element->cycle();
+      m.reduction_element = static_cast<int>(e);
+      return;
+    }
+}
+
+void find_node_ratios(Compilation& c) {
+  Model& m = c.model;
+  const Network& net = c.net();
+  const Merging all = merge(net, any_joint, Through::all);
+  m.node_ratio = all.gain;
+  const double reduction = all.gain[at(m.reduction_node)];
+  for (double& ratio : m.node_ratio) ratio /= reduction == 0 ? 1 : reduction;
+  for (const double ratio : m.node_ratio) m.scale_ratio.push_back(ratio == 0 ? 1 : std::abs(ratio));
+  // Inertias count by their squares.
+  constexpr double farthest = 1e30;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+    const double ratio = m.scale_ratio[n];
+    if (ratio <= farthest && ratio >= 1 / farthest) continue;
+    const std::string& component = net.nodes[n].component;
+    c.refuse(component,
+             fmt::format("\"{}\" turns {:.3g} times as fast as \"{}\"; must be within {:g} … {:g}; check the "
+                         "ratios between them",
+                         component, ratio, net.nodes[at(m.reduction_node)].component, 1 / farthest, farthest));
+    c.messages.throw_if_any();
+  }
+}
+
+}  // namespace kurbel

@@ -1,0 +1,163 @@
+// placement.cpp — elements into their pools, each with the places that it asks for: angles, modes, states, commands,
+// accounts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/model/compile_steps.h"
+#include "engine/model/relations.h"
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// The place of a node's angle among those that are tracked.
+int tracked(Model& m, int node) {
+  const int shaft = m.shaft_of_node[at(node)];
+  const double gain = m.gain_of_node[at(node)];
+  for (std::size_t i = 0; i < m.angles.size(); ++i)
+    if (m.angles[i].shaft == shaft && m.angles[i].gain == gain) return static_cast<int>(i);
+  m.angles.push_back({node, shaft, gain});
+  return static_cast<int>(m.angles.size()) - 1;
+}
+
+// A component that the sequence sets: its place among the commands, or −1.
+int command_of(const Model& m, const std::string& component) {
+  const auto is = [&](const CommandTarget& target) { return target.component == component; };
+  const auto known = std::find_if(m.commands.begin(), m.commands.end(), is);
+  return known == m.commands.end() ? -1 : static_cast<int>(known - m.commands.begin());
+}
+
+void list_commands(Model& m) {
+  for (const SequenceStep& step : m.scene.sequence.steps)
+    for (const std::string& component : step.set)
+      if (command_of(m, component) < 0) m.commands.push_back({component, {}, {}});
+}
+
+int own_places(Model& m, const std::string& component, const std::vector<OwnState>& states) {
+  const int first = static_cast<int>(m.own_states.size());
+  for (const OwnState& state : states) m.own_states.push_back({component, state});
+  return first;
+}
+
+int account(Model& m, const std::string& name, Account kind) {
+  m.accounts.push_back({name, kind});
+  return static_cast<int>(m.accounts.size()) - 1;
+}
+
+void place_connections(Model& m, PoolSet& pools) {
+  std::string last;
+  int loss = -1;
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    Deadline::check();
+    ElasticJoint& e = m.elastic[i];
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    if (joint.component != last || loss < 0) loss = account(m, joint.component, Account::harmful);
+    last = joint.component;
+    e.loss_account = loss;
+    ConnectionExtras extras{.own = own_places(m, joint.component, joint.element->own_states()),
+                            .component = joint.component};
+    if (joint.element->has_modes()) extras.mode = static_cast<int>(m.mode_slots++);
+    if (joint.element->commanded()) extras.command = command_of(m, joint.component);
+    if (joint.element->uses_angle()) extras.angle = tracked(m, joint.a);
+    joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss}, extras);
+  }
+}
+
+void account_for_relations(Model& m) {
+  for (ShaftRelation& relation : m.relations)
+    if (m.network.relations[at(relation.relation)].lossy)
+      relation.loss_account = account(m, m.network.relations[at(relation.relation)].component, Account::harmful);
+}
+
+void place_on_shafts(Model& m, PoolSet& pools) {
+  for (std::size_t i = 0; i < m.network.elements.size(); ++i) {
+    Deadline::check();
+    Network::ShaftElement& e = m.network.elements[i];
+    ShaftPorts ports{
+        .id = static_cast<int>(i), .shaft = m.shaft_of_node[at(e.node)], .gain = m.gain_of_node[at(e.node)]};
+    if (e.element->uses_angle()) {
+      ports.angle = tracked(m, e.node);
+      ports.phase = e.phase;
+    }
+    ports.mode = static_cast<int>(m.mode_slots);
+    m.mode_slots += at(e.element->mode_count());
+    ports.own = own_places(m, e.component, e.element->own_states());
+    ports.command = command_of(m, e.component);
+    if (ports.command >= 0 && !e.element->commanded())
+      m.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
+    if (ports.command >= 0 && e.element->opens_at_zero())
+      m.commands[at(ports.command)].opened.push_back(static_cast<int>(i));
+    ports.account = e.account = account(m, e.component, e.element->account());
+    for (const auto& [name, kind] : e.element->further_accounts()) account(m, name, kind);
+    e.element->place(pools, ports, {e.window, e.component});
+  }
+}
+
+// What a component does not understand it must not be told.
+void check_sequence(Compilation& c) {
+  for (const SequenceStep& step : c.model.scene.sequence.steps)
+    for (const std::string& component : step.set) {
+      bool any = false, reversible = true;
+      for (const Network::ShaftElement& e : c.net().elements)
+        if (e.component == component) any = true, reversible = reversible && e.element->reversible();
+      for (const Network::Joint& joint : c.net().joints)
+        if (joint.component == component && joint.element && joint.element->commanded()) any = true, reversible = false;
+      if (!any)
+        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
+                                            "clutch or a brake",
+                                            component));
+      else if (step.to < 0 && !reversible)
+        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" cannot be reversed, to = {:g}; must be ≥ 0 (only "
+                                            "electric motors without a starter can)",
+                                            component, step.to));
+    }
+}
+
+}  // namespace
+
+void track_angles(Compilation& c) {
+  Model& m = c.model;
+  m.reduction_angle = tracked(m, m.reduction_node);
+  for (const int node : loose_trees(m)) tracked(m, node);
+  for (const SequenceStep& step : m.scene.sequence.steps)
+    m.trigger_angle.push_back(step.when == SequenceStep::When::angle ? tracked(m, m.network.ports.at(step.of).in) : -1);
+}
+
+void place_elements(Compilation& c) {
+  Model& m = c.model;
+  list_commands(m);
+  PoolSet pools;
+  place_connections(m, pools);
+  account_for_relations(m);
+  place_on_shafts(m, pools);
+  for (const Network::Node& node : m.network.nodes)
+    if (node.prescribed >= 0) account(m, node.component, Account::driving);
+  check_sequence(c);
+  m.pools = pools.release();
+  for (const auto& pool : m.pools) pool->add_channels(m.pool_channels);
+}
+
+void list_torque_joints(Compilation& c) {
+  Model& m = c.model;
+  std::map<std::string, int> segments, seen;
+  for (const Network::Joint& joint : m.network.joints)
+    if (joint.element) ++segments[joint.component];
+  int elastic = 0;
+  for (std::size_t j = 0; j < m.network.joints.size(); ++j) {
+    const Network::Joint& joint = m.network.joints[j];
+    if (!joint.element) continue;
+    const int index = joint.elastic ? elastic++ : -1;
+    const int total = segments[joint.component], k = ++seen[joint.component];
+    if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
+    const std::string name = !joint.label.empty() ? joint.component + "." + joint.label
+                             : total == 1         ? joint.component
+                                                  : fmt::format("{}.{}", joint.component, k);
+    m.torque_joints.push_back({name, static_cast<int>(j), index, m.torque_scale / m.scale_ratio[at(joint.a)]});
+  }
+}
+
+}  // namespace kurbel

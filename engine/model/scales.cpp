@@ -1,0 +1,117 @@
+// scales.cpp — how large the machine's speeds, torques and twists are: the rated ones, carried to every shaft.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/model/compile_steps.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// What the machine's elements say of themselves, on the reduction link.
+struct Size {
+  double speed = 0;             // the largest that is rated, prescribed or given at the start [rad/s]
+  double torque = 0;            // the largest that drives [N·m]
+  double resisting = 0;         // the largest of the others [N·m]
+  double inertia = 0;           // of all [kg·m²]
+  void reaches(double given) {  // a speed
+    speed = std::max(speed, std::abs(given));
+  }
+};
+
+Size rated_size(const Model& m) {
+  Size size;
+  for (std::size_t n = 0; n < m.network.nodes.size(); ++n)
+    size.inertia += m.network.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
+  for (const Network::ShaftElement& e : m.network.elements) {
+    const double ratio = m.scale_ratio[at(e.node)];
+    const Rated rated = e.element->rated();
+    size.speed = std::max(size.speed, std::abs(rated.speed) / ratio);
+    double& sum = e.element->account() == Account::driving ? size.torque : size.resisting;
+    sum = std::max(sum, std::abs(rated.torque) * ratio);
+    size.inertia += e.element->mean_inertia() * ratio * ratio;
+  }
+  return size;
+}
+
+void add_given_speeds(const Model& m, Size& size) {
+  for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
+    if (m.network.nodes[n].prescribed < 0) continue;
+    const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[n].prescribed)];
+    for (const double s : given.speed) size.reaches(s / m.scale_ratio[n]);
+    size.reaches(given.amplitude / m.scale_ratio[n]);
+  }
+  const StartSettings& start = m.scene.run.start;
+  const auto speed_of = [&](const std::string& component, double value) {
+    const int node = component.empty() ? m.reduction_node : m.network.ports.at(component).in;
+    size.reaches(value / m.scale_ratio[at(node)]);
+  };
+  if (start.speed != 0) speed_of(start.on, start.speed);
+  for (const auto& [component, given] : start.components)
+    if (given.speed) speed_of(component, *given.speed);
+}
+
+// What the stiffest elastic joint bears at a small twist, on the link [N·m].
+double torque_of_a_small_twist(const Model& m) {
+  constexpr double small = 1e-3;  // [rad]
+  double torque = 0;
+  for (const ElasticJoint& e : m.elastic) {
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    torque = std::max(torque, joint.element->stiffness() * small * m.scale_ratio[at(joint.a)]);
+  }
+  return torque;
+}
+
+// Squares of them must be numbers, too.
+void check_scales(Compilation& c, double speed, double torque) {
+  constexpr double beyond_reason = 1e100;
+  if (speed < beyond_reason && torque < beyond_reason) return;
+  std::string largest = c.net().components.front();
+  double most = -1;
+  for (const Network::ShaftElement& e : c.net().elements) {
+    const Rated rated = e.element->rated();
+    const double size = std::max(std::abs(rated.torque), std::abs(rated.speed));
+    if (size > most) most = size, largest = e.component;
+  }
+  c.refuse(largest,
+           fmt::format("the machine's torques reach {:.3g} N·m and its speeds {:.3g} rad/s; both must be below "
+                       "{:g}; check the values and units of \"{}\"",
+                       torque, speed, beyond_reason, largest));
+  c.messages.throw_if_any();
+}
+
+}  // namespace
+
+// Rated speed and torque, carried to the reduction link and from there to every shaft.
+void find_scales(Compilation& c) {
+  Model& m = c.model;
+  Size size = rated_size(m);
+  add_given_speeds(m, size);
+  double speed = size.speed, torque = size.torque;
+  if (torque == 0) torque = size.resisting;  // nothing drives: the loads set the scale
+  if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / size.inertia);  // after one turn
+  if (speed == 0) speed = 1;
+  if (torque == 0) torque = 0.5 * size.inertia * speed * speed;  // kinetic energy per radian
+  if (torque == 0) torque = torque_of_a_small_twist(m);          // all motions are given
+  torque = std::max(torque, 1e-12);
+  check_scales(c, speed, torque);
+  m.speed_scale = speed;
+  m.torque_scale = torque;
+  for (Shaft& shaft : m.shafts) {
+    const double ratio = m.scale_ratio[at(shaft.reference)];
+    shaft.speed_scale = speed * ratio;
+    shaft.torque_scale = torque / ratio;
+  }
+  for (ElasticJoint& e : m.elastic) {
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    const double stiffness = joint.element->stiffness();
+    if (e.slips || e.springless) e.twist_scale = 1;
+    if (stiffness > 0) e.twist_scale = torque / m.scale_ratio[at(joint.a)] / stiffness;
+  }
+}
+
+}  // namespace kurbel

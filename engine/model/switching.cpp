@@ -1,0 +1,117 @@
+// switching.cpp — the network under the effects that are on: what is elastic, what is merged, what is left out.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "engine/model/compile_steps.h"
+#include "engine/model/no_element.h"
+
+namespace kurbel {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Which joints stay elastic, and what is told of those that do not.
+void switch_joints(Model& m) {
+  const std::set<std::string> elastic(m.effects.elastic.begin(), m.effects.elastic.end());
+  for (Network::Joint& joint : m.network.joints) {
+    if (joint.element && (joint.element->slips() || joint.element->springless())) {
+      joint.elastic = !m.effects.locked;
+      if (!joint.elastic)
+        m.merged.push_back(fmt::format("\"{}\" counts as locked; the shafts on either side are one", joint.component));
+      continue;
+    }
+    joint.elastic = joint.element && (m.effects.all_elastic || elastic.count(joint.component) > 0);
+    if (joint.element && !joint.elastic &&
+        (m.merged.empty() || m.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
+      m.merged.push_back(fmt::format("\"{}\" is rigid because its elasticity is off; the shafts on either side are one",
+                                     joint.component));
+  }
+}
+
+// With clutches locked the machine runs: what the operating sequence brakes with is released, and the sequence is
+// over.
+void release_brakes(Model& m) {
+  std::set<std::string> told;
+  for (const SequenceStep& step : m.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
+  m.scene.sequence.steps.clear();
+  std::erase_if(m.network.elements, [&](const Network::ShaftElement& e) {
+    const bool brake = told.count(e.component) && e.element->directional() && e.element->commanded();
+    if (brake) m.merged.push_back(fmt::format("\"{}\" counts as released", e.component));
+    return brake;
+  });
+}
+
+void leave_out_what_is_gone(Model& m) {
+  std::vector<Network::ShaftElement>& elements = m.network.elements;
+  for (std::size_t e = elements.size(); e-- > 0;)
+    if (elements[e].element == no_element()) {
+      elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(e));
+      if (static_cast<int>(e) < m.reduction_element) --m.reduction_element;
+    }
+}
+
+}  // namespace
+
+// Connections in the form that the effects leave them.
+void switch_connections(Compilation& c) {
+  for (Network::Joint& joint : c.net().joints)
+    if (joint.element)
+      if (auto changed = joint.element->with(c.model.effects)) joint.element = std::move(changed);
+}
+
+// A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
+// effects are on: 1/J_red = 1/J_a + i²/J_b.
+void settle_relative_damping(Compilation& c) {
+  Network& net = c.net();
+  const Merging finest = merge(
+      net, [](const Network::Joint& joint) { return !joint.element; }, Through::turning);
+  std::vector<double> inertia(at(finest.groups), 0.0);
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    inertia[at(finest.group[n])] +=
+        net.nodes[n].prescribed >= 0 ? HUGE_VAL : net.nodes[n].inertia * finest.gain[n] * finest.gain[n];
+  for (const Network::ShaftElement& e : net.elements)
+    inertia[at(finest.group[at(e.node)])] +=
+        e.element->mean_inertia() * finest.gain[at(e.node)] * finest.gain[at(e.node)];
+  for (Network::Joint& joint : net.joints) {
+    if (!joint.element) continue;
+    const auto own = [&](int node) {
+      return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]);
+    };
+    const double compliance = 1 / own(joint.a) + joint.ratio * joint.ratio / own(joint.b);
+    joint.element->settle(compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0);
+  }
+}
+
+void switch_effects(Compilation& c) {
+  Model& m = c.model;
+  switch_joints(m);
+  if (m.effects.locked) release_brakes(m);
+  bool any = false;
+  for (Network::ShaftElement& e : m.network.elements) try {
+      if (auto changed = e.element->with(m.effects)) {
+        any = any || e.element->cycle() > 0;
+        e.element = std::move(changed);
+      }
+    } catch (const std::invalid_argument& cannot) {  // effects that it cannot have together
+      c.refuse(e.component, fmt::format("\"{}\": {}", e.component, cannot.what()));
+    }
+  leave_out_what_is_gone(m);
+  if (m.effects.joint_friction && !any)
+    c.messages.add(c.place_of_line(),
+                   "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
+                   "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
+}
+
+std::vector<char> standing_nodes(const Network& net) {
+  const Merging merging = merge_shafts(net);
+  std::vector<char> stands(at(merging.groups), 0), of_node;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    if (net.nodes[n].prescribed >= 0 && net.prescribed[at(net.nodes[n].prescribed)].is_nothing())
+      stands[at(merging.group[n])] = 1;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) of_node.push_back(stands[at(merging.group[n])]);
+  return of_node;
+}
+
+}  // namespace kurbel
