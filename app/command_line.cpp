@@ -11,9 +11,8 @@
 #include <stdexcept>
 
 #include "app/terminal.h"
-#include "engine/scene/data_files.h"
+#include "engine/reading/quantity_reader.h"
 #include "engine/scene/printable.h"
-#include "engine/scene/section_reader.h"
 #include "engine/scene/units.h"
 #include "studies/files/result_set.h"
 #include "studies/files/spawn.h"

@@ -73,10 +73,6 @@ struct Scene {
   const Section* find(const std::string& name) const;
 };
 
-// Reads a scene; `kinds` lists the components that a line may hold. Throws SceneError with all errors of the file.
-Scene read_scene(const std::string& path, const std::vector<Kind>& kinds);
-Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds);
-
 // Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.
 const std::vector<std::string>& methods_of(const std::string& model);
 void check_method(const std::string& method, const std::string& model);

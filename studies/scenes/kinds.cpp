@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "drivetrain/kinds.h"
+#include "engine/reading/sequence_reader.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/sequence_reader.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
 

@@ -1,10 +1,10 @@
-// kinds.h — every component that a scene may hold.
+// kinds.h — every component that a scene may hold, for whoever reads one.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "engine/scene/keys.h"
+#include "engine/reading/read_scene.h"
 
 namespace kurbel {
 

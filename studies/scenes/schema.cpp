@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/reading/sequence_reader.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/sequence_reader.h"
 #include "engine/scene/units.h"
 #include "studies/scenes/kinds.h"
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "engine/reading/sequence_reader.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/sequence_reader.h"
 #include "engine/scene/units.h"
 #include "studies/scenes/kinds.h"
 #include "tests/fuzz/key_values.h"

@@ -1,11 +1,12 @@
 // sequence_reader.cpp — steps of an operating sequence: when, what, to which value.
-#include "engine/scene/sequence_reader.h"
+#include "engine/reading/sequence_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "engine/scene/section_reader.h"
+#include "engine/reading/quantity_reader.h"
+#include "engine/reading/section_reader.h"
 
 namespace kurbel {
 namespace {

@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/data_files.h"
+#include "engine/reading/data_files.h"
 #include "engine/scene/document.h"
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 
 namespace kurbel {
 
@@ -21,12 +20,5 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
 // The kind named by the table's `kind` key, or null with a message.
 const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds, const std::string& what, Location at,
                       Messages& messages);
-
-// What must hold of a value in SI besides its domain, for its use to neither over- nor underflow; empty: it does.
-std::string size_allowed(double value, const Dimension& dimension, const Domain& domain);
-
-// Value in SI of a text such as "4 kN*m"; false with a message if it is none or has another dimension than `unit`.
-bool read_quantity(const DocumentValue& value, const std::string& unit, const Domain& domain, const std::string& what,
-                   Messages& messages, double& result);
 
 }  // namespace kurbel

@@ -1,0 +1,120 @@
+// component_reader.cpp — the tables of the components, and what else stands at the top of a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/numerics/deadline.h"
+#include "engine/reading/scene_reading.h"
+#include "engine/reading/section_reader.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+using Type = DocumentValue::Type;
+
+const std::vector<std::string>& reserved_names() {
+  static const std::vector<std::string> names = {"title",   "description", "line", "branch",
+                                                 "effects", "sequence",    "run"};
+  return names;
+}
+
+static bool is_top_key(const DocumentEntry& entry) { return entry.key == "line" || entry.key == "title"; }
+
+void refuse_top_key(SceneReading& r, const DocumentEntry& entry) {
+  const auto is = [&](const Key& key) { return key.name == entry.key; };
+  const bool tables =
+      entry.value.type == Type::list && !entry.value.items.empty() && entry.value.items.front().type == Type::table;
+  if (tables) {
+    r.refuse(entry.at,
+             fmt::format("[[{0}]] is a list of tables; a component is written [{0}], a branch [[branch]]", entry.key));
+  } else if (std::any_of(run_keys().begin(), run_keys().end(), is) || entry.key == "start" || entry.key == "output") {
+    r.refuse(entry.at, fmt::format("\"{}\" belongs under [run]", entry.key));
+  } else if (entry.key == "elasticity") {
+    r.refuse(entry.at, "\"elasticity\" belongs under [effects]");
+  } else {
+    r.refuse(
+        entry.at,
+        fmt::format("unknown key {}{}; allowed at the top of a scene: {}, and a table for each component",
+                    in_quotes(entry.key), suggestion(entry.key, reserved_names()), listed(reserved_names(), "and")));
+  }
+}
+
+// `on = "flywheel"` is a branch of one component.
+void read_on(SceneReading& r, const Section& section, const DocumentValue& value) {
+  if (section.kind->placement == Placement::inline_two) {
+    r.lines_sound = false;
+    return r.refuse(value.at,
+                    fmt::format("{} \"{}\": on = {}; it has two shafts and stands in a `line` or a [[branch]]",
+                                section.kind->name, section.name, value.describe()));
+  }
+  if (value.type != Type::text || value.text.empty()) {
+    r.lines_sound = false;
+    return r.refuse(value.at, fmt::format("{} \"{}\": on = {}; must be the name of a component in quotes",
+                                          section.kind->name, section.name, value.describe()));
+  }
+  r.scene.lines.push_back({value.text, {section.name}, value.at, {value.at}});
+}
+
+bool read_component(SceneReading& r, const DocumentEntry& entry) {
+  const std::string& name = entry.key;
+  // A slip of the pen in [effects] or [run], and no component at all.
+  const auto table_meant =
+      entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "sequence", "run", "branch"});
+  if (table_meant) {
+    r.refuse(entry.at,
+             fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
+    return false;
+  }
+  const Kind* kind = read_kind(entry.value, r.kinds, fmt::format("component \"{}\"", name), entry.at, r.messages);
+  if (!kind) return false;
+  DocumentValue table = entry.value;
+  table.at = entry.at;
+  // TOML gives every key to the table header above it: the commonest slip with `line`.
+  for (const DocumentEntry& inner : entry.value.entries)
+    if (is_top_key(inner)) {
+      r.refuse(inner.at,
+               fmt::format("{} \"{}\": \"{}\" stands in the table [{}]; move it above the first table of the file",
+                           kind->name, name, inner.key, name));
+      if (inner.key == "line") r.misplaced_line = &inner;
+    }
+  table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), is_top_key), table.entries.end());
+  const DocumentEntry* on = entry.value.find("on");
+  std::vector<std::string> read_elsewhere = {"kind"};
+  if (on || kind->placement == Placement::inline_one) read_elsewhere.push_back("on");
+  Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), r.messages,
+                                 read_elsewhere, r.allowed);
+  if (on) read_on(r, section, on->value);
+  r.index[name] = r.scene.components.size();
+  r.scene.components.push_back(std::move(section));
+  return true;
+}
+
+}  // namespace
+
+void read_components(SceneReading& r) {
+  for (const DocumentEntry& entry : r.document.entries) {
+    Deadline::check();
+    if (entry.key == "title" || entry.key == "description") {
+      if (entry.value.type != Type::text)
+        r.refuse(entry.value.at, fmt::format("{} = {}; must be a text in quotes", entry.key, entry.value.describe()));
+      if (entry.key == "title") r.scene.title = entry.value.text;
+      continue;
+    }
+    if (std::count(reserved_names().begin(), reserved_names().end(), entry.key)) continue;
+    const bool good_name = !entry.key.empty() &&
+                           entry.key.find_first_not_of(
+                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+    if (entry.value.type != Type::table) {
+      refuse_top_key(r, entry);
+    } else if (!good_name) {
+      r.refuse(entry.at,
+               fmt::format("component name {}: only letters, digits, _ and - are allowed", in_quotes(entry.key)));
+    } else if (read_component(r, entry)) {
+      continue;
+    }
+    r.unreadable.insert(entry.key);
+  }
+}
+
+}  // namespace kurbel

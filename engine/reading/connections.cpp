@@ -1,0 +1,148 @@
+// connections.cpp — whether lines and components fit together, and the order in which they count.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/reading/scene_reading.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+using Type = DocumentValue::Type;
+
+// "gearbox.out" → "gearbox".
+std::string component_of(const std::string& port) { return port.substr(0, port.find('.')); }
+
+void check_from(SceneReading& r, const Line& line, const std::vector<std::string>& names,
+                const std::map<std::string, Location>& placed) {
+  const std::string component = component_of(line.from);
+  const Section* section = r.find(component);
+  if (!section) {
+    if (!r.unreadable.count(component)) r.refuse(line.at, r.no_component(component, names));
+    return;
+  }
+  if (std::count(line.names.begin(), line.names.end(), component)) return;  // a ring; said below
+  if (!placed.count(component)) return;                                     // said elsewhere
+  const std::string port = line.from.size() > component.size() ? line.from.substr(component.size() + 1) : "";
+  const bool two = section->kind->placement == Placement::inline_two;
+  const std::vector<std::string>& more = section->kind->further_shafts;
+  if (two && port != "in" && port != "out" && !std::count(more.begin(), more.end(), port)) {
+    if (more.empty()) {
+      r.refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from),
+                                    section->kind->name, component, component, component));
+    } else {
+      std::vector<std::string> ports = {component + ".in", component + ".out"};
+      for (const std::string& other : more) ports.push_back(component + "." + other);
+      r.refuse(line.at, fmt::format("{}: {} \"{}\" has {} shafts; say {}", in_quotes(line.from), section->kind->name,
+                                    component, ports.size(), listed(ports)));
+    }
+  }
+  if (!two && component.size() != line.from.size())
+    r.refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name,
+                                  component, component));
+}
+
+void report_ring(SceneReading& r, std::size_t first, const std::map<std::string, std::size_t>& line_of) {
+  std::vector<std::string> from;
+  Location where = r.scene.lines[first].at;
+  std::size_t at = first;
+  do {
+    from.push_back(r.scene.lines[at].from);
+    where = std::min(where, r.scene.lines[at].at);
+    at = line_of.at(component_of(r.scene.lines[at].from));
+  } while (at != first);
+  if (from.size() == 1)
+    return r.refuse(where,
+                    fmt::format("the branch from \"{0}\" holds \"{0}\" itself; begin it at a component of another line",
+                                component_of(from.front())));
+  r.refuse(where,
+           fmt::format(
+               "the branches from {} hang on each other in a ring; begin one of them at a component of the main line",
+               shortened_list(from, "and")));
+}
+
+// Branches that hang on each other in a ring, apart from the main line: one message a ring.
+void check_rings(SceneReading& r) {
+  std::map<std::string, std::size_t> line_of;
+  for (std::size_t i = 0; i < r.scene.lines.size(); ++i)
+    for (const std::string& name : r.scene.lines[i].names) line_of.emplace(name, i);
+  std::vector<std::size_t> walk(r.scene.lines.size(), 0);  // number of the walk that passed here
+  for (std::size_t i = 0; i < r.scene.lines.size(); ++i) {
+    std::size_t at = i;
+    while (walk[at] == 0) {
+      walk[at] = i + 1;
+      const auto next = line_of.find(component_of(r.scene.lines[at].from));
+      if (r.scene.lines[at].from.empty() || next == line_of.end()) break;
+      at = next->second;
+      if (walk[at] == i + 1) report_ring(r, at, line_of);
+    }
+  }
+}
+
+}  // namespace
+
+// Every name exists, every component stands in one place, every branch begins somewhere.
+void check_connections(SceneReading& r) {
+  std::map<std::string, Location> placed;
+  std::set<std::string> meant;  // by a name mistyped elsewhere
+  const std::vector<std::string> names = r.component_names();
+  for (const Line& line : r.scene.lines)
+    for (std::size_t i = 0; i < line.names.size(); ++i) {
+      const std::string& name = line.names[i];
+      if (!r.find(name)) {
+        if (r.unreadable.count(name)) continue;
+        r.refuse(line.name_at[i], r.no_component(name, names));
+        if (r.explains())
+          if (const auto near = nearest(name, names)) meant.insert(*near);
+        continue;
+      }
+      if (const auto [first, fresh] = placed.emplace(name, line.name_at[i]); !fresh)
+        r.refuse(line.name_at[i],
+                 fmt::format("component \"{}\" is used twice (first at line {}); one component stands in one place",
+                             name, first->second.line));
+    }
+  for (const Line& line : r.scene.lines)
+    if (!line.from.empty()) check_from(r, line, names, placed);
+  for (const Section& section : r.scene.components)
+    if (r.lines_sound && !placed.count(section.name) && !meant.count(section.name))
+      r.refuse(section.at,
+               fmt::format(
+                   "{} \"{}\" is not connected; put it into `line` or a [[branch]]{}", section.kind->name, section.name,
+                   section.kind->placement == Placement::inline_two ? "" : ", or say on = \"component\" in its table"));
+  check_rings(r);
+}
+
+// The order of tables in the file must not change a single bit of a result: components are sorted along the main
+// line, then along the branches by their places of departure and names.
+void put_in_canonical_order(SceneReading& r) {
+  if (r.scene.lines.empty()) return;
+  std::sort(r.scene.lines.begin() + 1, r.scene.lines.end(),
+            [](const Line& a, const Line& b) { return a.from != b.from ? a.from < b.from : a.names < b.names; });
+  // A branch may begin at a branch: lines follow those they depart from, otherwise in sorted order.
+  std::multimap<std::string, std::size_t> waiting;
+  for (std::size_t i = 1; i < r.scene.lines.size(); ++i) waiting.emplace(component_of(r.scene.lines[i].from), i);
+  std::vector<Line> ordered;
+  std::set<std::size_t> ready = {0};
+  while (!ready.empty()) {
+    const Line& next = r.scene.lines[*ready.begin()];
+    ready.erase(ready.begin());
+    ordered.push_back(next);
+    for (const std::string& name : next.names) {
+      const auto [first, last] = waiting.equal_range(name);
+      for (auto it = first; it != last; ++it) ready.insert(it->second);
+      waiting.erase(first, last);
+    }
+  }
+  r.scene.lines = std::move(ordered);  // what is missing hangs in a ring or on nothing, and was refused
+  std::map<std::string, std::size_t> rank;
+  for (const Line& line : r.scene.lines)
+    for (const std::string& name : line.names) rank.emplace(name, rank.size() + 1);
+  std::stable_sort(r.scene.components.begin(), r.scene.components.end(),
+                   [&](const Section& a, const Section& b) { return rank[a.name] < rank[b.name]; });
+  for (std::size_t i = 0; i < r.scene.components.size(); ++i) r.index[r.scene.components[i].name] = i;
+}
+
+}  // namespace kurbel

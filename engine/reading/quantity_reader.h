@@ -1,0 +1,32 @@
+// quantity_reader.h — one number of a scene file: its unit, its domain, a size that can be computed with.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "engine/scene/document.h"
+#include "engine/scene/keys.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+
+// Sizes in SI units that can be computed with: products and quotients of ten such values are numbers still (1e±300).
+inline constexpr double least_size = 1e-30, greatest_size = 1e30;
+
+inline bool is_number(const DocumentValue& v) {
+  return v.type == DocumentValue::Type::integer || v.type == DocumentValue::Type::number;
+}
+inline bool is_whole(const DocumentValue& v) { return is_number(v) && v.number == std::floor(v.number); }  // 1e3 is
+
+// Value in SI of a text such as "4 kN*m"; false with a message if it is none or has another dimension than `unit`.
+bool read_quantity(const DocumentValue& value, const std::string& unit, const Domain& domain, const std::string& what,
+                   Messages& messages, double& result);
+
+// What must hold of a value in SI besides its domain, for its use to neither over- nor underflow; empty: it does.
+std::string size_allowed(double value, const Dimension& dimension, const Domain& domain);
+
+// The place of a fault within a text in quotes, by the bytes before it.
+Location place_within(const DocumentValue& text, std::size_t bytes);
+
+}  // namespace kurbel

@@ -1,0 +1,79 @@
+// read_scene.cpp — the parts of a scene's file in the order in which one needs the other; all errors at once.
+#include "engine/reading/read_scene.h"
+
+#include <fmt/format.h>
+
+#include "engine/model/build_network.h"
+#include "engine/model/network.h"
+#include "engine/reading/scene_reading.h"
+#include "engine/reading/sequence_reader.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+
+std::vector<std::string> SceneReading::component_names() const {
+  std::vector<std::string> names;
+  for (const Section& section : scene.components) names.push_back(section.name);
+  return names;
+}
+
+const Section* SceneReading::find(const std::string& name) const {
+  const auto found = index.find(name);
+  return found == index.end() ? nullptr : &scene.components[found->second];
+}
+
+bool SceneReading::explains() const {
+  constexpr std::size_t most_explained = 200;
+  return messages.all().size() < most_explained;
+}
+
+std::string SceneReading::no_component(const std::string& name, const std::vector<std::string>& names) const {
+  if (!explains()) return fmt::format("component {} has no table", in_quotes(name));
+  const bool bare =
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  return fmt::format("component {} has no table{}{}; tables here: {}", in_quotes(name),
+                     bare && name.size() < 40 ? fmt::format(" [{}]", name) : "", suggestion(name, names),
+                     names.empty() ? "none" : shortened_list(names, "and"));
+}
+
+namespace {
+
+void read_sequence_table(SceneReading& r) {
+  const DocumentEntry* sequence = r.document.find("sequence");
+  if (!sequence) return;
+  const auto is_component = [&](const std::string& name) { return r.find(name) != nullptr; };
+  r.scene.sequence = read_sequence(sequence->value, r.component_names(), is_component, r.messages);
+}
+
+// What building finds wrong with the parameters of a component is said together with what reading found; a file
+// without errors is built later, once.
+void try_components(SceneReading& r) {
+  for (const Section& section : r.scene.components) {
+    Network scratch;
+    if (section.sound) build_component(section, scratch, r.messages);
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed) {
+  SceneReading r{.kinds = kinds, .messages = Messages(file), .allowed = allowed, .document = parse_toml(text, file)};
+  r.scene.file = file;
+  r.scene.text = text;
+  read_components(r);
+  read_lines(r);
+  check_connections(r);
+  put_in_canonical_order(r);
+  read_effects(r);
+  read_sequence_table(r);
+  read_run(r);
+  if (!r.messages.empty()) try_components(r);
+  r.messages.throw_if_any();
+  return std::move(r.scene);
+}
+
+Scene read_scene(const std::string& path, const std::vector<Kind>& kinds, DataFiles allowed) {
+  return parse_scene(read_text_file(path, max_scene_bytes), path, kinds, allowed);
+}
+
+}  // namespace kurbel

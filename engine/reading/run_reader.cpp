@@ -1,0 +1,132 @@
+// run_reader.cpp — [run], with its start and its output.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "engine/reading/quantity_reader.h"
+#include "engine/reading/scene_reading.h"
+#include "engine/reading/section_reader.h"
+
+namespace kurbel {
+namespace {
+
+using Type = DocumentValue::Type;
+
+void read_output(SceneReading& r, const DocumentValue& value) {
+  if (value.type != Type::list)
+    return r.refuse(value.at, fmt::format("[run]: output = {}; must be a list of component names, e.g. [\"motor\"]",
+                                          value.describe()));
+  for (const DocumentValue& item : value.items) {
+    if (r.unreadable.count(item.text)) continue;
+    if (!r.find(item.text)) {
+      r.refuse(item.at, r.explains() ? fmt::format("[run]: output: {} is no component{}; allowed: {}", item.describe(),
+                                                   suggestion(item.text, r.component_names()),
+                                                   shortened_list(r.component_names()))
+                                     : fmt::format("[run]: output: {} is no component", item.describe()));
+      continue;
+    }
+    r.scene.run.output.push_back(item.text);
+  }
+}
+
+void read_component_start(SceneReading& r, const DocumentEntry& entry) {
+  ComponentStart start{.at = entry.at};
+  const Kind& kind = *r.find(entry.key)->kind;
+  const bool elastic = kind.elastic;
+  for (const DocumentEntry& e : entry.value.entries) {
+    double number = 0;
+    const std::string what = fmt::format("start: {}.{}", entry.key, e.key);
+    if (e.key == "angle" && !elastic) {
+      if (read_quantity(e.value, "rad", any_number, what, r.messages, number)) start.angle = number;
+    } else if (e.key == "speed" && !elastic) {
+      if (read_quantity(e.value, "rad/s", any_number, what, r.messages, number)) start.speed = number;
+    } else if (e.key == "twist" && elastic) {
+      if (read_quantity(e.value, "rad", any_number, what, r.messages, number)) start.twist = number;
+    } else {
+      r.refuse(e.at, fmt::format("start: {}: unknown key {}; a {} has {}", entry.key, in_quotes(e.key), kind.name,
+                                 elastic ? "a \"twist\" alone" : "\"angle\" and \"speed\""));
+    }
+  }
+  r.scene.run.start.components[entry.key] = start;
+}
+
+void read_start(SceneReading& r, const DocumentValue& value) {
+  StartSettings& start = r.scene.run.start;
+  start.at = value.at;
+  if (value.type == Type::text) {
+    start.equilibrium = value.text == "equilibrium";
+    if (!start.equilibrium && value.text != "rest")
+      r.refuse(value.at,
+               fmt::format(
+                   "[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}",
+                   value.describe()));
+    return;
+  }
+  if (value.type != Type::table)
+    return r.refuse(
+        value.at,
+        fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}",
+                    value.describe()));
+  for (const DocumentEntry& entry : value.entries) {
+    if (entry.key == "speed") {
+      read_quantity(entry.value, "rad/s", any_number, "start: speed", r.messages, start.speed);
+    } else if (entry.key == "angle") {
+      read_quantity(entry.value, "rad", any_number, "start: angle", r.messages, start.angle);
+    } else if (entry.key == "equilibrium") {
+      if (entry.value.type != Type::flag)
+        r.refuse(entry.value.at, fmt::format("start: equilibrium = {}; must be true or false", entry.value.describe()));
+      start.equilibrium = entry.value.flag;
+    } else if (entry.key == "on") {
+      start.on = entry.value.text;
+      if (!r.find(start.on) && !r.unreadable.count(start.on))
+        r.refuse(entry.value.at,
+                 fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(),
+                             suggestion(start.on, r.component_names()), shortened_list(r.component_names())));
+    } else if (r.find(entry.key) && entry.value.type == Type::table) {
+      read_component_start(r, entry);
+    } else if (r.find(entry.key)) {
+      r.refuse(entry.value.at,
+               fmt::format("start: {} = {}; must be a table such as {}", entry.key, entry.value.describe(),
+                           r.find(entry.key)->kind->elastic ? "{ twist = \"0.5 deg\" }" : "{ speed = \"300 rpm\" }"));
+    } else if (!r.unreadable.count(entry.key) && !r.explains()) {
+      r.refuse(entry.at, fmt::format("start: unknown key {}", in_quotes(entry.key)));
+    } else if (!r.unreadable.count(entry.key)) {
+      std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on"};
+      for (const std::string& name : r.component_names()) allowed.push_back(name);
+      r.refuse(entry.at, fmt::format("start: unknown key {}{}; allowed: {}", in_quotes(entry.key),
+                                     suggestion(entry.key, allowed), shortened_list(allowed, "and")));
+    }
+  }
+}
+
+}  // namespace
+
+void read_run(SceneReading& r) {
+  static const Kind run_kind{.name = "run", .keys = run_keys()};
+  DocumentValue empty;
+  empty.at = {1, 1};
+  const DocumentEntry* run = r.document.find("run");
+  if (run && run->value.type != Type::table)
+    return r.refuse(run->at,
+                    fmt::format("run = {}; must be a table, e.g. run = {{ until = \"3 s\" }}", run->value.describe()));
+  DocumentValue table = run ? run->value : empty;
+  if (run) table.at = run->at;
+  const Section section = read_section(table, run_kind, "run", "[run]", r.messages, {"start", "output"});
+  r.scene.run.until = section.number("until");
+  r.scene.run.accuracy = section.number("accuracy");
+  r.scene.run.method = section.text("method");
+  r.scene.run.model = section.text("model");
+  r.scene.run.method_at = section.where("method");
+  r.scene.run.model_at = section.where("model");
+  r.scene.run.samples = static_cast<int>(section.number("samples"));
+  r.scene.run.budget = section.number("budget");
+  if (section.sound) try {
+      check_method(r.scene.run.method, r.scene.run.model);
+    } catch (const std::invalid_argument& does_not_fit) {
+      r.refuse(section.where("method"), fmt::format("[run]: {}", does_not_fit.what()));
+    }
+  if (const DocumentEntry* start = table.find("start")) read_start(r, start->value);
+  if (const DocumentEntry* output = table.find("output")) read_output(r, output->value);
+}
+
+}  // namespace kurbel

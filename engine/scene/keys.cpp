@@ -1,0 +1,56 @@
+// keys.cpp — how domains and lists of names are told, and how a section's values are found.
+#include "engine/scene/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/scene/units.h"
+
+namespace kurbel {
+
+std::string Domain::describe(const std::string& unit) const {
+  const bool bounded_low = std::isfinite(low), bounded_high = std::isfinite(high);
+  if (bounded_low && bounded_high)
+    return low_open || high_open ? fmt::format("{} {} and {} {}", low_open ? ">" : "≥", low, high_open ? "<" : "≤",
+                                               with_unit(high, unit, 9))
+                                 : fmt::format("{} … {}", low, with_unit(high, unit, 9));
+  if (bounded_low) return fmt::format("{} {}", low_open ? ">" : "≥", with_unit(low, low == 0 ? "" : unit));
+  if (bounded_high) return fmt::format("{} {}", high_open ? "<" : "≤", with_unit(high, unit));
+  return "finite";
+}
+
+std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {
+  constexpr std::size_t most = 30;
+  if (names.size() <= most) return listed(names, conjunction);
+  const std::size_t more = names.size() - most;
+  names.resize(most);
+  return fmt::format("{} … and {} more", listed(names, ","), more);
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const auto near = nearest(word, names);
+  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+}
+
+std::string listed(const std::vector<std::string>& names, std::string_view conjunction) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? fmt::format(" {} ", conjunction) : ", ";
+    text += fmt::format("\"{}\"", names[i]);
+  }
+  return text;
+}
+
+const Setting* Section::find(std::string_view key) const {
+  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
+  return found == settings.end() ? nullptr : &*found;
+}
+
+const Setting& Section::operator[](std::string_view key) const {
+  if (const Setting* setting = find(key)) return *setting;
+  throw std::logic_error(fmt::format("section \"{}\" has no value for \"{}\"", name, key));
+}
+
+}  // namespace kurbel
