@@ -8,14 +8,14 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
 
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 double squared(double v) { return v * v; }
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double transverse_angle_of(const GearPairData& d) {
   return std::atan(std::tan(d.rack.pressure_angle) / std::cos(d.helix));
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
@@ -25,8 +26,6 @@ constexpr int block = 4;                 // vectors a step of the Krylov space
 constexpr double converged = 1e-10;      // residual of (A + s)⁻¹ x = θ x over θ
 constexpr double good_enough = 1e-10;    // backward error that is handed out at all
 constexpr double shift_of_free = 1e-12;  // s over the largest eigenvalue, where rigid motions make K singular
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // A = M^(−½) K M^(−½)
 SparseMatrix scaled_stiffness(const LinearDrive& drive) {

@@ -9,12 +9,11 @@
 #include <stdexcept>
 
 #include "engine/events/equations.h"
+#include "engine/numerics/index.h"
 #include "engine/rigid/rigid_machine.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 class Lineariser {
  public:

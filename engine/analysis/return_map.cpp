@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "engine/analysis/sensitivities.h"
+#include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
 
 namespace kurbel {
@@ -23,7 +24,6 @@ constexpr std::size_t most_unknowns = 400;  // the derivative is full
 constexpr double overlap = 0.02;            // of a round, by which the first run goes on
 constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 struct NamedPeriod {

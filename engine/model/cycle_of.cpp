@@ -6,13 +6,13 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr int most_turns = 24;  // of a cycle
-
-std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / m.scale_ratio[at_index(e.node)]);
+    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / m.scale_ratio[at(e.node)]);
   const auto repeats = [&](double cycle) {
     return std::all_of(period.begin(), period.end(),
                        [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });

@@ -7,11 +7,10 @@
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Goes from node to node, breadth first, and notes each one's speed relative to the first.
 class Walk {

@@ -8,11 +8,10 @@
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // The place of a node's angle among those that are tracked.
 int tracked(Model& m, int node) {

@@ -10,11 +10,10 @@
 #include <utility>
 
 #include "engine/numerics/elimination.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::string torque_name(const Network& network, const Network::Relation& relation, int k) {
   const Network::Node& node = network.nodes[at(relation.node[at(k)])];

@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "engine/model/compile_steps.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // What the machine's elements say of themselves, on the reduction link.
 struct Size {

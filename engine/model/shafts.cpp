@@ -6,11 +6,10 @@
 
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // A shaft a group, with the node that it is told for: a prescribed one, else the crank, else the first.
 std::vector<Shaft> gather_shafts(Compilation& c, const Merging& merging) {

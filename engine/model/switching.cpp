@@ -6,11 +6,10 @@
 
 #include "engine/model/compile_steps.h"
 #include "engine/model/no_element.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Which joints stay elastic, and what is told of those that do not.
 void switch_joints(Model& m) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
 #include "engine/numerics/roots.h"
 
@@ -21,8 +22,6 @@ constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts 
 constexpr double farthest = 1e-5;      // rad: where rounding hides what is ahead
 constexpr int cells_a_turn = 720;      // of the search for edges
 constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
-
-std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
 std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   if (!model->elastic.empty())
@@ -75,7 +74,7 @@ RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rig
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
-    if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[at_index(e.node)], e.phase});
+    if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
   const auto [cycle, periodic] = cycle_of(*model_);
   cycle_ = cycle;
   periodic_ = periodic;

@@ -7,12 +7,11 @@
 #include <cmath>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Peaks that differ by less are the same peak come again: the time of the first one counts.
 constexpr double same_peak = 1e-9;

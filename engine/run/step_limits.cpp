@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "engine/events/equations.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The elements behind states, with the Jacobian evaluated once.
 class Blame {

@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "engine/events/equations.h"
+#include "engine/numerics/index.h"
 #include "engine/rigid/rigid_machine.h"
 
 namespace kurbel {
@@ -16,8 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t many_shafts = 500;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Coordinate and gain of what an element sits on.
 struct Place {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "studies/run/simulate.h"
 
@@ -20,8 +21,6 @@ constexpr double pi = std::numbers::pi;
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
 constexpr int coarse_positions = 16;          // of the average at each speed of the sweep
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Study {
  public:

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/numerics/index.h"
 #include "engine/scene/units.h"
 #include "studies/findings/json_text.h"
 #include "studies/findings/text_table.h"
@@ -21,7 +22,6 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr double pi = std::numbers::pi;
 constexpr std::size_t shapes_shown = 6, lines_shown = 12, critical_shown = 16;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double rpm(double omega) { return omega * 30 / pi; }
 double hertz(double omega) { return omega / (2 * pi); }
 std::string number(double value, int digits = 6) {

@@ -9,14 +9,13 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // x′ and x″ of a slider, or of a rocker's angle, by the link's angle, from the model's own channels at ω = 1.
 class SliderRatio {

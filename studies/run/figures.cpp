@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/numerics/index.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<std::string> components_with_impacts(const Model& model) {
   constexpr std::string_view ending = ".contact";

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
 #include "studies/run/run_report.h"
@@ -17,8 +18,6 @@ constexpr std::size_t most_parts = 60;
 constexpr int places_of_turn = 240;  // straight between them: 1e-4 of the crank's radius
 constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Straight between the points; x ascends.
 double value_at(const Trace& trace, double x) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "mechanisms/linkages/multibody_run.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
@@ -17,8 +18,6 @@ namespace {
 
 // Simbody's closed loop gains nothing below this.
 constexpr double tightest_accuracy = 1e-11;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const MechanismMaker* only_mechanism(const Model& model) {
   const MechanismMaker* found = nullptr;

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/numerics/index.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
@@ -21,8 +22,6 @@
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
 constexpr int energy_checks = 60;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "studies/scenes/kinds.h"
@@ -17,7 +18,6 @@
 namespace kurbel {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double rpm(double speed) { return speed * 30 / std::numbers::pi; }
 
 const Kind& flywheel_kind() {

@@ -8,14 +8,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int scan_points = 250;      // over the rated range
 constexpr double scan_beyond = 1.25;  // of the rated speed
@@ -153,14 +152,14 @@ class SpeedLog final : public Observer {
   void see(const Snapshot& s, double time, const Model& m) {
     const int node = m.reduction_node;
     t.push_back(time);
-    w.push_back(m.gain_of_node[at_index(node)] * s.now.speed[m.shaft_of_node[at_index(node)]]);
+    w.push_back(m.gain_of_node[at(node)] * s.now.speed[m.shaft_of_node[at(node)]]);
   }
 };
 
 double link_start_angle(const Model& m) {
   const StartSettings& start = m.scene.run.start;
   const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
-  return start.angle / m.node_ratio[at_index(on)];
+  return start.angle / m.node_ratio[at(on)];
 }
 
 }  // namespace
@@ -172,9 +171,9 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   StartSettings settings{};
   settings.angle = link_start_angle(m);
   if (node < 0) node = m.reduction_node;
-  const double gain = m.gain_of_node[at_index(node)];
-  const double scale = m.speed_scale * m.scale_ratio[at_index(node)];
-  const std::size_t speed = equations.speed_index(m.shaft_of_node[at_index(node)]);
+  const double gain = m.gain_of_node[at(node)];
+  const double scale = m.speed_scale * m.scale_ratio[at(node)];
+  const std::size_t speed = equations.speed_index(m.shaft_of_node[at(node)]);
   RunOptions run{
       .tolerance = 1e-9, .method = "auto", .until = limit, .budget = 20, .interrupted = interrupted, .progress = {}};
   run.from = {0, equations.start(0, settings)};
@@ -187,7 +186,7 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   if (result.reached || !result.why.empty()) return result;
   result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
                            speed_text(target), with_unit(limit, "s", 4),
-                           speed_text(result.w.back() * m.node_ratio[at_index(node)]));
+                           speed_text(result.w.back() * m.node_ratio[at(node)]));
   return result;
 }
 
@@ -222,7 +221,7 @@ class RatioTrial {
     network_ = always_on(scene, ignored_);
     const auto model = compile_network(network_, scene, rigid_effects());
     node_ = network_.ports.at(gearbox_).out;
-    target_ *= model->node_ratio[at_index(node_)];
+    target_ *= model->node_ratio[at(node_)];
     present_ = 1;
     for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
   }
@@ -276,11 +275,11 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, doubl
     for (int i = 0; i < coarse_ratios && !(interrupted && interrupted->load()); ++i) {
       ratio.push_back(trial.present() * std::pow(8.0, 2.0 * i / (coarse_ratios - 1) - 1));
       time.push_back(trial(ratio.back()));
-      if (best < 0 || time.back() < time[at_index(best)]) best = i;
+      if (best < 0 || time.back() < time[at(best)]) best = i;
     }
-    if (best < 0 || !std::isfinite(time[at_index(best)])) continue;
-    double a = std::log(ratio[at_index(std::max(best - 1, 0))]);
-    double b = std::log(ratio[at_index(std::min(best + 1, static_cast<int>(ratio.size()) - 1))]);
+    if (best < 0 || !std::isfinite(time[at(best)])) continue;
+    double a = std::log(ratio[at(std::max(best - 1, 0))]);
+    double b = std::log(ratio[at(std::min(best + 1, static_cast<int>(ratio.size()) - 1))]);
     constexpr double golden = 0.6180339887498949;
     double c = b - golden * (b - a), d = a + golden * (b - a), tc = trial(std::exp(c)), td = trial(std::exp(d));
     for (int i = 0; i < fine_ratios && b - a > 1e-5 && !(interrupted && interrupted->load()); ++i) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/report.h"
@@ -19,8 +20,6 @@
 
 namespace kurbel {
 namespace {
-
-std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
 constexpr double enough = 1e-11;         // residual of the map, over the rated values
@@ -105,7 +104,7 @@ class DriveQuadratures final : public RunExtension {
     const Model& m = equations_.model();
     for (const Drive& drive : drives_) {
       const int node = m.network.elements[drive.elements.front()].node;
-      const double torque = m.torque_scale / m.scale_ratio[at_index(node)];
+      const double torque = m.torque_scale / m.scale_ratio[at(node)];
       control.scale.push_back(torque / m.speed_scale);  // per radian of the link
       control.scale.push_back(torque * torque / m.speed_scale);
     }
@@ -146,11 +145,11 @@ std::vector<NamedShaft> shafts_of(const Model& m) {
 std::vector<ExtremeOf> wanted_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
   for (const NamedShaft& shaft : shafts_of(m)) {
-    const int s = m.shaft_of_node[at_index(shaft.node)];
-    const double gain = m.gain_of_node[at_index(shaft.node)];
+    const int s = m.shaft_of_node[at(shaft.node)];
+    const double gain = m.gain_of_node[at(shaft.node)];
     ExtremeOf speed{.name = "max_speed." + shaft.name,
                     .unit = "rad/s",
-                    .scale = m.speed_scale * m.scale_ratio[at_index(shaft.node)],
+                    .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
                     .which = ExtremeOf::Which::maximum,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
@@ -219,7 +218,7 @@ class RoundFigures {
     add("cycle_time", time, "s", time);
     const std::vector<NamedShaft> shafts = shafts_of(m_);
     for (std::size_t i = 0; i < shafts.size(); ++i) {
-      ShaftFluctuation f{shafts[i].name, m_.node_ratio[at_index(shafts[i].node)], extremes_.found()[2 * i].value,
+      ShaftFluctuation f{shafts[i].name, m_.node_ratio[at(shafts[i].node)], extremes_.found()[2 * i].value,
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
         add("mean_speed." + f.shaft, f.mean(), "rad/s", m_.speed_scale);
@@ -361,7 +360,7 @@ class Search {
     const Model& m = *out_.model;
     const StartSettings& start = m.scene.run.start;
     const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
-    const double speed = start.speed / m.node_ratio[at_index(on)];
+    const double speed = start.speed / m.node_ratio[at(on)];
     if (speed != 0) return {speed, std::copysign(m.speed_scale, speed)};
     return {m.speed_scale, 0.7 * m.speed_scale};
   }
@@ -393,7 +392,7 @@ class Search {
   void choose_drive() {
     const Network& net = network_;
     added_node_ = compile_network(net, scene_, effects_)->reduction_node;
-    added_to_ = net.nodes[at_index(added_node_)].component;
+    added_to_ = net.nodes[at(added_node_)].component;
     for (const Network::ShaftElement& e : net.elements)
       if (e.element->account() == Account::driving && e.element->cycle() == 0) {
         added_node_ = e.node;
@@ -416,7 +415,7 @@ class Search {
       throw std::invalid_argument(
           "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
           "free; drop the option");
-    unit_ = out_.model->torque_scale / out_.model->scale_ratio[at_index(added_node_)];
+    unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
     ReturnMap::Image guess;
     for (const double faster : {1.0, 1.2, 1.5}) {  // a machine that just stops at its load's peak
       guess = map_->approach(faster * speed);
@@ -480,7 +479,7 @@ class Search {
     if (!study_.diagram) return 0;
     RigidMachine machine(compile_network(network_, scene_, rigid_effects()));
     const double net = MeanCharacteristic(machine, speed < 0 ? -1 : 1).at(speed).net();
-    return -net / machine.model().node_ratio[at_index(added_node_)];
+    return -net / machine.model().node_ratio[at(added_node_)];
   }
   void settle(const Eigen::VectorXd& x) {
     const double torque = x[x.size() - 1] * unit_;
@@ -654,7 +653,7 @@ class Study {
     const StartSettings& start = scene_.run.start;
     const int on =
         start.on.empty() || options_.mean_speed ? rigid_->reduction_node : rigid_->network.ports.at(start.on).in;
-    return speed / rigid_->node_ratio[at_index(on)] < 0 ? -1 : 1;
+    return speed / rigid_->node_ratio[at(on)] < 0 ? -1 : 1;
   }
   void refuse_family() const {
     if (out_.diagram && !out_.diagram->uses_speed && !options_.mean_speed)

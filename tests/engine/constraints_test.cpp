@@ -1,5 +1,6 @@
 // constraints_test.cpp — shafts that move together, with inertias far apart: against elimination with 34 digits.
 #include "engine/equations/constraints.h"
+#include "engine/numerics/index.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@ namespace {
 
 __extension__ typedef __float128 Quad;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 double magnitude(Quad x) { return std::abs(static_cast<double>(x)); }
 
 // A x = b by complete pivoting, rows and columns weighed to like size.

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "engine/events/equations.h"
+#include "engine/numerics/index.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double degree = M_PI / 180;
 
