@@ -25,10 +25,10 @@ double find_root(const std::function<double(double)>& f, double a, double fa, do
   return b;
 }
 
-Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps) {
+Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps, double enough) {
   constexpr double part = 0.38196601125010515;  // (3 − √5)/2
   double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
-  for (int i = 0; i < steps; ++i) {
+  for (int i = 0; i < steps && !(fx > enough || fy > enough); ++i) {
     if (fx > fy) {
       b = y, y = x, fy = fx;
       fx = f(x = a + part * (b - a));

@@ -2,6 +2,7 @@
 // greatest between two places.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 namespace kurbel {
@@ -10,10 +11,10 @@ namespace kurbel {
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
 
 // The place and value of the maximum of f in [a, b], where f rises to it and falls after it; by the golden section,
-// each of whose steps leaves 0.618 of the interval.
+// each of whose steps leaves 0.618 of the interval. More than `enough` ends the search.
 struct Maximum {
   double at = 0, value = 0;
 };
-Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps);
+Maximum find_maximum(const std::function<double(double)>& f, double a, double b, int steps, double enough = HUGE_VAL);
 
 }  // namespace kurbel

@@ -45,20 +45,9 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   return model;
 }
 
-// Smallest of f within [a, b] by the golden section, to a part in 10⁴ of the interval or until it is negative.
+// Where f is smallest within [a, b], to a part in 10⁸ of the interval, or where it is negative.
 double lowest(const std::function<double(double)>& f, double a, double b) {
-  constexpr double part = 0.38196601125010515;
-  double x = a + part * (b - a), y = b - part * (b - a), fx = f(x), fy = f(y);
-  for (int i = 0; i < 40 && fx >= below_zero && fy >= below_zero; ++i) {
-    if (fx < fy) {
-      b = y, y = x, fy = fx;
-      fx = f(x = a + part * (b - a));
-    } else {
-      a = x, x = y, fx = fy;
-      fy = f(y = b - part * (b - a));
-    }
-  }
-  return fx < fy ? x : y;
+  return find_maximum([&](double x) { return -f(x); }, a, b, 40, -below_zero).at;
 }
 
 }  // namespace

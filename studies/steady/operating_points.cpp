@@ -184,9 +184,9 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   const RunOutcome outcome = integrate(equations, run, {&log});
   StartRun result{outcome.stopped, outcome.t, std::move(log.t), std::move(log.w), outcome.diagnosis};
   if (result.reached || !result.why.empty()) return result;
-  result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
-                           speed_text(target), with_unit(limit, "s", 4),
-                           speed_text(result.w.back() * m.node_ratio[at(node)]));
+  result.why =
+      fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
+                  speed_text(target), with_unit(limit, "s", 4), speed_text(result.w.back() * m.node_ratio[at(node)]));
   return result;
 }
 
@@ -256,7 +256,7 @@ class RatioTrial {
 };
 
 constexpr int coarse_ratios = 25;  // from an eighth to eight times the present ratio
-constexpr int fine_ratios = 26;
+constexpr int fine_ratios = 22;    // steps of the golden section, to 1e-5 of the ratio
 
 }  // namespace
 
@@ -278,19 +278,10 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, doubl
       if (best < 0 || time.back() < time[at(best)]) best = i;
     }
     if (best < 0 || !std::isfinite(time[at(best)])) continue;
-    double a = std::log(ratio[at(std::max(best - 1, 0))]);
-    double b = std::log(ratio[at(std::min(best + 1, static_cast<int>(ratio.size()) - 1))]);
-    constexpr double golden = 0.6180339887498949;
-    double c = b - golden * (b - a), d = a + golden * (b - a), tc = trial(std::exp(c)), td = trial(std::exp(d));
-    for (int i = 0; i < fine_ratios && b - a > 1e-5 && !(interrupted && interrupted->load()); ++i) {
-      if (tc < td) {
-        b = d, d = c, td = tc;
-        tc = trial(std::exp(c = b - golden * (b - a)));
-      } else {
-        a = c, c = d, tc = td;
-        td = trial(std::exp(d = a + golden * (b - a)));
-      }
-    }
+    const double a = std::log(ratio[at(std::max(best - 1, 0))]);
+    const double b = std::log(ratio[at(std::min(best + 1, static_cast<int>(ratio.size()) - 1))]);
+    const auto quickness = [&](double logarithm) { return -trial(std::exp(logarithm)); };
+    if (!(interrupted && interrupted->load())) find_maximum(quickness, a, b, fine_ratios);
     search.at_bound = best == 0 || best + 1 == static_cast<int>(ratio.size());
     search.best_time = HUGE_VAL;
     for (const auto& [r, t] : trial.tried()) {
