@@ -20,6 +20,7 @@
 #include <string>
 
 #include "engine/elements/element.h"
+#include "engine/elements/stribeck.h"
 #include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
@@ -35,11 +36,9 @@ struct StribeckCurve {
   // g(v), v = |ω|; constant for v ≤ 0, where trial steps come.
   template <class T>
   T dry(const T& v) const {
-    using std::exp;
-    using std::pow;
     if (!falls()) return T(kinetic);
     if (value_of(v) <= 0) return T(breakaway);
-    return kinetic + (breakaway - kinetic) * exp(-pow(v / stribeck_speed, exponent));
+    return stribeck(v, kinetic, breakaway, stribeck_speed, exponent);
   }
   // Over a speed; at ω_s = 0 it falls as soon as the bearing moves.
   bool falls() const { return breakaway != kinetic && stribeck_speed > 0; }
