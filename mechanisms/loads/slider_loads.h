@@ -284,7 +284,89 @@ struct SliderLoad {
     return rounded_table ? rounded_table->period : 0;
   }
   double greatest_force() const;
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return std::visit([&](const auto& l) { return T(l.value(s)); }, law);
+  }
+  Hold hold(const SliderState<double>& s) const;  // none where the law has none
+
+  // Events: where the law has pieces, each lies between two guards, and the mode is the piece that is in force.
+  bool has_pieces() const {
+    return std::visit([](const auto& l) { return in_pieces<std::decay_t<decltype(l)>>; }, law);
+  }
+  void guard(const SliderState<double>& s, double* g) const;             // both ends of the piece
+  int next_piece(const SliderState<double>& s, int which) const;         // behind that end
+  std::string piece_name(const SliderState<double>& s) const;            // for people
+  void take_first_piece(const SliderState<double>& s, int& mode) const;  // where the slider is
+  // The other branch, when the slider turns back within its stroke.
+  bool follows_travel() const;
+  void follow_travel(const SliderState<double>& s, int& mode) const;
+
+  template <class L>
+  static constexpr bool in_pieces = requires(const L& l, SliderState<double> s) {
+    l.first_mode(s);
+  };
+  template <class L>
+  static constexpr bool turns_back = requires(const L& l, SliderState<double> s) {
+    l.turned_mode(s);
+  };
 };
+
+inline Hold SliderLoad::hold(const SliderState<double>& s) const {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.hold(s); }) return l.hold(s);
+        return Hold{};
+      },
+      law);
+}
+
+inline void SliderLoad::guard(const SliderState<double>& s, double* g) const {
+  std::visit(
+      [&](const auto& l) {
+        if constexpr (in_pieces<std::decay_t<decltype(l)>>) l.guard(s, g);
+      },
+      law);
+}
+
+inline int SliderLoad::next_piece(const SliderState<double>& s, int which) const {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (in_pieces<std::decay_t<decltype(l)>>) return l.next_mode(s, which);
+        return s.mode;
+      },
+      law);
+}
+
+inline std::string SliderLoad::piece_name(const SliderState<double>& s) const {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (in_pieces<std::decay_t<decltype(l)>>) return l.mode_name(s);
+        return std::string{};
+      },
+      law);
+}
+
+inline void SliderLoad::take_first_piece(const SliderState<double>& s, int& mode) const {
+  std::visit(
+      [&](const auto& l) {
+        if constexpr (in_pieces<std::decay_t<decltype(l)>>) mode = l.first_mode(s);
+      },
+      law);
+}
+
+inline bool SliderLoad::follows_travel() const {
+  return std::visit([](const auto& l) { return turns_back<std::decay_t<decltype(l)>>; }, law);
+}
+
+inline void SliderLoad::follow_travel(const SliderState<double>& s, int& mode) const {
+  std::visit(
+      [&](const auto& l) {
+        if constexpr (turns_back<std::decay_t<decltype(l)>>) mode = l.turned_mode(s);
+      },
+      law);
+}
 
 inline bool SliderLoad::can_be_rounded() const {
   if (!(rounding > 0)) return false;

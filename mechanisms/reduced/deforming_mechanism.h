@@ -39,6 +39,8 @@ class DeformingMechanismMaker final : public MechanismMaker {
 // Degrees of freedom of a model that mechanisms have besides their cranks.
 std::size_t further_coordinates(const Model& model);
 
+std::string joint_word(const JointClearance& joint);  // "crank_pin", for the names of states and channels
+
 // Modes of a placed one: sign of the slider's speed (or that it creeps), the piece of each load, each contact.
 class DeformingMechanismPool final : public ElementPool {
  public:
@@ -100,6 +102,9 @@ class DeformingMechanismPool final : public ElementPool {
   Vector reactions(const Placed& p, const Snapshot& s) const;
   template <class T>
   SliderState<T> slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
+  // A slider that finds no rest under loads that turn with its travel creeps: they go over from one sense to the other
+  // as tanh(v/v₀), v₀ the creep speed, and take up their branches again beyond a few v₀.
+  static constexpr int creeps = 2;             // in place of ±1 as the sense of travel
   static double creep_speed(const Placed& p);  // [m/s]
   template <class T>
   T force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;

@@ -1,0 +1,366 @@
+// mechanism_pool.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/equations/jam.h"
+#include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/reduced/mechanism.h"
+
+namespace kurbel {
+namespace {
+
+// The end of the travel that the output has just left.
+const char* name_of_reversal(const Mechanism& m, bool now_growing) {
+  if (m.travel.reversals.size() > 2) return "output turns round";
+  if (m.rocks()) return now_growing ? "least angle" : "greatest angle";
+  return now_growing ? "folded dead centre" : "extended dead centre";
+}
+
+double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
+
+}  // namespace
+
+void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
+  Placed placed{std::move(mechanism), std::move(at)};
+  placed.has_weight = placed.mechanism.has_weight();
+  placed.output_scale = placed.mechanism.output_scale();
+  placed.watches_travel = placed.mechanism.joint_friction;  // the guide's friction turns round with the slider
+  reacts_ = reacts_ || placed.mechanism.joint_friction;
+  for (const SliderLoad& load : placed.mechanism.loads)
+    placed.watches_travel = placed.watches_travel || load.depends_on_travel();
+  const std::size_t index = placed_.size();
+  if (placed.watches_travel) owners_.push_back({index, -1, 0});
+  for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
+    if (placed.mechanism.loads[k].has_pieces())
+      for (const int which : {0, 1}) owners_.push_back({index, static_cast<int>(k), which});
+  guards_ = static_cast<int>(owners_.size());
+  placed_.push_back(std::move(placed));
+}
+
+SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, std::size_t load) const {
+  const double phi = angle_of(p.at, now), omega = p.at.gain * now.speed[p.at.shaft];
+  const auto here = p.mechanism.reduced->at(phi);
+  const auto [x, ratio] = here.output_position();
+  const int travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (ratio * omega >= 0 ? 1 : -1);
+  return {phi, x, ratio * omega, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
+}
+
+MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
+  const Mechanism& m = p.mechanism;
+  if (m.in_the_loop) {
+    const ReducedSample s = m.extraction == Extraction::first ? m.bodies->sample(phi) : closed_sample(m.data, phi);
+    const bool mean = m.mean_inertia;
+    return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope, s.output_position,
+            s.output_velocity_ratio, s.gravity_torque};
+  }
+  const auto here = m.reduced->at(phi);
+  Reduced at{m.travel.mean_inertia, 0, 0, 0, 0};
+  if (!m.mean_inertia) {
+    const auto [inertia, slope] = here.inertia();
+    at.inertia = inertia, at.inertia_slope = slope;
+  }
+  if (p.has_weight) at.weight = here.gravity_torque().value;
+  if (!m.loads.empty()) {
+    const auto [x, ratio] = here.output_position();
+    at.position = x, at.ratio = ratio;
+  }
+  return at;
+}
+
+double MechanismPool::load_force(const Placed& p, const Instant& now) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    const SliderState<double> s = slider(p, now, k);
+    sum += p.mechanism.loads[k].value(s);
+  }
+  return sum;
+}
+
+void MechanismPool::add(const Instant& now, Sums& sums) const {
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft];
+    const double phi = angle_of(p.at, now);
+    const Reduced here = reduced_at(p, phi);
+    const double inertia = here.inertia;
+    double torque = -0.5 * here.inertia_slope * omega * omega;
+    if (p.has_weight) {
+      torque += here.weight;
+      if (sums.work_rate) sums.work_rate[p.at.account] += here.weight * omega;
+    }
+    if (!p.mechanism.loads.empty()) {
+      const double x = here.position, ratio = here.ratio;
+      SliderState<double> s{phi, x, ratio * omega, 0, 0};
+      s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (s.v >= 0 ? 1 : -1);
+      for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+        s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
+        const double force = p.mechanism.loads[k].value(s);
+        torque += force * ratio;
+        if (sums.work_rate) sums.work_rate[p.at.account + 1 + static_cast<int>(k)] += force * s.v;
+      }
+    }
+    sums.element_torque[p.at.id] = torque;
+    sums.element_inertia[p.at.id] = inertia;
+    sums.torque[p.at.shaft] += p.at.gain * torque;
+    sums.inertia[p.at.shaft] += p.at.gain * p.at.gain * inertia;
+  }
+}
+
+// All loads at another angle and speed, with the modes that hold.
+double MechanismPool::load_force(const Placed& p, const Instant& now, double phi, double omega) const {
+  const auto [x, ratio] = p.mechanism.reduced->at(phi).output_position();
+  double sum = 0;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    SliderState<double> s = slider(p, now, k);
+    s.phi = phi, s.x = x, s.v = ratio * omega;
+    sum += p.mechanism.loads[k].value(s);
+  }
+  return sum;
+}
+
+// --- joint friction: −M_f(φ, ω, ε, F) on the crank, found together with ε (slider_crank_forces.h) ---
+
+CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha) const {
+  return {angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft], p.at.gain * alpha[p.at.shaft], load_force(p, now),
+          p.at.direction(now)};
+}
+
+struct MechanismPool::FrictionMemory final : ElementPool::Memory {
+  std::vector<SliderCrankStatics::Memory> of;  // per mechanism
+  void begin() override {
+    for (SliderCrankStatics::Memory& memory : of) memory.forget();
+  }
+};
+
+std::unique_ptr<ElementPool::Memory> MechanismPool::make_memory() const {
+  auto memory = std::make_unique<FrictionMemory>();
+  memory->of.resize(placed_.size());
+  return memory;
+}
+
+SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state,
+                                                                  SliderCrankStatics::Memory* memory) {
+  // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
+  if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.slider_force))
+    throw Jam("slider-crank: no finite motion to find its joints' friction by", p.at.shaft);
+  try {
+    return memory ? p.mechanism.joints->friction_torque(state, *memory) : p.mechanism.joints->friction_torque(state);
+  } catch (Jam& jam) {
+    jam.shaft = p.at.shaft;
+    throw;
+  }
+}
+
+void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const {
+  auto* const friction = static_cast<FrictionMemory*>(memory);
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
+    if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
+    const CrankState state = crank_state(p, now, alpha);
+    const auto [torque, slope] = friction_torque(p, state, friction ? &friction->of[k] : nullptr);
+    sums.torque[p.at.shaft] -= p.at.gain * torque;
+    sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
+    sums.element_torque[p.at.id] -= torque;
+    if (sums.work_rate)
+      sums.work_rate[p.at.account + 1 + static_cast<int>(p.mechanism.loads.size())] -= torque * state.omega;
+  }
+}
+
+// By central differences at the acceleration that was found: the friction laws have kinks, their pieces are smooth.
+void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha,
+                                          double* slots) const {
+  if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) return;
+  const CrankState here = crank_state(p, now, alpha);
+  const auto torque = [&](double phi, double omega) {
+    CrankState s = here;
+    s.phi = phi, s.omega = omega, s.slider_force = load_force(p, now, phi, omega);
+    return friction_torque(p, s, nullptr).torque;
+  };
+  constexpr double step = 1e-6;
+  const double speed_step = step * std::max(1.0, std::abs(here.omega));
+  slots[p.slot_angle] -=
+      p.at.gain * (torque(here.phi + step, here.omega) - torque(here.phi - step, here.omega)) / (2 * step);
+  slots[p.slot_rate] -= p.at.gain * p.at.gain *
+                        (torque(here.phi, here.omega + speed_step) - torque(here.phi, here.omega - speed_step)) /
+                        (2 * speed_step);
+}
+
+// Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction. What
+// loads can hold against the slider presses on the joints as well: each end of it widens what friction holds.
+Hold MechanismPool::friction_hold(const Placed& p, const Instant& now) const {
+  const double phi = angle_of(p.at, now), force = load_force(p, now);
+  const Hold held = load_hold(p, now);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double at_rest : {force, force + held.low, force + held.high}) {
+    const auto bounds = p.mechanism.joints->resting_torque(phi, at_rest);
+    low = std::min(low, bounds.low);
+    high = std::max(high, bounds.high);
+  }
+  const double free = p.mechanism.joints->solve_frictionless({.phi = phi, .slider_force = force}).torque;
+  const double most = 1e6 * (1 + std::abs(free) + std::abs(force) * p.output_scale);  // locks itself
+  return {-std::min(high - free, most), std::min(free - low, most)};
+}
+
+void MechanismPool::register_jacobian(JacobianPattern& pattern) {
+  for (Placed& p : placed_) {
+    const int speed = pattern.speed(p.at.shaft);
+    p.slot_angle = pattern.entry(speed, pattern.angle(p.at.angle));
+    p.slot_rate = pattern.entry(speed, speed);
+  }
+}
+
+void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double* slots) const {
+  using D = Dual<2>;  // by crank angle and crank speed
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft], phi = angle_of(p.at, now);
+    const auto here = p.mechanism.reduced->at(phi);
+    auto [slope, curvature] = here.inertia_derivative();
+    if (p.mechanism.mean_inertia) slope = curvature = 0;
+    const D angle = D::input(phi, 0), speed = D::input(omega, 1);
+    D torque = -0.5 * angle.chain(slope, curvature) * speed * speed;
+    if (p.has_weight) {
+      const auto weight = here.gravity_torque();
+      torque = torque + angle.chain(weight.value, weight.slope);
+    }
+    const auto [x, ratio] = here.output_position();
+    const D x_ratio = angle.chain(ratio, here.output_velocity().slope);
+    const D v = x_ratio * speed;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+      const SliderState<double> s = slider(p, now, k);
+      const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
+      torque = torque + p.mechanism.loads[k].value(dual) * x_ratio;
+    }
+    slots[p.slot_angle] += p.at.gain * (torque.d[0] - slope * p.at.gain * alpha[p.at.shaft]);
+    slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
+    add_friction_jacobian(p, now, alpha, slots);
+  }
+}
+
+void MechanismPool::guards(const Instant& now, double* g) const {
+  for (std::size_t i = 0; i < owners_.size(); ++i) {
+    const GuardOwner& owner = owners_[i];
+    const Placed& p = placed_[owner.placed];
+    if (owner.load < 0) {
+      const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
+      g[i] = now.mode[p.at.mode] * ratio / p.output_scale;
+      continue;
+    }
+    const auto load = static_cast<std::size_t>(owner.load);
+    p.mechanism.loads[load].guard(slider(p, now, load), g + i);
+    ++i;  // both ends of the piece were written
+  }
+}
+
+void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
+  const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
+  const Placed& p = placed_[owner.placed];
+  if (owner.load >= 0) {
+    const auto load = static_cast<std::size_t>(owner.load);
+    mode[p.at.mode + 1 + owner.load] = p.mechanism.loads[load].next_piece(slider(p, now, load), owner.which);
+    return;
+  }
+  // Dead centre: the slider turns round, and each load takes up the branch of the other stroke.
+  mode[p.at.mode] = -mode[p.at.mode];
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    if (!p.mechanism.loads[k].depends_on_travel()) continue;
+    SliderState<double> s = slider(p, now, k);
+    s.travel = mode[p.at.mode] * p.at.direction(now);
+    p.mechanism.loads[k].take_first_piece(s, mode[p.at.mode + 1 + static_cast<int>(k)]);
+  }
+}
+
+GuardLabel MechanismPool::label(int guard, const Instant& now) const {
+  const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
+  const Placed& p = placed_[owner.placed];
+  if (owner.load < 0)
+    return {p.mechanism.name, name_of_reversal(p.mechanism, now.mode[p.at.mode] * p.at.direction(now) > 0)};
+  const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
+  SliderState<double> s{};
+  s.mode = now.mode[p.at.mode + 1 + owner.load];
+  return {load.name, load.piece_name(s)};
+}
+
+void MechanismPool::first_modes(const Instant& now, int* mode) const {
+  for (const Placed& p : placed_) {
+    const auto here = p.mechanism.reduced->at(angle_of(p.at, now));
+    double ratio = here.output_position().slope;
+    // On a dead centre the sign is that of the motion to come.
+    if (std::abs(ratio) < 1e-12 * p.output_scale)
+      ratio = here.output_velocity().slope * (p.at.direction(now) >= 0 ? 1 : -1);
+    mode[p.at.mode] = ratio >= 0 ? 1 : -1;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
+      p.mechanism.loads[k].take_first_piece(slider(p, now, k), mode[p.at.mode + 1 + static_cast<int>(k)]);
+  }
+}
+
+// A crank that turns back within its stroke takes its loads onto the branch of the other sense of travel: while they do
+// not resist, their pieces are not watched, and on a branch of its own pieces lie elsewhere.
+void MechanismPool::follow_directions(const Instant& now, int* mode) const {
+  for (const Placed& p : placed_) {
+    if (!p.watches_travel) continue;
+    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
+      if (p.mechanism.loads[k].follows_travel())
+        p.mechanism.loads[k].follow_travel(slider(p, now, k), mode[p.at.mode + 1 + static_cast<int>(k)]);
+  }
+}
+
+// Forces that the loads can hold against the output, besides what they exert there.
+Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
+  Hold sum;
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    const Hold force = p.mechanism.loads[k].hold(slider(p, now, k));
+    sum.low += force.low;
+    sum.high += force.high;
+  }
+  return sum;
+}
+
+void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) const {
+  for (const Placed& p : placed_) {
+    Hold hold;
+    if (p.mechanism.joint_friction) {
+      hold = friction_hold(p, now);
+    } else {
+      const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
+      const Hold force = load_hold(p, now);
+      hold = ratio >= 0 ? Hold{force.low * ratio, force.high * ratio} : Hold{force.high * ratio, force.low * ratio};
+    }
+    element[p.at.id].low += hold.low;
+    element[p.at.id].high += hold.high;
+    p.at.add_hold(hold, shaft);
+  }
+}
+
+double MechanismPool::kinetic_energy_of_bodies(const Instant& now) const {
+  double sum = 0;
+  for (const Placed& p : placed_) {
+    const double omega = p.at.gain * now.speed[p.at.shaft];
+    sum += p.mechanism.mean_inertia ? 0.5 * p.mechanism.travel.mean_inertia * omega * omega
+                                    : p.mechanism.bodies->kinetic_energy(angle_of(p.at, now), omega);
+  }
+  return sum;
+}
+
+void MechanismPool::add_channels(std::vector<Channel>& channels) const {
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const auto here = [this, i](const Snapshot& s) {
+      return placed_[i].mechanism.reduced->at(angle_of(placed_[i].at, s.now));
+    };
+    const auto omega = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.now.speed[placed_[i].at.shaft]; };
+    const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
+    const std::string& name = placed_[i].mechanism.name;
+    const bool rocks = placed_[i].mechanism.rocks();
+    channels.push_back({"position." + name, rocks ? "rad" : "m",
+                        [here](const Snapshot& s) { return here(s).output_position().value; }});
+    channels.push_back({"velocity." + name, rocks ? "rad/s" : "m/s",
+                        [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); }});
+    channels.push_back({"acceleration." + name, rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
+                          const auto [ratio, second] = here(s).output_velocity();
+                          return second * omega(s) * omega(s) + ratio * alpha(s);
+                        }});
+    if (!placed_[i].mechanism.loads.empty())
+      channels.push_back({(rocks ? "load_torque." : "force.") + name, rocks ? "N*m" : "N",
+                          [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
+  }
+}
+
+}  // namespace kurbel
