@@ -9,6 +9,7 @@
 #include "engine/equations/constraints.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
+#include "tests/support/jacobians.h"
 
 namespace kurbel {
 namespace {
@@ -141,26 +142,15 @@ TEST(ContactsBackwards, JacobianOfACreepingClutchBehindGearsEqualsDifferences) {
       const double creep =
           1e-4 * std::abs(m.elastic[0].gain_a) * m.shafts[static_cast<std::size_t>(m.elastic[0].shaft_a)].speed_scale;
       y[equations.speed_index(m.elastic[0].shaft_a)] += slip * creep / m.elastic[0].gain_a;
-      const SparsityPattern& pattern = equations.jacobian_pattern();
-      std::vector<double> values(pattern.row.size()), up(y.size()), down(y.size());
-      equations.jacobian(0, y, values);
-      for (std::size_t shaft = 0; shaft < m.free_shafts; ++shaft) {
-        const std::size_t column = equations.speed_index(static_cast<int>(shaft));
-        std::vector<double> moved = y;
-        const double h = 1e-4 * creep;
-        moved[column] = y[column] + h, equations.flow(0, moved, up);
-        moved[column] = y[column] - h, equations.flow(0, moved, down);
+      const test::Slopes slopes = test::slopes_of(equations, 0, y, std::vector<double>(y.size(), 1e-4 * creep));
+      for (std::size_t shaft = 0; shaft < m.free_shafts; ++shaft)
         for (std::size_t other = 0; other < m.free_shafts; ++other) {
-          const std::size_t row = equations.speed_index(static_cast<int>(other));
-          double exact = 0;
-          for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
-            if (pattern.row[static_cast<std::size_t>(k)] == static_cast<std::int64_t>(row))
-              exact = values[static_cast<std::size_t>(k)];
-          const double difference = (up[row] - down[row]) / (2 * h);
+          const std::size_t column = equations.speed_index(static_cast<int>(shaft)),
+                            row = equations.speed_index(static_cast<int>(other));
+          const double difference = slopes.difference_at(row, column);
           EXPECT_GT(std::abs(difference), 1);
-          EXPECT_NEAR(exact, difference, 1e-5 * std::abs(difference));
+          EXPECT_NEAR(slopes.exact_at(row, column), difference, 1e-5 * std::abs(difference));
         }
-      }
     }
 }
 

@@ -8,6 +8,7 @@
 #include "engine/equations/constraints.h"
 #include "engine/events/equations.h"
 #include "engine/model/model.h"
+#include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -272,32 +273,18 @@ const char* const clutched = R"(
 TEST(Contacts, JacobianEqualsDifferencesInEveryMode) {
   const Scene scene = test::scene_from(clutched);
   Equations equations(compile(scene, scene.effects), false);
-  std::vector<double> y = equations.start(0), up(y.size()), down(y.size());
-  const SparsityPattern& pattern = equations.jacobian_pattern();
-  std::vector<double> values(pattern.row.size());
-  const ErrorControl control = equations.error_control(1);
+  equations.start(0);
   for (const auto& [clutch, brake] :
        {std::pair(1.0, 1.0), std::pair(0.0, 1.0), std::pair(0.0, 0.0), std::pair(1.0, 0.0)}) {
-    // ModesStudy are set by speeds: equal speeds tie, rest holds.
-    const std::size_t w = equations.speed_index(0);
-    std::vector<double> speed = {30, 30, clutch ? 30 - 7 : 30.0, brake ? 20 : 0.0};
-    std::vector<double> twist = {0.02, 0, 0.004};
-    y = equations.state_of(0, 0, twist, speed);
-    equations.jacobian(0.01, y, values);
-    for (std::size_t column = 0; column < y.size(); ++column) {
-      const double h = 1e-6 * control.scale[column];
-      std::vector<double> a = y, b = y;
-      a[column] += h;
-      b[column] -= h;
-      equations.flow(0.01, a, up);
-      equations.flow(0.01, b, down);
-      std::vector<double> exact(y.size(), 0.0);
-      for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
-        exact[static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)])] = values[static_cast<std::size_t>(k)];
-      for (std::size_t row = w; row < y.size(); ++row)
-        EXPECT_NEAR(exact[row], (up[row] - down[row]) / (2 * h), 1e-6 * (1 + std::abs(exact[row])))
+    // Modes are set by speeds: equal speeds tie, rest holds.
+    const std::vector<double> speed = {30, 30, clutch ? 30 - 7 : 30.0, brake ? 20 : 0.0}, twist = {0.02, 0, 0.004};
+    const std::vector<double> y = equations.state_of(0, 0, twist, speed);
+    const test::Slopes slopes = test::slopes_of(equations, 0.01, y, 1e-6);
+    for (std::size_t column = 0; column < y.size(); ++column)
+      for (std::size_t row = equations.speed_index(0); row < y.size(); ++row)
+        EXPECT_NEAR(slopes.exact_at(row, column), slopes.difference_at(row, column),
+                    1e-6 * (1 + std::abs(slopes.exact_at(row, column))))
             << "clutch slips " << clutch << " brake slips " << brake << " row " << row << " column " << column;
-    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "studies/run/compare.h"
+#include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -113,34 +114,9 @@ TEST_P(JacobianOf, EqualsDifferences) {
       std::string(GetParam()).find('\n') == std::string::npos ? test::scene_file(GetParam()) : scene_from(GetParam());
   Equations equations(compile(scene, scene.effects), false);
   const std::vector<double> y = moved_state(equations);
-  const std::size_t n = equations.size();
-  const SparsityPattern& pattern = equations.jacobian_pattern();
-  std::vector<double> values(pattern.row.size()), dense(n * n, 0.0);
-  equations.jacobian(0.1, y, values);
-  for (std::size_t c = 0; c < n; ++c)
-    for (auto k = static_cast<std::size_t>(pattern.column_start[c]);
-         k < static_cast<std::size_t>(pattern.column_start[c + 1]); ++k)
-      dense[static_cast<std::size_t>(pattern.row[k]) * n + c] += values[k];
-  const ErrorControl control = equations.error_control(1);
-  std::vector<double> up(n), down(n), difference(n * n);
-  for (std::size_t c = 0; c < n; ++c) {
-    const double h = 1e-6 * control.scale[c];
-    std::vector<double> shifted = y;
-    shifted[c] = y[c] + h;
-    equations.flow(0.1, shifted, up);
-    shifted[c] = y[c] - h;
-    equations.flow(0.1, shifted, down);
-    for (std::size_t r = 0; r < n; ++r) difference[r * n + c] = (up[r] - down[r]) / (2 * h);
-  }
-  for (std::size_t r = 0; r < n; ++r) {
-    double row_scale = 0;
-    for (std::size_t c = 0; c < n; ++c)
-      row_scale = std::max(row_scale, std::abs(difference[r * n + c] * control.scale[c]));
-    for (std::size_t c = 0; c < n; ++c)
-      EXPECT_NEAR(dense[r * n + c] * control.scale[c], difference[r * n + c] * control.scale[c], 2e-7 * row_scale)
-          << equations.state_name(r) << " by " << equations.state_name(c);
-  }
+  test::expect_exact(test::slopes_of(equations, 0.1, y, 1e-6), equations, 2e-7);
 }
+
 INSTANTIATE_TEST_SUITE_P(Scenes, JacobianOf,
                          ::testing::Values("scenes/crank_press.toml", "scenes/driven_slider_crank.toml",
                                            "scenes/four_bar_rocker.toml", "scenes/knuckle_press.toml",

@@ -5,6 +5,7 @@
 
 #include "engine/events/equations.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -67,21 +68,13 @@ TEST(JointFrictionEffect, AccelerationIsThatOfTheImplicitEquation) {
 TEST(JointFrictionEffect, JacobianEqualsDifferences) {
   const Scene scene = test::scene_from(crank("joint_friction = true", "until = \"1 s\""));
   Equations equations(compile(scene, scene.effects), false);
-  const SparsityPattern& pattern = equations.jacobian_pattern();
   for (const double phi : {0.4, 1.0, 2.2, 4.0, 5.5}) {
-    std::vector<double> y = equations.modes_from_scratch(0, phi, 20);
-    std::vector<double> values(pattern.row.size());
-    equations.jacobian(0, y, values);
-    for (std::size_t column = 0; column < pattern.size; ++column)
-      for (auto i = pattern.column_start[column]; i < pattern.column_start[column + 1]; ++i) {
-        const auto row = static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(i)]);
-        std::vector<double> up = y, down = y, fu(y.size()), fd(y.size());
-        const double h = 1e-5;
-        up[column] += h, down[column] -= h;
-        equations.flow(0, up, fu);
-        equations.flow(0, down, fd);
-        const double slope = (fu[row] - fd[row]) / (2 * h);
-        EXPECT_NEAR(values[static_cast<std::size_t>(i)], slope, 1e-5 * (1 + std::abs(slope))) << phi;
+    const std::vector<double> y = equations.modes_from_scratch(0, phi, 20);
+    const test::Slopes slopes = test::slopes_of(equations, 0, y, std::vector<double>(y.size(), 1e-5));
+    for (std::size_t row = 0; row < y.size(); ++row)
+      for (std::size_t column = 0; column < y.size(); ++column) {
+        const double slope = slopes.difference_at(row, column);
+        EXPECT_NEAR(slopes.exact_at(row, column), slope, 1e-5 * (1 + std::abs(slope))) << phi;
       }
   }
 }

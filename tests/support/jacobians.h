@@ -1,5 +1,5 @@
-// jacobians.h — the exact Jacobian of a scene against central differences of its flow; two scenes that must be one
-// model.
+// jacobians.h — the exact Jacobian of the equations against central differences of their flow; two scenes that must be
+// one model.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,39 +15,74 @@
 
 namespace kurbel::test {
 
-// At the state that the scene starts from, in the modes that hold there. `relative`: of the largest entry of a row.
-inline void expect_jacobian_is_that_of_the_flow(const std::string& text, double relative) {
-  const Scene scene = scene_from(text);
-  Equations equations(compile(scene, scene.effects), false);
-  std::vector<double> y = equations.start(0);
-  const std::size_t n = y.size();
+// ∂f/∂y, dense, from dual numbers and from central differences over ± step.
+struct Slopes {
+  std::size_t size = 0;
+  std::vector<double> exact, difference;  // row by row
+  double exact_at(std::size_t row, std::size_t column) const { return exact[row * size + column]; }
+  double difference_at(std::size_t row, std::size_t column) const { return difference[row * size + column]; }
+};
+inline Slopes slopes_of(Equations& equations, double t, const std::vector<double>& y, const std::vector<double>& step) {
+  const std::size_t n = equations.size();
+  Slopes slopes{n, std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0)};
   const SparsityPattern& pattern = equations.jacobian_pattern();
   std::vector<double> values(pattern.row.size()), up(n), down(n);
-  equations.jacobian(0, y, values);
-  std::vector<std::vector<double>> exact(n, std::vector<double>(n, 0.0)), found = exact;
-  for (std::size_t column = 0; column < n; ++column)
-    for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
-      exact[static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)])][column] +=
-          values[static_cast<std::size_t>(k)];
-  const ErrorControl scales = equations.error_control(1e-6);
-  for (std::size_t column = 0; column < n; ++column) {
-    const double h = 1e-5 * scales.scale[column], kept = y[column];
-    y[column] = kept + h;
-    equations.flow(0, y, up);
-    y[column] = kept - h;
-    equations.flow(0, y, down);
-    y[column] = kept;
-    for (std::size_t row = 0; row < n; ++row) found[row][column] = (up[row] - down[row]) / (2 * h);
+  equations.jacobian(t, y, values);
+  for (std::size_t c = 0; c < n; ++c)
+    for (auto k = static_cast<std::size_t>(pattern.column_start[c]);
+         k < static_cast<std::size_t>(pattern.column_start[c + 1]); ++k)
+      slopes.exact[static_cast<std::size_t>(pattern.row[k]) * n + c] += values[k];
+  for (std::size_t c = 0; c < n; ++c) {
+    std::vector<double> shifted = y;
+    shifted[c] = y[c] + step[c];
+    equations.flow(t, shifted, up);
+    shifted[c] = y[c] - step[c];
+    equations.flow(t, shifted, down);
+    for (std::size_t r = 0; r < n; ++r) slopes.difference[r * n + c] = (up[r] - down[r]) / (2 * step[c]);
   }
-  for (std::size_t row = 0; row < n; ++row) {
+  return slopes;
+}
+// Over ± part of each state's scale.
+inline Slopes slopes_of(Equations& equations, double t, const std::vector<double>& y, double part = 1e-5) {
+  std::vector<double> step = equations.error_control(1).scale;
+  for (double& s : step) s *= part;
+  return slopes_of(equations, t, y, step);
+}
+
+// Every entry, relative to the largest of its row, each state in its scale; from a row on, where those before it are
+// known (the slip of a locked clutch).
+inline void expect_exact(const Slopes& slopes, Equations& equations, double tolerance, std::size_t first_row = 0) {
+  const std::vector<double> scale = equations.error_control(1).scale;
+  for (std::size_t r = first_row; r < slopes.size; ++r) {
     double largest = 0;
-    for (std::size_t column = 0; column < n; ++column)
-      largest = std::max(largest, std::abs(exact[row][column]) * scales.scale[column]);
-    for (std::size_t column = 0; column < n; ++column)
-      EXPECT_NEAR(exact[row][column] * scales.scale[column], found[row][column] * scales.scale[column],
-                  relative * largest + 1e-12)
-          << "∂(" << equations.state_name(row) << ")'/∂(" << equations.state_name(column) << ")";
+    for (std::size_t c = 0; c < slopes.size; ++c)
+      largest = std::max(largest, std::abs(slopes.difference_at(r, c) * scale[c]));
+    for (std::size_t c = 0; c < slopes.size; ++c)
+      EXPECT_NEAR(slopes.exact_at(r, c) * scale[c], slopes.difference_at(r, c) * scale[c], tolerance * largest)
+          << equations.state_name(r) << " by " << equations.state_name(c);
   }
+}
+inline void expect_exact_jacobian(Equations& equations, const std::vector<double>& y, double tolerance = 3e-7,
+                                  std::size_t first_row = 0) {
+  expect_exact(slopes_of(equations, 0.1, y), equations, tolerance, first_row);
+}
+
+// The same at given twists and speeds of the free shafts, in the modes that belong to them.
+inline void expect_exact_jacobian(const std::string& scene_text, double angle, const std::vector<double>& twists,
+                                  const std::vector<double>& speeds) {
+  const Scene scene = scene_from(scene_text);
+  Equations equations(compile(scene, scene.effects), false);
+  expect_exact_jacobian(equations, equations.state_of(0.1, angle, twists, speeds));
+}
+
+// The same at the start of a scene, in the modes that hold there; the last states are then moved off it by `offset`.
+inline void expect_exact_jacobian_near_start(const std::string& scene_text, const std::vector<double>& offset = {},
+                                             double tolerance = 3e-7) {
+  const Scene scene = scene_from(scene_text);
+  Equations equations(compile(scene, scene.effects), false);
+  std::vector<double> y = equations.start(0);
+  for (std::size_t k = 0; k < offset.size(); ++k) y[y.size() - offset.size() + k] += offset[k];
+  expect_exact_jacobian(equations, y, tolerance);
 }
 
 // The same states, Jacobian entries and guards.
