@@ -1,0 +1,340 @@
+// cycle_search.cpp — from a guess to the return map's fixed point, and what is told of it.
+#include "studies/steady/cycle_search.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+#include "engine/scene/units.h"
+#include "studies/findings/trace.h"
+#include "studies/steady/round_figures.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
+constexpr double enough = 1e-11;         // residual of the map, over the rated values
+constexpr double neutral_within = 1e-6;  // of 1
+constexpr double far_beyond = 30;        // rated speeds: that is no cycle but flight
+
+// A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
+struct AddedTorque {
+  static constexpr Account account = Account::driving;
+  double value = 0;  // [N·m]
+  template <class T>
+  T torque(const ShaftState<T>&) const {
+    return T(value);
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return false; }
+  Rated rated() const { return {}; }
+};
+
+// (ω_max + ω_min)/2 of the link over a round, as an observer.
+class LinkSpeed {
+ public:
+  explicit LinkSpeed(const Model& m) : recorder_(wanted(m)) {}
+  Observer* observer() { return &recorder_; }
+  double mean() const { return 0.5 * (recorder_.found()[0].value + recorder_.found()[1].value); }
+
+ private:
+  static std::vector<ExtremeOf> wanted(const Model& m) {
+    std::vector<ExtremeOf> both;
+    for (ExtremeOf& e : extremes_of(m))
+      if (e.name.starts_with("max_speed.") || e.name.starts_with("min_speed.")) both.push_back(std::move(e));
+    return both;
+  }
+  ExtremeRecorder recorder_;
+};
+
+// One model of the study.
+class Search {
+ public:
+  Search(const Scene& scene, const Effects& effects, const SteadyStudy& study, const SteadyOptions& options)
+      : scene_(scene), effects_(effects), study_(study), options_(options) {
+    std::vector<std::string> switched;
+    network_ = always_on(scene, switched);
+  }
+
+  SteadyCycle run() {
+    const double begin = processor_time();
+    out_.effects = effects_.describe();
+    if (options_.mean_speed) {
+      at_speed(*options_.mean_speed);
+    } else {
+      freely();
+    }
+    if (out_.found) describe();
+    out_.cpu_seconds = processor_time() - begin;
+    return std::move(out_);
+  }
+
+ private:
+  ReturnMapOptions map_options(double tolerance) const {
+    return {.tolerance = tolerance,
+            .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
+            .cycles = options_.periods,
+            .budget = scene_.run.budget,
+            .interrupted = options_.interrupted};
+  }
+
+  void prepare(std::shared_ptr<const Model> model) {
+    if (!model->own_states.empty())
+      throw std::invalid_argument(
+          fmt::format("the {} of \"{}\" is a state that the steady cycle does not look for; switch its effect off, or "
+                      "simulate long enough with kurbel run",
+                      model->own_states.front().state.name, model->own_states.front().component));
+    map_ = std::make_unique<ReturnMap>(model, map_options(map_tolerance));
+    out_.model = std::move(model);
+    out_.label = out_.model->elastic.empty() ? "rigid" : "elastic";
+    out_.periodicity = map_->periodicity();
+    out_.unknowns = map_->size();
+    out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 1) * options_.periods;
+  }
+
+  // Speeds to begin at: the operating point, then faster ones for machines that stop at the first load.
+  std::vector<double> guesses() const {
+    if (study_.diagram)
+      if (const OperatingPoint* point = study_.diagram->working_point())
+        return {point->mean.omega, 1.15 * point->mean.omega, 0.9 * point->mean.omega};
+    const Model& m = *out_.model;
+    const StartSettings& start = m.scene.run.start;
+    const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
+    const double speed = start.speed / m.node_ratio[at(on)];
+    if (speed != 0) return {speed, std::copysign(m.speed_scale, speed)};
+    return {m.speed_scale, 0.7 * m.speed_scale};
+  }
+
+  void freely() {
+    prepare(compile_network(network_, scene_, effects_));
+    for (const double speed : guesses()) {
+      const ReturnMap::Image guess = map_->approach(speed);
+      out_.end = guess.end;
+      out_.why = guess.why;
+      if (guess.end == ReturnMap::End::interrupted) break;
+      if (guess.end != ReturnMap::End::returned) continue;
+      out_.point = find_steady(*map_, guess.z, enough);
+      out_.found = out_.point.found;
+      out_.why = out_.point.why;
+      out_.end = out_.point.end;
+      if (out_.found || out_.end == ReturnMap::End::interrupted) break;
+    }
+    out_.cost = map_->cost();
+    if (out_.found && out_.point.z.cwiseAbs().maxCoeff() > far_beyond) {
+      out_.found = false;
+      out_.why = fmt::format("runaway: the search for a cycle flees beyond {} times the rated speed", far_beyond);
+    }
+  }
+
+  // --- a mean speed is demanded: the drive's torque is one more unknown ---
+
+  // The driving component that takes the added torque; without one, the link.
+  void choose_drive() {
+    const Network& net = network_;
+    added_node_ = compile_network(net, scene_, effects_)->reduction_node;
+    added_to_ = net.nodes[at(added_node_)].component;
+    for (const Network::ShaftElement& e : net.elements)
+      if (e.element->account() == Account::driving && e.element->cycle() == 0) {
+        added_node_ = e.node;
+        added_to_ = e.component;
+        return;
+      }
+  }
+  std::shared_ptr<const Model> model_with(double torque) const {
+    Network net = network_;
+    net.put(added_node_, added_to_, AddedTorque{torque});
+    return compile_network(std::move(net), scene_, effects_);
+  }
+
+  // Unknowns: z and the added torque; residuals: P(z) − z and the miss of the mean speed, whose derivatives come from
+  // rounds beside, as it hangs on two peaks.
+  void at_speed(double speed) {
+    choose_drive();
+    prepare(model_with(first_torque(speed)));
+    if (out_.periodicity.by_time)
+      throw std::invalid_argument(
+          "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
+          "free; drop the option");
+    unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
+    ReturnMap::Image guess;
+    for (const double faster : {1.0, 1.2, 1.5}) {  // a machine that just stops at its load's peak
+      guess = map_->approach(faster * speed);
+      if (guess.end == ReturnMap::End::returned || guess.end == ReturnMap::End::interrupted) break;
+    }
+    cost_ = map_->cost();
+    out_.end = guess.end;
+    out_.why = guess.why;
+    if (guess.end != ReturnMap::End::returned) return;
+    Eigen::VectorXd x(guess.z.size() + 1);
+    x << guess.z, first_torque(speed) / unit_;
+    const NewtonOutcome newton = solve(system_at(speed), x, enough);
+    out_.point.rounds = newton.rounds;
+    out_.point.derivatives = newton.derivatives;
+    out_.point.residual = newton.residual;
+    out_.end = image_.end;
+    if (newton.found) return settle(newton.x);
+    out_.why = image_.end != ReturnMap::End::returned
+                   ? image_.why
+                   : fmt::format("no added torque was found with which \"{}\" turns at {} in the mean: {}",
+                                 out_.model->node_label(out_.model->reduction_node), rpm(speed), newton.why);
+    if (image_.end == ReturnMap::End::returned) out_.end = ReturnMap::End::failed;
+  }
+
+  bool round(const Eigen::VectorXd& x, double speed, bool with_derivative, Eigen::VectorXd& residual) {
+    const Eigen::Index n = x.size() - 1;
+    ReturnMap map(model_with(x[n] * unit_), map_options(map_tolerance));
+    map.follow(*map_);
+    LinkSpeed link(map.model());
+    image_ = map.image(x.head(n), with_derivative, {link.observer()});
+    cost_ += map.cost();
+    if (image_.end != ReturnMap::End::returned) return false;
+    residual.resize(n + 1);
+    residual << image_.z - x.head(n), (link.mean() - speed) / std::abs(speed);
+    return true;
+  }
+
+  NewtonSystem system_at(double speed) {
+    NewtonSystem system;
+    system.evaluate = [this, speed](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
+      if (!derivative) return round(x, speed, false, residual);
+      const Eigen::Index n = x.size() - 1;
+      constexpr double step = 1e-5;
+      Eigen::MatrixXd beside(n + 1, n + 1);
+      for (Eigen::Index j = 0; j <= n; ++j) {
+        Eigen::VectorXd value;
+        if (!round(x + step * Eigen::VectorXd::Unit(n + 1, j), speed, false, value)) return false;
+        beside.col(j) = value;
+      }
+      if (!round(x, speed, true, residual)) return false;
+      *derivative = (beside.colwise() - residual) / step;
+      derivative->topLeftCorner(n, n) = image_.derivative - Eigen::MatrixXd::Identity(n, n);
+      return true;
+    };
+    system.stopped = [this] { return image_.end == ReturnMap::End::interrupted; };
+    system.derivative_cost = 2 * static_cast<double>(map_->size()) + 2;
+    return system;
+  }
+  // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
+  double first_torque(double speed) const {
+    if (!study_.diagram) return 0;
+    RigidMachine machine(compile_network(network_, scene_, rigid_effects()));
+    const double net = MeanCharacteristic(machine, speed < 0 ? -1 : 1).at(speed).net();
+    return -net / machine.model().node_ratio[at(added_node_)];
+  }
+  void settle(const Eigen::VectorXd& x) {
+    const double torque = x[x.size() - 1] * unit_;
+    auto settled = std::make_unique<ReturnMap>(model_with(torque), map_options(map_tolerance));
+    settled->follow(*map_);
+    map_ = std::move(settled);
+    out_.model = map_->shared_model();
+    out_.point.take(x.head(x.size() - 1), image_);
+    out_.found = true;
+    out_.point.cost = out_.cost = cost_;
+    out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 2) * options_.periods;
+    out_.added_torque = torque;
+    out_.added_at = added_to_;
+  }
+
+  // --- figures ---
+
+  void describe() {
+    out_.section = map_->section();
+    out_.cycle_time = out_.point.time;
+    out_.stability = stability_text(out_.point.multipliers, &out_.halving);
+    out_.neutral = std::abs(out_.point.largest() - 1) < neutral_within;
+    Round fine = go_round(*map_, out_.point, map_tolerance);
+    if (!fine.failed.empty()) {
+      out_.found = false;
+      out_.why = fine.failed;
+      return;
+    }
+    measure_errors(fine);
+    out_.figures = std::move(fine.figures);
+    out_.shafts = std::move(fine.shafts);
+    out_.motors = std::move(fine.motors);
+    out_.work_residual = fine.work_residual;
+    if (options_.traces) follow();
+  }
+
+  // The same search with looser tolerances; what it finds otherwise is the error. A member of a family is kept as it
+  // is: there the looser search would settle beside it.
+  void measure_errors(Round& fine) {
+    ReturnMap loose(out_.model, map_options(looser_tolerance));
+    loose.follow(*map_);
+    SteadyPoint point = out_.point;
+    if (!out_.neutral && !options_.mean_speed) point = find_steady(loose, out_.point.z, enough * 100);
+    if (!point.found) return;
+    const Round other = go_round(loose, point, looser_tolerance);
+    for (Figure& f : fine.figures)
+      for (const Figure& g : other.figures)
+        if (f.name == g.name) {
+          f.error =
+              std::max(std::abs(f.value - g.value), 8 * std::numeric_limits<double>::epsilon() * std::abs(f.value));
+          // Below what the steps resolve of the rated quantity nothing is told from zero.
+          if (std::abs(f.value) <= map_tolerance * f.scale) f.error = std::max(*f.error, std::abs(f.value));
+        }
+  }
+
+  // Two rounds, so that one whole cycle from the link's zero is among them.
+  void follow() {
+    Equations equations(out_.model, true);
+    TraceRecorder traces(*out_.model);
+    const std::vector<double> y = map_->place(equations, out_.point.z);
+    RunOptions run{.tolerance = 1e-9,
+                   .method = "auto",
+                   .until = map_->start_time() + 2.05 * out_.point.time * (map_->periodicity().by_time ? 1 : 1.5),
+                   .budget = 60,
+                   .interrupted = options_.interrupted,
+                   .progress = {}};
+    run.from = {map_->start_time(), y};
+    run.stop = map_->round_end(equations, y, 2.05);
+    integrate(equations, run, {&traces});
+    out_.traces = traces.traces();
+  }
+
+  const Scene& scene_;
+  Effects effects_;
+  const SteadyStudy& study_;
+  const SteadyOptions& options_;
+  Network network_;
+  std::unique_ptr<ReturnMap> map_;
+  SteadyCycle out_;
+  int added_node_ = 0;
+  std::string added_to_;
+  double cost_ = 0, unit_ = 1;  // unit_: of the added torque [N·m]
+  ReturnMap::Image image_;
+};
+
+}  // namespace
+
+std::string rpm(double omega) { return with_unit(omega * 30 / std::numbers::pi, "rpm", 5); }
+
+SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyStudy& study,
+                         const SteadyOptions& options) {
+  return Search(scene, effects, study, options).run();
+}
+
+std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving) {
+  if (halving) halving->reset();
+  const std::complex<double> slowest = multipliers.empty() ? 0 : multipliers.front();
+  const double size = std::abs(slowest);
+  const char* swinging = std::abs(slowest.imag()) > 1e-9 * size || slowest.real() < -1e-9 ? ", swinging" : "";
+  if (std::abs(size - 1) < neutral_within)
+    return "neutral: a deviation neither fades nor grows (multiplier 1), the cycle is one of a family";
+  if (size > 1)
+    return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", std::log(2.0) / std::log(size), swinging);
+  if (size < 1e-3)
+    return fmt::format("stable: a cycle leaves less than {:.0e} of any deviation", std::max(size, 1e-12));
+  const double cycles = std::log(2.0) / -std::log(size);
+  if (halving) *halving = cycles;
+  return fmt::format("stable: the slowest deviation halves in {:.3g} cycles{}", cycles, swinging);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,262 @@
+// round_figures.cpp — one round with everything recorded that is told of it.
+#include "studies/steady/round_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/numerics/index.h"
+#include "studies/findings/report.h"
+
+namespace kurbel {
+namespace {
+
+// Elements of one component that drive together.
+struct Drive {
+  std::string component;
+  std::vector<std::size_t> elements;
+  double torque(const Snapshot& s) const {
+    double sum = 0;
+    for (const std::size_t e : elements) sum += s.sums.element_torque[e];
+    return sum;
+  }
+};
+
+std::vector<Drive> drives_of(const Model& model) {
+  std::vector<Drive> drives;
+  for (std::size_t e = 0; e < model.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = model.network.elements[e];
+    if (element.element->account() != Account::driving) continue;
+    const auto known =
+        std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.component == element.component; });
+    if (known != drives.end()) {
+      known->elements.push_back(e);
+    } else {
+      drives.push_back({element.component, {e}});
+    }
+  }
+  return drives;
+}
+
+// ∫M dt and ∫M² dt of every drive, integrated along with the motion and as accurately.
+class DriveQuadratures final : public RunExtension {
+ public:
+  DriveQuadratures(Equations& equations, std::vector<Drive> drives)
+      : equations_(equations), drives_(std::move(drives)) {}
+  std::size_t begin() const { return equations_.size(); }
+  std::size_t size() const override { return begin() + 2 * drives_.size(); }
+  void flow(double t, std::span<const double> y, std::span<double> ydot) override {
+    equations_.flow(t, y.first(begin()), ydot.first(begin()));
+    const Snapshot& s = equations_.snapshot(t, y.first(begin()));
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      const double torque = drives_[i].torque(s);
+      ydot[begin() + 2 * i] = torque;
+      ydot[begin() + 2 * i + 1] = torque * torque;
+    }
+  }
+  const SparsityPattern& jacobian_pattern() override {
+    if (pattern_.size == size()) return pattern_;
+    pattern_ = equations_.jacobian_pattern();
+    pattern_.size = size();
+    for (std::size_t i = begin(); i < size(); ++i) {
+      pattern_.row.push_back(static_cast<std::int64_t>(i));
+      pattern_.column_start.push_back(static_cast<std::int64_t>(pattern_.row.size()));
+    }
+    return pattern_;
+  }
+  void jacobian(double t, std::span<const double> y, std::span<double> values) override {
+    const std::size_t own = equations_.jacobian_pattern().row.size();
+    equations_.jacobian(t, y.first(begin()), values.first(own));
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(own), values.end(), 0.0);
+  }
+  ErrorControl error_control(double tolerance) const override {
+    ErrorControl control = equations_.error_control(tolerance);
+    const Model& m = equations_.model();
+    for (const Drive& drive : drives_) {
+      const int node = m.network.elements[drive.elements.front()].node;
+      const double torque = m.torque_scale / m.scale_ratio[at(node)];
+      control.scale.push_back(torque / m.speed_scale);  // per radian of the link
+      control.scale.push_back(torque * torque / m.speed_scale);
+    }
+    return control;
+  }
+  void before_event(double, std::span<const double>, const std::vector<std::size_t>&) override {}
+  void after_event(double, std::span<double>) override {}
+
+ private:
+  Equations& equations_;
+  std::vector<Drive> drives_;
+  SparsityPattern pattern_;
+};
+
+struct NamedShaft {
+  std::string name;
+  int node;
+};
+std::vector<NamedShaft> shafts_of(const Model& m) {
+  std::vector<NamedShaft> shafts;
+  const int link = m.reduction_node;
+  for (const std::string& component : m.network.components) {
+    const Network::Ports& ports = m.network.ports.at(component);
+    if (m.network.components.size() > 60 && ports.in != link && component != m.network.components.front() &&
+        component != m.network.components.back())
+      continue;
+    if (ports.in == ports.out) {
+      shafts.push_back({component, ports.in});
+    } else {
+      shafts.push_back({component + ".in", ports.in});
+      shafts.push_back({component + ".out", ports.out});
+    }
+  }
+  return shafts;
+}
+
+// Extremes over one round: speeds of all shafts first, two each, then torques, forces and accelerations.
+std::vector<ExtremeOf> wanted_of(const Model& m) {
+  std::vector<ExtremeOf> wanted;
+  for (const NamedShaft& shaft : shafts_of(m)) {
+    const int s = m.shaft_of_node[at(shaft.node)];
+    const double gain = m.gain_of_node[at(shaft.node)];
+    ExtremeOf speed{.name = "max_speed." + shaft.name,
+                    .unit = "rad/s",
+                    .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
+                    .which = ExtremeOf::Which::maximum,
+                    .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
+                    .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
+    wanted.push_back(speed);
+    speed.name = "min_speed." + shaft.name;
+    speed.which = ExtremeOf::Which::minimum;
+    wanted.push_back(std::move(speed));
+  }
+  for (ExtremeOf& e : extremes_of(m))
+    if (!e.name.starts_with("max_speed.") && !e.name.starts_with("min_speed.")) wanted.push_back(std::move(e));
+  for (Drive& drive : drives_of(m))
+    wanted.push_back({.name = "peak_drive_torque." + drive.component,
+                      .unit = "N*m",
+                      .scale = m.torque_scale,
+                      .value = [drive = std::move(drive)](const Snapshot& s) { return drive.torque(s); },
+                      .rate = {}});
+  return wanted;
+}
+
+class RoundFigures {
+ public:
+  RoundFigures(const ReturnMap& map, const SteadyPoint& point, double tolerance)
+      : map_(map),
+        m_(map.model()),
+        extremes_(wanted_of(m_)),
+        equations_(map.shared_model(), true),
+        drives_(equations_, drives_of(m_)) {
+    RunOptions run{.tolerance = tolerance,
+                   .method = "auto",
+                   .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
+                   .budget = 60,
+                   .interrupted = nullptr,
+                   .progress = {}};
+    std::vector<double> y = map.place(equations_, point.z);
+    run.stop = map.round_end(equations_, y);
+    y.resize(drives_.size(), 0.0);
+    run.from = {map.start_time(), y};
+    run.extension = &drives_;
+    outcome_ = integrate(equations_, run, {&extremes_});
+  }
+
+  Round collect() {
+    if (!outcome_.diagnosis.empty()) return {{}, {}, {}, 0, outcome_.diagnosis};
+    add_speeds();
+    add_torques();
+    add_works();
+    add_drives();
+    return std::move(round_);
+  }
+
+ private:
+  void add(const std::string& name, double value, const std::string& unit, double scale) {
+    round_.figures.push_back({name, value, unit, {}, {}, scale, 0});
+  }
+  void add_speeds() {
+    const double time = outcome_.t - map_.start_time();
+    add("cycle_time", time, "s", time);
+    const std::vector<NamedShaft> shafts = shafts_of(m_);
+    for (std::size_t i = 0; i < shafts.size(); ++i) {
+      ShaftFluctuation f{shafts[i].name, m_.node_ratio[at(shafts[i].node)], extremes_.found()[2 * i].value,
+                         extremes_.found()[2 * i + 1].value};
+      if (shafts[i].node == m_.reduction_node) {
+        add("mean_speed." + f.shaft, f.mean(), "rad/s", m_.speed_scale);
+        add("max_speed." + f.shaft, f.max, "rad/s", m_.speed_scale);
+        add("min_speed." + f.shaft, f.min, "rad/s", m_.speed_scale);
+      }
+      add("delta." + f.shaft, f.delta(), "", 1);
+      round_.shafts.push_back(std::move(f));
+    }
+  }
+  void add_torques() {
+    for (std::size_t i = 2 * shafts_of(m_).size(); i < extremes_.wanted().size(); ++i)
+      if (extremes_.found()[i].any) {
+        const ExtremeOf& wanted = extremes_.wanted()[i];
+        add(wanted.name, extremes_.found()[i].value, wanted.unit,
+            wanted.scale > 0 ? wanted.scale : std::abs(extremes_.found()[i].value));
+      }
+    const double time = outcome_.t - map_.start_time();
+    for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
+      add("rms_torque." + m_.torque_joints[i].component,
+          std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
+          m_.torque_joints[i].torque_scale);
+  }
+  void add_drives() {
+    const double time = outcome_.t - map_.start_time();
+    const std::vector<Drive> drives = drives_of(m_);
+    const std::size_t first = extremes_.wanted().size() - drives.size();
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const double* const sums = outcome_.state.data() + drives_.begin() + 2 * i;
+      MotorUse use{drives[i].component,
+                   std::sqrt(std::max(0.0, sums[1]) / time),
+                   sums[0] / time,
+                   extremes_.found()[first + i].value,
+                   {}};
+      if (const Section* section = m_.scene.find(use.component)) {
+        if (section->has("rated_torque")) use.rated = section->number("rated_torque");
+        if (section->has("rated_power") && section->has("rated_speed"))
+          use.rated = section->number("rated_power") / section->number("rated_speed");
+      }
+      add("mean_drive_torque." + use.component, use.mean, "N*m", m_.torque_scale);
+      add("rms_drive_torque." + use.component, use.rms, "N*m", m_.torque_scale);
+      round_.motors.push_back(std::move(use));
+    }
+  }
+  // Over a steady cycle all works add up to nothing.
+  void add_works() {
+    double sum = 0, turnover = 0;
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
+      double of_kind = 0;
+      for (std::size_t a = 0; a < m_.accounts.size(); ++a)
+        if (m_.accounts[a].kind == kind) of_kind += outcome_.state[equations_.work_index(a)];
+      sum += of_kind;
+      turnover += std::abs(of_kind);
+      add(fmt::format("{}_work_per_cycle", name_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
+    }
+    for (std::size_t a = 0; a < m_.accounts.size(); ++a)
+      if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
+        add(fmt::format("work_per_cycle.{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)), work, "J",
+            m_.torque_scale * 2 * std::numbers::pi);
+    round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
+  }
+
+  const ReturnMap& map_;
+  const Model& m_;
+  ExtremeRecorder extremes_;
+  Equations equations_;
+  DriveQuadratures drives_;
+  RunOutcome outcome_;
+  Round round_;
+};
+
+}  // namespace
+
+Round go_round(const ReturnMap& map, const SteadyPoint& point, double tolerance) {
+  return RoundFigures(map, point, tolerance).collect();
+}
+
+}  // namespace kurbel
