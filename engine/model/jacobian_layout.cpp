@@ -67,13 +67,9 @@ std::vector<std::vector<int>> coupled_shafts(const Model& model) {
   return groups;
 }
 
-}  // namespace
-
-JacobianLayout lay_out_jacobian(const Model& model) {
-  Recorder record(model);
-  for (const auto& pool : model.pools) pool->register_jacobian(record);
-  // Kinematics: dφ/dt = gain ω, dθ/dt = gain_a ω_a − gain_b ω_b.
-  std::vector<std::pair<std::size_t, double>> kinematic;  // slot, value
+// Kinematics: dφ/dt = gain ω, dθ/dt = gain_a ω_a − gain_b ω_b. Returns slots and their values.
+std::vector<std::pair<std::size_t, double>> record_kinematics(const Model& model, Recorder& record) {
+  std::vector<std::pair<std::size_t, double>> kinematic;
   const auto rate = [&](int row, int shaft, double gain) {
     kinematic.emplace_back(static_cast<std::size_t>(record.entry(row, record.speed(shaft))), gain);
   };
@@ -83,8 +79,11 @@ JacobianLayout lay_out_jacobian(const Model& model) {
     rate(record.twist(static_cast<int>(i)), model.elastic[i].shaft_a, model.elastic[i].gain_a);
     rate(record.twist(static_cast<int>(i)), model.elastic[i].shaft_b, -model.elastic[i].gain_b);
   }
-  // Shafts that a locked clutch or a relation may tie together share all their columns.
-  JacobianLayout layout;
+  return kinematic;
+}
+
+// Shafts that a locked clutch or a relation may tie together share all their columns. Returns each group's slots.
+std::vector<std::vector<int>> record_coupled(const Model& model, Recorder& record, JacobianLayout& layout) {
   std::vector<std::vector<int>> coupled_slots;
   for (const std::vector<int>& shafts : coupled_shafts(model)) {
     JacobianLayout::Coupled group{shafts, {}, {}};
@@ -100,8 +99,12 @@ JacobianLayout lay_out_jacobian(const Model& model) {
       for (const int s : shafts) slots.push_back(record.entry(record.speed(s), column));
     layout.coupled.push_back(std::move(group));
   }
-  // Rows that follow a shaft's acceleration have all columns of its speed's row.
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> followed;  // slots, per follower
+  return coupled_slots;
+}
+
+// Rows that follow a shaft's acceleration have all columns of its speed's row. Returns pairs of slots, per follower.
+std::vector<std::vector<std::pair<std::size_t, std::size_t>>> record_followers(Recorder& record) {
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> followed;
   for (const Recorder::Follower& follower : record.followers) {
     auto& slots = followed.emplace_back();
     const int speed = record.speed(follower.shaft);
@@ -113,9 +116,12 @@ JacobianLayout lay_out_jacobian(const Model& model) {
     for (const auto& [column, slot] : slot_of_column)
       slots.emplace_back(static_cast<std::size_t>(slot), static_cast<std::size_t>(record.entry(follower.row, column)));
   }
-  const int states = static_cast<int>(model.state_count());
-  for (int i = 0; i < states; ++i) record.entry(i, i);  // KLU needs every diagonal entry, zeros too
+  return followed;
+}
 
+// Sorts what was recorded by columns; slots without a state go one past the end.
+void sort_slots(const Model& model, const Recorder& record, JacobianLayout& layout) {
+  const int states = static_cast<int>(model.state_count());
   std::vector<std::size_t> order(record.places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -144,6 +150,20 @@ JacobianLayout lay_out_jacobian(const Model& model) {
   for (std::size_t c = 0; c < model.state_count(); ++c)
     layout.pattern.column_start[c + 1] += layout.pattern.column_start[c];
   for (const std::size_t slot : stateless) layout.slot_position[slot] = layout.pattern.row.size();
+}
+
+}  // namespace
+
+JacobianLayout lay_out_jacobian(const Model& model) {
+  Recorder record(model);
+  for (const auto& pool : model.pools) pool->register_jacobian(record);
+  JacobianLayout layout;
+  const auto kinematic = record_kinematics(model, record);
+  const auto coupled_slots = record_coupled(model, record, layout);
+  const auto followed = record_followers(record);
+  const int states = static_cast<int>(model.state_count());
+  for (int i = 0; i < states; ++i) record.entry(i, i);  // KLU needs every diagonal entry, zeros too
+  sort_slots(model, record, layout);
   for (const auto& [slot, value] : kinematic)
     if (layout.slot_position[slot] < layout.pattern.row.size())
       layout.constant.emplace_back(layout.slot_position[slot], value);
