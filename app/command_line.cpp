@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "app/terminal.h"
@@ -58,15 +60,22 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void add_scene(CLI::App& command, std::string& scene, bool& allow_files) {
+void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set) {
   command.add_option("scene", scene, "scene file (TOML)")->required();
   command.add_flag("--allow-files", allow_files,
                    "let the scene read data files outside of its own folder (default: only there and below)");
+  command
+      .add_option("--set", set,
+                  "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
+                  "\"run.start.speed=58 rpm\", \"gearbox.stages[2].ratio=3.5\"; without a value: the key's default; "
+                  "repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study) {
   options.study = study;
-  add_scene(command, options.scene, options.allow_files);
+  add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
                      "folder for report.html, summary.json and tables as CSV, replaced as a whole (default: "
                      "results/SCENE/" +
@@ -95,12 +104,33 @@ void Progress::operator()(const std::string& what, double fraction) {
   show_progress(fmt::format("{}: {:.0f} %", what, 100 * fraction));
 }
 
-Scene read(const std::string& file, bool allow_files) {
-  return read_scene(file, all_kinds(), allow_files ? DataFiles::anywhere : DataFiles::below_the_scene);
+namespace {
+
+// What was set beside the scene stands in every summary.
+std::string with_settings(const std::string& json, const std::vector<std::string>& set) {
+  if (set.empty()) return json;
+  auto summary = nlohmann::ordered_json::parse(json);
+  summary["set"] = set;
+  return summary.dump(2);
 }
 
+// Of the one scene that a command is about.
+std::optional<SettledText>& scene_read() {
+  static std::optional<SettledText> text;
+  return text;
+}
+
+}  // namespace
+
+Scene read(const std::string& file, bool allow_files, const std::vector<std::string>& set) {
+  scene_read().emplace(read_text_file(file, max_scene_bytes), file, set);
+  return parse_scene(*scene_read(), all_kinds(), allow_files ? DataFiles::anywhere : DataFiles::below_the_scene);
+}
+
+SceneError placed(const SceneError& error) { return scene_read() ? scene_read()->placed(error) : error; }
+
 Scene read(const StudyOptions& options) {
-  Scene scene = read(options.scene, options.allow_files);
+  Scene scene = read(options.scene, options.allow_files, options.set);
   if (const auto log = make_log(options.verbose))
     log(fmt::format("read {}: {} components on {} line{}, effects: {}", scene.file, scene.components.size(),
                     scene.lines.size(), scene.lines.size() == 1 ? "" : "s", scene.effects.describe()));
@@ -158,7 +188,9 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 
 }  // namespace
 
-int present(const StudyOutput& output, const StudyOptions& options) {
+int present(const StudyOutput& study, const StudyOptions& options) {
+  StudyOutput output = study;
+  output.json = with_settings(study.json, options.set);
   // Asked once: what is decided here holds for the files as for the exit code.
   const bool stopped = interrupt_seen;
   if (options.json)

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/scene/scene.h"
 #include "studies/findings/output.h"
@@ -29,10 +30,11 @@ struct StudyOptions {
   std::string scene, out;
   bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
   bool allow_files = false;
+  std::vector<std::string> set;  // beside the scene: "main_coupling.stiffness=1 MN*m/rad"
 };
 // --out, or results/SCENE/STUDY: no study writes over another's results.
 std::filesystem::path results_of(const StudyOptions& options);
-void add_scene(CLI::App& command, std::string& scene, bool& allow_files);
+void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
 void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
@@ -48,8 +50,10 @@ class Progress {
 };
 
 // Reads a scene; of data files those below its own folder, unless all are allowed. Throws SceneError.
-Scene read(const std::string& file, bool allow_files);
+Scene read(const std::string& file, bool allow_files, const std::vector<std::string>& set);
 Scene read(const StudyOptions& options);  // and logs it
+// A fault found in the scene that was read last, however late: placed in its file, or in the setting that brought it.
+SceneError placed(const SceneError& error);
 
 // Before anything runs: hours of work must not end at a folder that cannot be written. Throws std::invalid_argument.
 void check_folder(const StudyOptions& options);

@@ -104,7 +104,7 @@ int run_and_tell(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const kurbel::SceneError& error) {
-    complain(fmt::format("{}\n", error.what()));
+    complain(fmt::format("{}\n", placed(error).what()));
     return exit_user_error;
   } catch (const std::invalid_argument& error) {
     complain(fmt::format("kurbel: {}\n", error.what()));

@@ -95,8 +95,8 @@ int print_keys(const std::string& kind, bool list_kinds) {
   return exit_done;
 }
 
-int check(const std::string& file, bool allow_files) {
-  const Scene scene = read(file, allow_files);
+int check(const std::string& file, bool allow_files, const std::vector<std::string>& set) {
+  const Scene scene = read(file, allow_files, set);
   const auto model = compile(scene, scene.effects);
   const auto coordinates = model->free_shafts + model->twist_count();
   say(fmt::format("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
@@ -105,8 +105,8 @@ int check(const std::string& file, bool allow_files) {
   return exit_done;
 }
 
-int figures(const std::string& file, bool allow_files) {
-  const Scene scene = read(file, allow_files);
+int figures(const std::string& file, bool allow_files, const std::vector<std::string>& set) {
+  const Scene scene = read(file, allow_files, set);
   for (const Figure& f : figure_list(*compile(scene, scene.effects)))
     say(fmt::format("{}{}\n", f.name, f.unit.empty() ? "" : fmt::format(" [{}]", f.unit)));
   return exit_done;
@@ -118,6 +118,7 @@ void add_scene_commands(CLI::App& app, int& code) {
   struct Words {
     std::string first, second;
     bool list = false, allow_files = false;
+    std::vector<std::string> set;
   };
   const auto add = [&](const char* name, const char* what, int (*action)(const Words&)) {
     const auto words = std::make_shared<Words>();
@@ -126,11 +127,12 @@ void add_scene_commands(CLI::App& app, int& code) {
     return std::pair{command, words};
   };
   const auto [check_command, checked] =
-      add("check", "validate a scene", [](const Words& w) { return check(w.first, w.allow_files); });
-  add_scene(*check_command, checked->first, checked->allow_files);
-  const auto [figures_command, listed_scene] = add("figures", "list the figures that runs of a scene yield",
-                                                   [](const Words& w) { return figures(w.first, w.allow_files); });
-  add_scene(*figures_command, listed_scene->first, listed_scene->allow_files);
+      add("check", "validate a scene", [](const Words& w) { return check(w.first, w.allow_files, w.set); });
+  add_scene(*check_command, checked->first, checked->allow_files, checked->set);
+  const auto [figures_command, listed_scene] =
+      add("figures", "list the figures that runs of a scene yield",
+          [](const Words& w) { return figures(w.first, w.allow_files, w.set); });
+  add_scene(*figures_command, listed_scene->first, listed_scene->allow_files, listed_scene->set);
   const auto [new_command, made] =
       add("new", "write a commented scene to start from", [](const Words& w) { return new_scene(w.first, w.second); });
   std::string kinds;

@@ -25,7 +25,7 @@ void find_cycle(Model& m) {
 }  // namespace
 
 std::shared_ptr<const Model> compile_network(Network network, const Scene& scene, const Effects& effects) {
-  Compilation c{{}, Messages(scene.file)};
+  Compilation c(scene.file);
   Model& m = c.model;
   m.network = std::move(network);
   m.scene = scene;

@@ -12,6 +12,7 @@ namespace kurbel {
 
 // A machine on its way from the network to the model.
 struct Compilation {
+  explicit Compilation(const std::string& file) : messages(file) {}
   Model model;
   Messages messages;
 

@@ -72,6 +72,16 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   return std::move(r.scene);
 }
 
+Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds, DataFiles allowed) {
+  try {
+    Scene scene = parse_scene(settled.text(), settled.file(), kinds, allowed);
+    scene.settings = settled.settings();
+    return scene;
+  } catch (const SceneError& error) {
+    throw settled.placed(error);
+  }
+}
+
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds, DataFiles allowed) {
   return parse_scene(read_text_file(path, max_scene_bytes), path, kinds, allowed);
 }

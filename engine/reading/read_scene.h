@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/reading/data_files.h"
+#include "engine/reading/settings.h"
 #include "engine/scene/scene.h"
 
 namespace kurbel {
@@ -13,6 +14,11 @@ namespace kurbel {
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds,
                  DataFiles allowed = DataFiles::below_the_scene);
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds,
+                  DataFiles allowed = DataFiles::below_the_scene);
+
+// With settings put into its text (settings.h). Errors are placed in the file as it stands and in the settings; those
+// of what is built from the scene later must be placed by settled.placed().
+Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds,
                   DataFiles allowed = DataFiles::below_the_scene);
 
 }  // namespace kurbel

@@ -14,13 +14,15 @@
 namespace kurbel {
 namespace {
 
-Location location(const toml::source_region& region) {
-  return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+Location location(const toml::source_position& place) {
+  return {static_cast<int>(place.line), static_cast<int>(place.column)};
 }
+Location location(const toml::source_region& region) { return location(region.begin); }
 
 DocumentValue convert(const toml::node& node) {
   DocumentValue value;
   value.at = location(node.source());
+  value.end = location(node.source().end);
   using Type = DocumentValue::Type;
   if (const auto* table = node.as_table()) {
     value.type = Type::table;

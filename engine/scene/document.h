@@ -15,7 +15,7 @@ struct DocumentEntry;
 struct DocumentValue {
   enum class Type { flag, integer, number, text, list, table, other };
   Type type = Type::table;
-  Location at;
+  Location at, end = {};  // of its first character, and behind its last
   bool flag = false;
   std::int64_t integer = 0;
   double number = 0;

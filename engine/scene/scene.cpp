@@ -25,6 +25,14 @@ std::string method_does_not_fit(const std::string& method, const std::string& mo
 
 }  // namespace
 
+std::string Scene::heading() const {
+  std::string text = title.empty() ? file : title;
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < settings.size() && k < most; ++k) text += (k == 0 ? " with " : ", ") + settings[k];
+  if (settings.size() > most) text += fmt::format(" and {} more", settings.size() - most);
+  return text;
+}
+
 const Section* Scene::find(const std::string& name) const {
   const auto found =
       std::find_if(components.begin(), components.end(), [&](const Section& s) { return s.name == name; });

@@ -63,14 +63,17 @@ struct Line {
 };
 
 struct Scene {
-  std::string file, title, text;
-  std::vector<Line> lines;          // main line first, branches in canonical order
-  std::vector<Section> components;  // canonical order: along the lines, then by name
+  std::string file, title, text;      // the text with its settings put in
+  std::vector<std::string> settings;  // given beside the file: "main_coupling.stiffness=1 MN*m/rad"
+  std::vector<Line> lines;            // main line first, branches in canonical order
+  std::vector<Section> components;    // canonical order: along the lines, then by name
   Effects effects;
   Sequence sequence;
   RunSettings run;
 
   const Section* find(const std::string& name) const;
+  // Its title, else its file, and what was set beside it.
+  std::string heading() const;
 };
 
 // Methods that integrate a model ("reduced", "multibody"); check_method throws std::invalid_argument for another one.

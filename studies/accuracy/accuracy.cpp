@@ -57,7 +57,7 @@ class AccuracyRun {
   AccuracyRun(const Scene& scene, const AccuracyOptions& options) : scene_(scene), options_(options) {
     scene_.run.model = "reduced";
     scene_.run.method = "auto";
-    study_.title = scene.title.empty() ? scene.file : scene.title;
+    study_.title = scene.heading();
     study_.scene_file = scene.file;
     study_.scene_text = scene.text;
   }

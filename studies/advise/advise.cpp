@@ -30,7 +30,7 @@ class Adviser {
   }
 
   Advice run() {
-    a_.title = scene_.title.empty() ? scene_.file : scene_.title;
+    a_.title = scene_.heading();
     a_.scene_file = scene_.file;
     a_.scene_text = scene_.text;
     a_.tolerance = options_.within;

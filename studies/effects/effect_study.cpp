@@ -45,7 +45,7 @@ std::string conclusion_of(const EffectStudy& s) {
 
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   EffectStudy study;
-  study.title = scene.title.empty() ? scene.file : scene.title;
+  study.title = scene.heading();
   study.scene_file = scene.file;
   study.scene_text = scene.text;
   study.units = effect_units(scene);

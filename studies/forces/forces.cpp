@@ -261,7 +261,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   const Deadline deadline(scene.run.budget);
   const Section& section = chosen_slider_crank(scene, options.mechanism);
   Forces out;
-  out.title = scene.title;
+  out.title = scene.heading();
   out.scene_file = scene.file;
   out.scene_text = scene.text;
   out.mechanism = section.name;

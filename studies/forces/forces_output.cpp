@@ -586,7 +586,7 @@ void add_friction(Report& report, const Forces& f) {
 }
 
 Report report_of(const Forces& f, const std::string& conclusion) {
-  Report report{.title = fmt::format("{}: forces in {}", f.title.empty() ? f.scene_file : f.title, f.mechanism),
+  Report report{.title = fmt::format("{}: forces in {}", f.title, f.mechanism),
                 .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front_of(f).description),
                 .conclusion = conclusion};
   report.complete = f.complete;

@@ -44,7 +44,7 @@ bool wanted(const std::string& stage, const std::string& pair) {
 }  // namespace
 
 Gears find_gears(const Scene& scene, const GearsOptions& options) {
-  Gears gears{.title = scene.title, .scene_file = scene.file, .scene_text = scene.text, .stages = {}, .notes = {}};
+  Gears gears{.title = scene.heading(), .scene_file = scene.file, .scene_text = scene.text, .stages = {}, .notes = {}};
   std::vector<std::string> without_module;
   for (const Section& section : scene.components)
     if (section.kind && section.kind->name == "gearbox") add_gearbox(section, options.speed, gears, without_module);

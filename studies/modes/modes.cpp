@@ -36,7 +36,7 @@ class Study {
     };
     if (told_to("clutch")) found_.notes.push_back("clutches count as locked");
     if (told_to("brake")) found_.notes.push_back("brakes count as released");
-    found_.title = scene.title;
+    found_.title = scene.heading();
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
     found_.link = model_->node_label(model_->reduction_node);

@@ -645,7 +645,7 @@ void add_history(Report& report, const ModesStudy& m) {
 }
 
 Report report_of(const ModesStudy& m, const std::string& conclusion) {
-  Report report{.title = fmt::format("{}: modes and critical speeds", m.title.empty() ? m.scene_file : m.title),
+  Report report{.title = fmt::format("{}: modes and critical speeds", m.title),
                 .subtitle = point_text(m),
                 .conclusion = conclusion};
   report.complete = m.complete;

@@ -113,7 +113,7 @@ class Reducer {
       throw std::invalid_argument(fmt::format("--orders {}: must be 0 … 1000", options.orders));
     if (options.speed && !(*options.speed > 0 && std::isfinite(*options.speed)))
       throw std::invalid_argument("--speed: must be > 0");
-    r_.title = scene.title.empty() ? scene.file : scene.title;
+    r_.title = scene.heading();
     r_.scene_file = scene.file;
   }
 

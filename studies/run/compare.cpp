@@ -117,7 +117,7 @@ void conclude(Comparison& c) {
 Comparison compare(const Scene& scene, const Effects& a, const std::string& label_a, const Effects& b,
                    const std::string& label_b, const SimulateOptions& options) {
   Comparison c;
-  c.title = scene.title.empty() ? scene.file : scene.title;
+  c.title = scene.heading();
   c.a = simulate(scene, a, label_a, options);
   c.b = simulate(scene, b, label_b, options);
   add_rows(c);

@@ -130,7 +130,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
 
   Result result;
   result.model = shared;
-  result.title = model.scene.title;
+  result.title = model.scene.heading();
   result.label = label;
   result.scene_file = model.scene.file;
   result.effects = model.effects.describe();

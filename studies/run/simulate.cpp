@@ -322,7 +322,7 @@ class Simulation {
 
   void fill(OneRun& run, double tolerance) {
     const Model& m = *model_;
-    result_.title = m.scene.title.empty() ? m.scene.file : m.scene.title;
+    result_.title = m.scene.heading();
     result_.scene_file = m.scene.file;
     result_.complete = run.outcome.complete;
     result_.diagnosis = run.outcome.diagnosis;

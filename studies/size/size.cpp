@@ -60,7 +60,7 @@ class Sizer {
       scene_ = with_flywheel(scene, s_.flywheel, 0, component_of(bare.model(), bare.model().reduction_node));
     }
     machine_.emplace(scene_);
-    s_.title = scene.title.empty() ? scene.file : scene.title;
+    s_.title = scene.heading();
     s_.scene_file = scene.file;
     s_.link = model().node_label(model().reduction_node);
     s_.sheet = options.sheet;

@@ -61,7 +61,7 @@ class Study {
 
   SteadyStudy run() {
     rigid_ = compile_network(always_on(scene_, switched_), scene_, rigid_effects());
-    out_.title = scene_.title.empty() ? scene_.file : scene_.title;
+    out_.title = scene_.heading();
     out_.scene_file = scene_.file;
     out_.link = rigid_->node_label(rigid_->reduction_node);
     out_.mean_speed = options_.mean_speed;
