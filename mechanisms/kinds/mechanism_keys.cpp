@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -30,6 +32,27 @@ std::string masses_of(const Section& s) {
       text += fmt::format("{}{} {:g} kg", text.empty() ? "" : ", ", key.name.substr(0, key.name.size() - 5),
                           s.number(key.name));
   return text;
+}
+
+// Positions are sums of lengths, so that each loses what the longest is rounded by.
+constexpr double longest = 1e9;  // of the crank
+
+// The crank is the first length of every kind. False, with messages, where another one lies too far from it.
+bool lengths_fit(const Section& s, Messages& messages) {
+  const auto is_length = [](const Key& key) { return key.unit == "m"; };
+  const Key& crank = *std::find_if(s.kind->keys.begin(), s.kind->keys.end(), is_length);
+  bool fit = true;
+  for (const Key& key : s.kind->keys) {
+    if (!is_length(key) || !s.has(key.name) || std::abs(s.number(key.name)) <= longest * s.number(crank.name)) continue;
+    fit = false;
+    messages.add(
+        s.where(key.name),
+        fmt::format("{} \"{}\": {} = {:.3g} m is {:.1e} times {} = {:.3g} m; must be at most {:.0e} times, "
+                    "else positions are lost to round-off; check both units",
+                    s.kind->name, s.name, key.name, s.number(key.name),
+                    std::abs(s.number(key.name)) / s.number(crank.name), crank.name, s.number(crank.name), longest));
+  }
+  return fit;
 }
 
 }  // namespace
@@ -82,7 +105,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
     messages.add(s.where(fault.key), fmt::format("{} \"{}\": {}", s.kind->name, s.name, fault.text));
-  if (!faults.empty()) return;
+  if (!faults.empty() || !lengths_fit(s, messages)) return;
   std::optional<Mechanism> mechanism;
   try {
     mechanism.emplace(s.name, data);

@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t most_nodes = PeriodicTable::degree + 1;
 constexpr std::size_t deepest_level = 14;  // shortest of 16 pieces: 2π/(16·2¹⁴) = 2.4e-5 rad
-// What is smooth gains 2^(degree+1) by a halving, a kink 2: an error this small that so many halvings in a row have not
-// brought down is the samples' own round-off.
-constexpr double may_be_noise = 1e-6, hardly_falls = 0.7;
-constexpr int halvings_of_noise = 3;
+// Three halvings bring what is smooth down by 2^(3 degree + 3), a kink by 8: an error this small that has hardly fallen
+// is the samples' own round-off.
+constexpr double may_be_noise = 1e-6, hardly_fallen = 0.3;
+constexpr std::size_t halvings_of_noise = 3;
 
 // Nodes x_k = cos(π (k + ½)/n). Between them the interpolation error peaks at cos(kπ/n).
 double chebyshev_node(std::size_t k, std::size_t n) {
@@ -87,10 +87,9 @@ class TableBuilder {
  private:
   struct Piece {
     std::size_t level = 0, index = 0;
-    std::vector<double> coefficients;  // channel after channel
-    std::vector<double> error;         // per channel: absolute for own_maximum, relative for own_value
-    double error_before = 0;           // of the piece that was halved: the worst
-    int in_vain = 0;                   // halvings in a row that hardly brought it down
+    std::vector<double> coefficients;                   // channel after channel
+    std::vector<double> error;                          // per channel: absolute for own_maximum, relative for own_value
+    std::array<double, halvings_of_noise> before = {};  // the worst of those that were halved, latest first
   };
 
   // Shifted seams cut a piece in two at 0, which is there at both ends of the period.
@@ -171,16 +170,18 @@ class TableBuilder {
     std::size_t total = kept_.size() + level.size();
     for (Piece& piece : level) {
       const double error = worst_error(piece);
-      const bool fell = piece.level == 0 || !(error > hardly_falls * piece.error_before);
-      const int in_vain = fell ? 0 : piece.in_vain + 1;
-      const bool is_noise = in_vain >= halvings_of_noise && error < may_be_noise;
+      const bool is_noise =
+          piece.level >= halvings_of_noise && error < may_be_noise && error > hardly_fallen * piece.before.back();
       if (good(piece) || is_noise || total == max_pieces_ || piece.level == deepest_level) {
         kept_.push_back(std::move(piece));
         continue;
       }
       ++total;
+      std::array<double, halvings_of_noise> before = piece.before;
+      std::rotate(before.begin(), before.end() - 1, before.end());
+      before.front() = error;
       for (std::size_t side = 0; side < 2; ++side)
-        halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}, error, in_vain});
+        halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}, before});
     }
     return halves;
   }
