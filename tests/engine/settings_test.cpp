@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "engine/reading/read_scene.h"
@@ -122,6 +123,28 @@ TEST(Settings, FaultsAreToldAtTheirPlaceInTheSetting) {
   expect("effects.elasticity=[\"shaft\", \"shaf\"]", 30, "did you mean \"shaft\"?");
   expect("run.start.wheel.sped=1 rad/s", 17, "sped");
   expect("run.method=\"dopry5\"", 12, "dopry5");
+}
+
+// Whatever is given: the scene is read, or refused with a place.
+TEST(Settings, OfAnyCharactersAreReadOrRefusedWithAPlace) {
+  const std::vector<std::string> pieces = {"shaft", "motor", "run",  "start",     "line", "title", ".",   "=",
+                                           "[1]",   "[",     "]",    " ",         "\"",   "'",     "{",   "}",
+                                           ",",     "#",     "\n",   "\t",        "1",    "1e9",   "rpm", "-",
+                                           "\\",    "ω",     "\xff", "stiffness", "speed"};
+  std::mt19937 dice(7);
+  int read = 0;
+  for (int k = 0; k < 3000; ++k) {
+    std::string setting = k % 3 == 0 ? "run.start.speed=" : k % 3 == 1 ? "shaft." : "";
+    for (auto n = dice() % 9; n > 0; --n) setting += pieces[dice() % pieces.size()];
+    try {
+      scene_with({setting});
+      ++read;
+    } catch (const SceneError& error) {
+      ASSERT_FALSE(error.messages.empty());
+      for (const Message& m : error.messages) EXPECT_GT(m.at.line, 0) << in_quotes(setting) << ": " << m.text;
+    }
+  }
+  EXPECT_GT(read, 5);
 }
 
 // What a setting brings shifts lines and columns; other faults stand where the file has them.
