@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "engine/numerics/elimination.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 Eigen::Index ix(std::size_t index) { return static_cast<Eigen::Index>(index); }
 
 constexpr int binades = 8, most_magnitude = 60;  // inertias within 2⁸ of each other count as of one size
@@ -31,31 +31,6 @@ std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t
   for (std::size_t k = 0; k < count; ++k)
     if (std::find(taken.begin(), taken.end(), k) == taken.end()) rest.push_back(k);
   return rest;
-}
-
-// Row-major square matrix by its inverse, Gauss–Jordan with row pivots; its rows and columns are of like size. False
-// where it has none to speak of beside the size of what its entries were summed from.
-template <class Matrix>
-bool invert(Matrix& a, double size) {
-  const Eigen::Index n = a.rows();
-  const double least = none * size;
-  Matrix inverse = Matrix::Identity(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    Eigen::Index pivot = k;
-    for (Eigen::Index i = k + 1; i < n; ++i)
-      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
-    if (!(std::abs(a(pivot, k)) > least)) return false;
-    if (pivot != k) a.row(pivot).swap(a.row(k)), inverse.row(pivot).swap(inverse.row(k));
-    const double over = 1 / a(k, k);
-    a.row(k) *= over, inverse.row(k) *= over;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double factor = a(i, k);
-      if (i == k || factor == 0) continue;
-      a.row(i) -= factor * a.row(k), inverse.row(i) -= factor * inverse.row(k);
-    }
-  }
-  a = inverse;
-  return true;
 }
 
 }  // namespace
@@ -214,7 +189,7 @@ bool Constraints::reduce(const Matrix& left, const std::vector<std::size_t>& uni
       for (std::size_t s = 0; s < tied_.size(); ++s)
         size = std::max(size, std::abs(inertia_[s] * left(ix(s), i) * allowed_(ix(s), j)) * factor);
     }
-  if (!invert(inverse, size)) return false;
+  if (!invert(inverse, none * size)) return false;
   for (Eigen::Index i = 0; i < k; ++i)
     for (Eigen::Index j = 0; j < k; ++j) inverse(i, j) *= root(lead_, i) * root(unit, j);
   return true;
@@ -250,7 +225,7 @@ void Constraints::share() {
     for (Eigen::Index k = 0; k < q; ++k)
       scaled(b, k) *= root(repeating_[static_cast<std::size_t>(k)]) / root(basic_[static_cast<std::size_t>(b)]);
   Matrix inverse = Matrix::Identity(q, q) + scaled.transpose() * scaled;
-  invert(inverse, 1);
+  invert(inverse, none);
   shares_ = -inverse * scaled.transpose();
   for (Eigen::Index b = 0; b < r; ++b)
     for (Eigen::Index k = 0; k < q; ++k)

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Contact against_the_frame(const Model& m, int s) {
   const Shaft& shaft = m.shafts[at(s)];

@@ -10,11 +10,10 @@
 #include <utility>
 
 #include "engine/numerics/fp_traps.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // A universal joint's θ = φ_a − φ_b swings by degrees whatever its spring carries: no step can hold it more exactly
 // than it is rounded.

@@ -3,13 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 JointTorques::JointTorques(const Model& model) : model_(&model) {
   torque_.assign(model.network.joints.size(), 0);
   balance_.assign(model.network.nodes.size(), 0);

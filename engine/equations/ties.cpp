@@ -7,10 +7,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double least_capacity = 1e-6;  // of the torque scale, for sharing
 

@@ -4,13 +4,9 @@
 #include <stdexcept>
 
 #include "engine/events/start.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
 
 std::vector<double> balanced_joints(const Model& m, std::vector<double> need) {
   const Network& net = m.network;

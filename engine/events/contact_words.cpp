@@ -7,11 +7,10 @@
 #include <set>
 
 #include "engine/events/contacts.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 std::string mode_name(const Contact& contact, int sense) {
   const bool frame = contact.kind != Contact::Kind::connection;

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <set>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double nothing = 1e-12;                // of a scale: a torque or speed within round-off
 constexpr double round_off = 1e-9;               // of a push: it decides nothing

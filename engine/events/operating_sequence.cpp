@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double never = 1e300;
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/numerics/index.h"
+
 namespace kurbel {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double fits = 1e-12;  // of its terms: the usual motion obeys a relation
 

@@ -53,4 +53,25 @@ Eliminated eliminate(Eigen::MatrixXd rows, const std::vector<std::size_t>& order
   return result;
 }
 
+bool invert(RowMatrix& a, double least) {
+  const Eigen::Index n = a.rows();
+  RowMatrix inverse = RowMatrix::Identity(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < n; ++i)
+      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+    if (!(std::abs(a(pivot, k)) > least)) return false;
+    if (pivot != k) a.row(pivot).swap(a.row(k)), inverse.row(pivot).swap(inverse.row(k));
+    const double over = 1 / a(k, k);
+    a.row(k) *= over, inverse.row(k) *= over;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double factor = a(i, k);
+      if (i == k || factor == 0) continue;
+      a.row(i) -= factor * a.row(k), inverse.row(i) -= factor * inverse.row(k);
+    }
+  }
+  a = inverse;
+  return true;
+}
+
 }  // namespace kurbel

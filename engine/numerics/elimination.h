@@ -27,4 +27,9 @@ struct Eliminated {
 // those of most weight that can be solved for are.
 Eliminated eliminate(Eigen::MatrixXd rows, const std::vector<std::size_t>& order, const Eigen::VectorXd& weight);
 
+// A square matrix becomes its inverse, by row pivots; its rows and columns should be of like size. False, with the
+// matrix spoilt, where a pivot is no larger than `least`, of the size of what its entries were summed from.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+bool invert(RowMatrix& a, double least);
+
 }  // namespace kurbel
