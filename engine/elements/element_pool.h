@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/elements/element.h"
+#include "engine/elements/event_kind.h"
 
 namespace kurbel {
 
@@ -81,6 +82,7 @@ struct Reactions {
 
 struct GuardLabel {
   std::string component, what;  // what happens when it fires
+  EventKind kind = EventKind::law;
 };
 
 class ElementPool {

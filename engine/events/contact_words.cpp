@@ -19,6 +19,12 @@ std::string mode_name(const Contact& contact, int sense) {
   return sense > 0 ? "slipping forwards" : "slipping backwards";
 }
 
+EventKind kind_of(const Contact& contact, int sense) {
+  if (contact.kind == Contact::Kind::connection) return sense == 0 ? EventKind::lock : EventKind::slip;
+  if (sense != 0) return EventKind::motion;
+  return contact.kind == Contact::Kind::frame ? EventKind::rest : EventKind::held;
+}
+
 std::string happening(const Contact& contact, int sense) {
   switch (contact.kind) {
     case Contact::Kind::connection:
@@ -63,10 +69,17 @@ void Contacts::tell(double t, const std::vector<std::size_t>& among, const std::
     const Contact& contact = list()[c];
     const int now = sense(c);
     if (now == before[c] && !std::count(always.begin(), always.end(), c)) continue;
-    log.push_back({t, contact.name, happening(contact, now), mode_name(contact, before[c])});
+    log.push_back({.t = t,
+                   .component = contact.name,
+                   .what = happening(contact, now),
+                   .from = mode_name(contact, before[c]),
+                   .kind = kind_of(contact, now)});
     if (now != 0) continue;
     if (const std::string shares = sharing(contact); !shares.empty())
-      log.push_back({t, contact.name, "is held in proportion to capacity: " + shares});
+      log.push_back({.t = t,
+                     .component = contact.name,
+                     .what = "is held in proportion to capacity: " + shares,
+                     .kind = EventKind::shares});
   }
 }
 

@@ -100,12 +100,17 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
 // Edges over the angle are told as such; elsewhere a label names the mode.
 void Equations::fire_piece(const PoolGuard& guard, double t, std::span<const double> y, EventLog& log) {
   const ElementPool& pool = *model().pools[guard.pool];
-  const std::string before = pool.label(guard.local, instant(t, y)).what;
+  const GuardLabel before = pool.label(guard.local, instant(t, y));
   pool.fire(instant(t, y), guard.local, changing_modes().piece.data());
   const GuardLabel label = pool.label(guard.local, instant(t, y));
   const bool edge = pool.guards_are_of_angle();
-  if (!label.what.empty() && (edge || label.what != before))
-    log.push_back({t, label.component, label.what, edge ? "" : before});
+  if (label.what.empty() || (!edge && label.what == before.what)) return;
+  const bool impact = label.kind == EventKind::touch && before.kind == EventKind::flight;
+  log.push_back({.t = t,
+                 .component = label.component,
+                 .what = label.what,
+                 .from = edge ? "" : before.what,
+                 .kind = impact ? EventKind::impact : label.kind});
 }
 
 void Equations::pass_edge(double t, std::span<double> y, EventLog& log) {

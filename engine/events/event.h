@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/elements/event_kind.h"
+
 namespace kurbel {
 
 struct Event {
@@ -11,6 +13,7 @@ struct Event {
   std::string component, what;
   std::string from = {};  // the mode before, where it has a name
   double angle = 0;       // of the reduction link then, turns counted [rad]
+  EventKind kind = EventKind::note;
 };
 using EventLog = std::vector<Event>;
 

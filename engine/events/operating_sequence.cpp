@@ -59,10 +59,13 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
       else
         command = {.value = step.to, .to = step.to};
       if (log)
-        log->push_back({t, component,
-                        step.over > 0 ? fmt::format("goes to {} within {:.4g} s", value_text(step.to), step.over)
-                                      : fmt::format("is set {}", value_text(step.to)),
-                        value_text(value)});
+        log->push_back({.t = t,
+                        .component = component,
+                        .what = step.over > 0
+                                    ? fmt::format("goes to {} within {:.4g} s", value_text(step.to), step.over)
+                                    : fmt::format("is set {}", value_text(step.to)),
+                        .from = value_text(value),
+                        .kind = EventKind::command});
     }
     modes.last_step_time = t;
     ++modes.next_step;

@@ -147,6 +147,7 @@ struct PressForce {
   int next_mode(const SliderState<double>& s, int which) const {
     return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
   }
+  static constexpr EventKind event_kind = EventKind::load_edge;
   std::string mode_name(const SliderState<double>& s) const {
     const double middle = 0.5 * (profile.piece_begin(s.mode) + profile.piece_end(s.mode));
     if (!std::isfinite(middle) || profile.value_in(s.mode, middle) == 0) return "load ends";
@@ -298,6 +299,7 @@ struct SliderLoad {
   void guard(const SliderState<double>& s, double* g) const;             // both ends of the piece
   int next_piece(const SliderState<double>& s, int which) const;         // behind that end
   std::string piece_name(const SliderState<double>& s) const;            // for people
+  EventKind piece_kind() const;                                          // for programs
   void take_first_piece(const SliderState<double>& s, int& mode) const;  // where the slider is
   // The other branch, when the slider turns back within its stroke.
   bool follows_travel() const;
@@ -335,6 +337,17 @@ inline int SliderLoad::next_piece(const SliderState<double>& s, int which) const
       [&](const auto& l) {
         if constexpr (in_pieces<std::decay_t<decltype(l)>>) return l.next_mode(s, which);
         return s.mode;
+      },
+      law);
+}
+
+inline EventKind SliderLoad::piece_kind() const {
+  return std::visit(
+      [](const auto& l) {
+        if constexpr (requires { l.event_kind; })
+          return l.event_kind;
+        else
+          return EventKind::law;
       },
       law);
 }

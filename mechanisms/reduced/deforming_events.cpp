@@ -78,7 +78,7 @@ GuardLabel DeformingMechanismPool::label(int guard, const Instant& now) const {
     SliderState<double> s{};
     s.mode = now.mode[p.at.mode + 1 + static_cast<int>(owner.index)];
     const SliderLoad& load = p.mechanism.loads[owner.index];
-    return {load.name, load.piece_name(s)};
+    return {load.name, load.piece_name(s), load.piece_kind()};
   }
   const SliderCrankDynamics::ContactPlace& place = p.dynamics->contacts()[owner.index];
   static const char* const corners[] = {"extended upper corner", "folded upper corner", "extended lower corner",
@@ -87,9 +87,9 @@ GuardLabel DeformingMechanismPool::label(int guard, const Instant& now) const {
   if (place.corner >= 0) what += std::string(", ") + corners[place.corner];
   switch (now.mode[p.contact_mode() + static_cast<int>(owner.index)]) {
     case JointContact::flight:
-      return {p.mechanism.name, what + ": in flight"};
+      return {p.mechanism.name, what + ": in flight", EventKind::flight};
     case JointContact::touching:
-      return {p.mechanism.name, what + ": touches"};
+      return {p.mechanism.name, what + ": touches", EventKind::touch};
     case JointContact::parting:
       return {p.mechanism.name, what + ": parts"};
     default:

@@ -276,7 +276,7 @@ GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
   SliderState<double> s{};
   s.mode = now.mode[p.at.mode + 1 + owner.load];
-  return {load.name, load.piece_name(s)};
+  return {load.name, load.piece_name(s), load.piece_kind()};
 }
 
 void MechanismPool::first_modes(const Instant& now, int* mode) const {

@@ -64,7 +64,7 @@ void note_sudden_loads(Comparison& c) {
                                    with_unit(rigid->second, "N*m", 4)));
   }
   const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) {
-    return e.what == "load edge" || e.what == "load ends" || e.what == "on" || e.what == "off";
+    return e.kind == EventKind::load_edge || e.kind == EventKind::window;
   });
   if (edges > 0)
     sudden.push_back(fmt::format("{} load edge{} or switching{}", edges, edges > 1 ? "s" : "", edges > 1 ? "s" : ""));

@@ -101,8 +101,7 @@ class Figures {
   void collect_impacts() {
     for (const std::string& component : components_with_impacts(model_)) {
       int count = 0;
-      for (const Event& e : run_.outcome.events)
-        count += e.component == component && e.what.ends_with(": touches") && e.from.ends_with(": in flight");
+      for (const Event& e : run_.outcome.events) count += e.component == component && e.kind == EventKind::impact;
       add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
       run_.figures.back().exact = true;
     }
@@ -110,19 +109,15 @@ class Figures {
   // From the signal that makes the reduction link stop to its rest.
   void collect_stopping() {
     const std::vector<Event>& events = run_.outcome.events;
-    const auto is_command = [&](const Event& e) {
-      return std::any_of(model_.commands.begin(), model_.commands.end(), [&](const CommandTarget& target) {
-        return target.component == e.component && (e.what.starts_with("is set") || e.what.starts_with("goes to"));
-      });
-    };
+    const auto is_command = [](const Event& e) { return e.kind == EventKind::command; };
     const std::string name =
         model_.node_label(model_.shafts[at(model_.shaft_of_node[at(model_.reduction_node)])].reference);
     for (std::size_t k = 1; k < events.size(); ++k) {
-      if (events[k].component != name || events[k].what != "comes to rest and is held") continue;
+      if (events[k].component != name || events[k].kind != EventKind::rest) continue;
       // Back to the signal: the first command after the clutch last locked, or since the link moved.
       std::size_t begin = k;
-      while (begin > 0 && events[begin - 1].what != "locks" &&
-             !(events[begin - 1].component == name && events[begin - 1].what.starts_with("moves")))
+      while (begin > 0 && events[begin - 1].kind != EventKind::lock &&
+             !(events[begin - 1].component == name && events[begin - 1].kind == EventKind::motion))
         --begin;
       const auto told =
           static_cast<std::size_t>(std::find_if(events.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -132,8 +132,8 @@ void find_standstill(const Model& model, const BandHistory& speed, const RunOutc
   const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
   for (const Event& event : outcome.events) {
     if (event.component != name || event.t <= *periods.run_down_begin) continue;
-    if (event.what == "comes to rest and is held") periods.standstill = event.t;
-    if (event.what.starts_with("moves")) periods.standstill.reset();
+    if (event.kind == EventKind::rest) periods.standstill = event.t;
+    if (event.kind == EventKind::motion) periods.standstill.reset();
   }
   if (periods.standstill || speed.empty()) return;
   const double level = at_rest * std::max(std::abs(reference), at_rest * model.speed_scale);

@@ -108,7 +108,7 @@ Json state_json(const ComponentState& s) {
 
 Json event_json(const Result& r, std::size_t k) {
   const Event& e = r.events[k];
-  Json j = {{"t", e.t}, {"component", e.component}, {"what", e.what}};
+  Json j = {{"t", e.t}, {"component", e.component}, {"kind", name_of(e.kind)}, {"what", e.what}};
   if (!e.from.empty()) j["from"] = e.from;
   j["error"] = r.event_errors.empty() ? Json() : optional_json(r.event_errors[k]);
   if (!r.event_errors.empty() && !r.event_errors[k]) j["only_in_finer_run"] = true;

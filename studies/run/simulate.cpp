@@ -378,7 +378,7 @@ class Simulation {
       if (m.network.elements[e].element->account() == Account::driving)
         drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];
     const auto stop = std::find_if(outcome.events.rbegin(), outcome.events.rend(),
-                                   [](const Event& e) { return e.what == "comes to rest and is held"; });
+                                   [](const Event& e) { return e.kind == EventKind::rest; });
     if (drive == 0 || stop == outcome.events.rend()) return;
     const double degrees = s.node_angle[m.reduction_node] * 180 / std::numbers::pi;
     result_.notes.push_back(fmt::format(

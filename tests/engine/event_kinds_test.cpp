@@ -1,0 +1,63 @@
+// event_kinds_test.cpp — every event of every example scene says what kind it is of, in agreement with its words; no
+// figure hangs on the words.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tests/coverage/variant.h"
+#include "tests/published/published.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+// By the words, which people read.
+EventKind kind_by_words(const Event& e) {
+  const auto begins = [&](const char* words) { return e.what.starts_with(words); };
+  if (e.what == "load edge" || e.what == "load ends") return EventKind::load_edge;
+  if (e.what.ends_with(": touches")) return e.from.ends_with(": in flight") ? EventKind::impact : EventKind::touch;
+  if (e.what.ends_with(": in flight")) return EventKind::flight;
+  if (begins("comes to rest")) return EventKind::rest;
+  if (begins("is held by its losses")) return EventKind::held;
+  if (begins("moves ")) return EventKind::motion;
+  if (e.what == "locks") return EventKind::lock;
+  if (begins("slips ") && (e.from == "locked" || e.from.starts_with("slipping "))) return EventKind::slip;
+  if (begins("is held in proportion")) return EventKind::shares;
+  if (begins("is set ") || begins("goes to ")) return EventKind::command;
+  if (e.what == "on" || e.what == "off") return EventKind::window;
+  if (begins("jams: ")) return EventKind::jam;
+  if (e.component == "modes" || e.what.find("find no rest") != std::string::npos) return EventKind::note;
+  return EventKind::law;
+}
+
+TEST(EventKinds, AgreeWithTheWordsInEveryScene) {
+  std::map<EventKind, int> seen;
+  for (const std::string& name : coverage::scene_names()) {
+    Scene scene = test::scene_file("scenes/" + name + ".toml");
+    scene.run.until *= 0.5;
+    Equations equations(compile(scene, scene.effects), true);
+    RunOptions options;
+    options.tolerance = 1e-6;
+    options.until = scene.run.until;
+    options.budget = 20;
+    for (const Event& e : integrate(equations, options, {}).events) {
+      EXPECT_EQ(e.kind, kind_by_words(e))
+          << name << ": " << e.component << ": " << e.what << ", is a " << name_of(e.kind);
+      ++seen[e.kind];
+    }
+  }
+  for (const EventKind kind : {EventKind::law, EventKind::load_edge, EventKind::impact, EventKind::rest,
+                               EventKind::lock, EventKind::slip, EventKind::command, EventKind::window})
+    EXPECT_GT(seen[kind], 0) << name_of(kind);
+}
+
+TEST(EventKinds, HaveANameEach) {
+  std::set<std::string> names;
+  for (int k = 0; k <= static_cast<int>(EventKind::note); ++k) names.insert(name_of(static_cast<EventKind>(k)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(EventKind::note) + 1);
+}
+
+}  // namespace
+}  // namespace kurbel
