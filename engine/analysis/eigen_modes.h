@@ -38,7 +38,7 @@ struct DampedMode {
   std::complex<double> lambda;                                        // [1/s], Im ≥ 0; Im = 0: does not swing
   Eigen::VectorXcd shape;                                             // per coordinate; largest entry 1
   double natural() const { return std::abs(lambda); }                 // [rad/s]
-  double ratio() const { return -lambda.real() / std::abs(lambda); }  // ζ; < 0: grows by itself
+  double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: grows by itself
 };
 
 // Swinging modes by ascending |λ|, then those that do not swing. Small drives: all. Large ones: those that grow out of

@@ -1,4 +1,4 @@
-// settings.h — values given beside a scene, as on a command line: main_coupling.stiffness=1 MN*m/rad.
+// settings.h — values given beside a scene, as by `--set` on a command line: main_coupling.stiffness=1 MN*m/rad.
 //
 //   PATH=VALUE   PATH: component.key, run.accuracy, press.load.nominal_force, gearbox.stages[2].ratio
 //                VALUE: as in a scene, quotes may be left out; nothing: the key is taken away, its default holds

@@ -27,6 +27,16 @@ std::vector<std::string> default_components(const Model& model) {
   return {all.front(), all.back()};
 }
 
+// A trajectory is held in memory: 2 GB at most.
+void refuse_too_many(const Scene& scene, std::size_t channels) {
+  const double needed = 1e-9 * sizeof(double) * scene.run.samples * static_cast<double>(channels);
+  if (needed <= 2) return;
+  throw SceneError({{scene.file, scene.run.method_at,
+                     fmt::format("[run]: samples = {} of {} quantities take {:.2g} GB; must be at most 2 GB: fewer "
+                                 "samples, or the components that matter in output",
+                                 scene.run.samples, channels, needed)}});
+}
+
 }  // namespace
 
 std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
@@ -88,6 +98,7 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
                           model.own_states[k].state.unit, [k](const Snapshot& s) { return s.now.own[k]; }});
   for (const Channel& channel : model.pool_channels)
     if (is_wanted(wanted, channel.name.substr(channel.name.find('.') + 1))) channels.push_back(channel);
+  refuse_too_many(model.scene, channels.size());
   return channels;
 }
 

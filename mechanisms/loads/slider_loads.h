@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/elements/element.h"
+#include "engine/elements/event_kind.h"
 #include "engine/elements/piece_guard.h"
 #include "engine/numerics/curve.h"
 #include "engine/numerics/dual.h"

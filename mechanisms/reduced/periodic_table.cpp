@@ -164,22 +164,30 @@ class TableBuilder {
     return worst;
   }
 
-  // Keeps the good pieces and halves the others while there is room; returns the halves.
+  // Both halves of a piece err as much as it did, and as its parents: no kink, which lies in one of them.
+  bool is_noise(const std::vector<Piece>& level, std::size_t i) const {
+    const Piece &piece = level[i], &sibling = level[i ^ 1];
+    if (piece.level < halvings_of_noise || good(sibling)) return false;
+    const double error = worst_error(piece);
+    return error < may_be_noise && error > hardly_fallen * *std::max_element(piece.before.begin(), piece.before.end());
+  }
+
+  // Keeps the good pieces and halves the others while there is room; returns the halves, sibling beside sibling.
   std::vector<Piece> split_or_keep(std::vector<Piece>& level) {
+    std::vector<char> enough(level.size());
+    for (std::size_t i = 0; i < level.size(); ++i) enough[i] = good(level[i]) || is_noise(level, i);
     std::vector<Piece> halves;
     std::size_t total = kept_.size() + level.size();
-    for (Piece& piece : level) {
-      const double error = worst_error(piece);
-      const bool is_noise =
-          piece.level >= halvings_of_noise && error < may_be_noise && error > hardly_fallen * piece.before.back();
-      if (good(piece) || is_noise || total == max_pieces_ || piece.level == deepest_level) {
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      Piece& piece = level[i];
+      if (enough[i] || total == max_pieces_ || piece.level == deepest_level) {
         kept_.push_back(std::move(piece));
         continue;
       }
       ++total;
       std::array<double, halvings_of_noise> before = piece.before;
       std::rotate(before.begin(), before.end() - 1, before.end());
-      before.front() = error;
+      before.front() = worst_error(piece);
       for (std::size_t side = 0; side < 2; ++side)
         halves.push_back({piece.level + 1, 2 * piece.index + side, {}, {}, before});
     }

@@ -9,11 +9,11 @@
 namespace kurbel {
 namespace {
 
-using EventKind = std::tuple<std::string, std::string, std::string>;
+using Likeness = std::tuple<std::string, std::string, std::string>;
 using Places = std::vector<std::size_t>;  // of the events of one kind, in time
 
-std::map<EventKind, Places> by_kind(const std::vector<Event>& events) {
-  std::map<EventKind, Places> kinds;
+std::map<Likeness, Places> by_kind(const std::vector<Event>& events) {
+  std::map<Likeness, Places> kinds;
   for (std::size_t k = 0; k < events.size(); ++k)
     kinds[{events[k].component, events[k].what, events[k].from}].push_back(k);
   return kinds;
@@ -31,7 +31,7 @@ std::size_t nearest(const std::vector<Event>& events, const Places& places, doub
 EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Event>& fine) {
   EventMatch match;
   match.error.resize(fine.size());
-  const std::map<EventKind, Places> in_coarse = by_kind(coarse), in_fine = by_kind(fine);
+  const std::map<Likeness, Places> in_coarse = by_kind(coarse), in_fine = by_kind(fine);
   std::size_t matched = 0;
   const auto pair = [&](std::size_t c, std::size_t f) {
     match.error[f] = std::abs(fine[f].t - coarse[c].t);

@@ -5,6 +5,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "studies/reduce/reduce.h"
+#include "studies/run/simulate.h"
 #include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
@@ -196,6 +197,35 @@ TEST(Bounds, MoreRelationsThanCanBeSolvedAreRefused) {
   const std::string said =
       said_of(line + "\"end\"]\n" + tables + "end = { kind = \"inertia\", inertia = \"1 kg*m2\" }\n");
   EXPECT_EQ(said.find("test.toml:2003:1: the machine has 1001 gears with losses"), 0u) << said;
+}
+
+// 10⁶ rows of 100 components would not fit: refused before a step, with what would.
+TEST(Bounds, TrajectoryThatMemoryCannotHoldIsRefused) {
+  std::string line = "line = [\"w0\"", output = "\"w0\"";
+  std::string tables = "w0 = { kind = \"flywheel\", inertia = \"1 kg*m2\" }\n";
+  for (int i = 1; i < 50; ++i) {
+    line += fmt::format(", \"c{0}\", \"w{0}\"", i);
+    output += fmt::format(", \"c{0}\", \"w{0}\"", i);
+    tables += fmt::format("w{0} = {{ kind = \"flywheel\", inertia = \"1 kg*m2\" }}\n", i) +
+              fmt::format("c{0} = {{ kind = \"coupling\", stiffness = \"1 kN*m/rad\" }}\n", i);
+  }
+  const auto said = [&](const std::string& samples) -> std::string {
+    const Scene scene = scene_from(line + "]\n" + tables +
+                                   "effects = { elasticity = true }\nrun = { until = \"1e-6 s\", samples = " + samples +
+                                   ", output = [" + output + "] }\n");
+    SimulateOptions options;
+    options.measure_error = false;
+    try {
+      return simulate(scene, scene.effects, "test", options).diagnosis;
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+  };
+  const std::string refused = said("1000000");
+  EXPECT_EQ(refused.find("test.toml:102:"), 0u) << refused;
+  EXPECT_NE(refused.find("samples = 1000000 of "), std::string::npos) << refused;
+  EXPECT_NE(refused.find("must be at most 2 GB"), std::string::npos) << refused;
+  EXPECT_EQ(said("1000"), "");
 }
 
 // As many names that are none: each is said, but not compared with all others.
