@@ -107,6 +107,37 @@ TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(file("out/trajectory.csv"));
 }
 
+// What is set beside a scene does what the same in the file does, is shown, and its faults are placed, however late.
+TEST_F(CommandLine, SettingsBesideASceneAreReadShownAndPlaced) {
+  const std::string text = scene("until = \"1 s\"\n");
+  const auto figures = [](const Ended& r) { return nlohmann::json::parse(r.out)["figures"]; };
+  const Ended set = kurbel({"run", text, "--json", "--no-files", "--no-error", "--set", "coupling.damping=5 N*m*s/rad",
+                            "--set", "fan.inertia=0.9 kg*m2"});
+  ASSERT_EQ(set.code, 0) << set.err;
+  const nlohmann::json shown = nlohmann::json::parse(set.out);
+  EXPECT_EQ(shown["set"], (std::vector<std::string>{"coupling.damping=5 N*m*s/rad", "fan.inertia=0.9 kg*m2"}));
+  EXPECT_EQ(shown["title"], "scene.toml with coupling.damping=5 N*m*s/rad, fan.inertia=0.9 kg*m2");
+  std::string edited = text_of(folder_ / text);
+  edited.replace(edited.find("2 N*m*s/rad\""), 1, "5");
+  edited.replace(edited.find("0.6 kg*m2"), 3, "0.9");
+  std::ofstream(folder_ / "edited.toml") << edited;
+  EXPECT_EQ(figures(set), figures(kurbel({"run", "edited.toml", "--json", "--no-files", "--no-error"})));
+  for (const char* command : {"run", "compare", "check", "figures", "steady", "modes", "size", "reduce", "forces",
+                              "gears", "effects", "advise", "accuracy"}) {
+    const Ended wrong = kurbel({command, text, "--set", "coupling.stiffness=4 kg"});
+    EXPECT_EQ(wrong.code, 2) << command;
+    EXPECT_NE(
+        wrong.err.find("--set \"coupling.stiffness=4 kg\":1:20: coupling \"coupling\": stiffness = \"4 kg\" is a mass"),
+        std::string::npos)
+        << command << ": " << wrong.err;
+  }
+  // Found when the machine is built: in the file's own place.
+  const Ended late = kurbel(
+      {"check", text, "--set", "run.accuracy=1e-5", "--set", "motor.inertia=", "--set", "coupling.inertia_in=0 kg*m2"});
+  EXPECT_EQ(late.code, 2);
+  EXPECT_TRUE(late.err.starts_with("scene.toml:") || late.err.starts_with("--set \"")) << late.err;
+}
+
 TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
   const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
   const Ended r = kurbel({"forces", press, "--speed", "60 rpm", "--no-run", "--out", "out"});
