@@ -35,9 +35,9 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
 int modes_below(const LinearDrive& drive, double omega);
 
 struct DampedMode {
-  std::complex<double> lambda;                                        // [1/s], Im ≥ 0; Im = 0: does not swing
-  Eigen::VectorXcd shape;                                             // per coordinate; largest entry 1
-  double natural() const { return std::abs(lambda); }                 // [rad/s]
+  std::complex<double> lambda;                                             // [1/s], Im ≥ 0; Im = 0: does not swing
+  Eigen::VectorXcd shape;                                                  // per coordinate; largest entry 1
+  double natural() const { return std::abs(lambda); }                      // [rad/s]
   double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: grows by itself
 };
 

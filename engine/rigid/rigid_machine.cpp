@@ -63,7 +63,8 @@ RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rig
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
-    if (e.element->cycle() > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
+    if (e.element->cycle() > 0)
+      mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
   const auto [cycle, periodic] = cycle_of(*model_);
   cycle_ = cycle;
   periodic_ = periodic;

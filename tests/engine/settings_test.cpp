@@ -147,6 +147,17 @@ TEST(Settings, OfAnyCharactersAreReadOrRefusedWithAPlace) {
   EXPECT_GT(read, 5);
 }
 
+// SECURITY.md: what a setting brings is a part of the scene, and so are the data files that it names.
+TEST(Settings, ReadNoDataFilesThatTheSceneMayNotRead) {
+  const std::string text = machine + "[pulse]\nkind = \"torque source\"\non = \"wheel\"\ntorque = \"1 N*m\"\n";
+  EXPECT_TRUE(faults(text, {}).empty());
+  const std::string setting = "pulse.table={ over = \"angle\", unit = [\"rad\", \"N*m\"], file = \"/etc/hostname\" }";
+  const std::vector<Message> found = faults(text, {setting});
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(found[0].file.starts_with("--set \"pulse.table=")) << found[0].file;
+  EXPECT_NE(found[0].text.find("allow-files"), std::string::npos) << found[0].text;
+}
+
 // What a setting brings shifts lines and columns; other faults stand where the file has them.
 TEST(Settings, LeaveThePlacesOfOtherFaults) {
   int compared = 0;
