@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanisms/linkages/planar_system.h"
 
@@ -19,6 +20,8 @@ using SimTK::Transform;
 using SimTK::Vec3;
 
 namespace {
+
+constexpr double least_stroke = 1e-8;  // of the upper link: below it, places of the ram are mostly round-off
 
 // Heights of the knee between the upper link's dead centres, where crank and rod are in line.
 Range knee_heights(const KnucklePressData& d) {
@@ -33,6 +36,23 @@ Range knee_heights(const KnucklePressData& d) {
   return {d.bearing_y + d.upper * sine.least, d.bearing_y + d.upper * sine.greatest};
 }
 
+PlanePoint knee_at(const KnucklePressData& d, double phi) {
+  return meeting_point({d.radius * std::cos(phi), d.radius * std::sin(phi)}, d.rod, {d.bearing_x, d.bearing_y}, d.upper,
+                       !d.knee_right);
+}
+
+// Way of the ram, by angles of the crank that lie close enough to tell a ram that works from one that stands still.
+double stroke_of(const KnucklePressData& d) {
+  constexpr int angles = 32;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (int i = 0; i < angles; ++i) {
+    const PlanePoint knee = knee_at(d, 2 * std::acos(-1.0) * i / angles);
+    const double rise = d.guide - knee.y, ram = knee.x + std::sqrt((d.lower - rise) * (d.lower + rise));
+    least = std::fmin(least, ram), greatest = std::fmax(greatest, ram);
+  }
+  return greatest - least;
+}
+
 void check_geometry(const KnucklePressData& d, DataChecks& checks) {
   const double ground = std::hypot(d.bearing_x, d.bearing_y);
   check_crank_rocker({d.radius, d.rod, d.upper, ground, "radius", "rod", "upper", "bearing distance"}, checks);
@@ -43,6 +63,12 @@ void check_geometry(const KnucklePressData& d, DataChecks& checks) {
     checks.add("lower", fmt::format("lower = {}; must be > {}, the knee's greatest distance from the guide, else the "
                                     "crank cannot turn fully: {} too short; lengthen the lower link or move the guide",
                                     in_mm(d.lower), in_mm(rise), in_mm(rise - d.lower)));
+  else if (stroke_of(d) < least_stroke * d.upper)
+    checks.add("bearing_x",
+               fmt::format("the ram stands still: lower = upper = {}, and the lower link lies upon the upper "
+                           "one, which points from bearing_x = {} away from the stroke; set the bearing "
+                           "back behind the knee, or take the other branch",
+                           in_mm(d.upper), in_mm(d.bearing_x)));
 }
 
 }  // namespace
@@ -95,7 +121,7 @@ std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) {
   m->determinant_sign = d.knee_right ? 1 : -1;
   m->start = [d](double phi) {
     const PlanePoint a = {d.radius * std::cos(phi), d.radius * std::sin(phi)}, g = {d.bearing_x, d.bearing_y};
-    const PlanePoint k = meeting_point(a, d.rod, g, d.upper, !d.knee_right);
+    const PlanePoint k = knee_at(d, phi);
     const double upper_angle = std::atan2(k.y - g.y, k.x - g.x);
     return std::vector<double>{within_a_turn(std::atan2(k.y - a.y, k.x - a.x) - phi), upper_angle,
                                within_a_turn(std::asin((d.guide - k.y) / d.lower) - upper_angle)};
