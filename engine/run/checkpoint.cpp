@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 1";
+const char* const kind = "kurbel checkpoint 2";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;
@@ -46,6 +46,7 @@ void check(const Checkpoint& c, const Equations& equations) {
   if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
   const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.turns) &&
+                     std::all_of(c.observers.begin(), c.observers.end(), all_finite) &&
                      m.next_step <= equations.model().scene.sequence.steps.size();
   const auto pieces = [](const std::vector<int>& list) {
     constexpr int most = 10'000'000;  // of a table's rows
@@ -68,7 +69,8 @@ std::string text_of(const Checkpoint& checkpoint, const Equations& equations) {
                   {"y", checkpoint.state.y},
                   {"modes", checkpoint.state.modes},
                   {"integrals", checkpoint.integrals},
-                  {"loop", checkpoint.loop}};
+                  {"loop", checkpoint.loop},
+                  {"observers", checkpoint.observers}};
   return json.dump(1) + "\n";
 }
 
@@ -89,6 +91,7 @@ Checkpoint checkpoint_from(const std::string& text, const Equations& equations) 
     json.at("modes").get_to(c.state.modes);
     json.at("integrals").get_to(c.integrals);
     json.at("loop").get_to(c.loop);
+    json.at("observers").get_to(c.observers);
     if (c.state.y.size() != own.size()) throw UnfitCheckpoint("has not as many values as states");
     if (!c.integrals.empty() && equations.audit() && c.integrals.size() != equations.integral_count())
       throw UnfitCheckpoint("has other accounts of work than this scene");

@@ -16,91 +16,7 @@ namespace {
 // Peaks that differ by less are the same peak come again: the time of the first one counts.
 constexpr double same_peak = 1e-9;
 
-bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
-  return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
-}
-
-// Both ends of a long machine stand for the rest.
-std::vector<std::string> default_components(const Model& model) {
-  const std::vector<std::string>& all = model.network.components;
-  if (all.size() <= 60) return {};
-  return {all.front(), all.back()};
-}
-
-// A trajectory is held in memory: 2 GB at most.
-void refuse_too_many(const Scene& scene, std::size_t channels) {
-  const double needed = 1e-9 * sizeof(double) * scene.run.samples * static_cast<double>(channels);
-  if (needed <= 2) return;
-  throw SceneError({{scene.file, scene.run.method_at,
-                     fmt::format("[run]: samples = {} of {} quantities take {:.2g} GB; must be at most 2 GB: fewer "
-                                 "samples, or the components that matter in output",
-                                 scene.run.samples, channels, needed)}});
-}
-
 }  // namespace
-
-std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
-  const std::vector<std::string> wanted = components.empty() ? default_components(model) : components;
-  std::vector<Channel> channels;
-  const auto motion = [&](const std::string& name, int node) {
-    const int shaft = model.shaft_of_node[at(node)];
-    const double gain = model.gain_of_node[at(node)];
-    channels.push_back({"angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; }});
-    channels.push_back(
-        {"speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; }});
-  };
-  for (const std::string& component : model.network.components) {
-    if (!is_wanted(wanted, component)) continue;
-    const Network::Ports& ports = model.network.ports.at(component);
-    if (ports.in == ports.out) {
-      motion(component, ports.in);
-    } else {
-      motion(component + ".in", ports.in);
-      motion(component + ".out", ports.out);
-      for (const auto& [name, node] : ports.others)
-        if (node != ports.in && node != ports.out) motion(component + "." + name, node);
-    }
-    std::vector<std::size_t> own;
-    for (std::size_t e = 0; e < model.network.elements.size(); ++e)
-      if (model.network.elements[e].component == component && model.network.elements[e].element->cycle() == 0)
-        own.push_back(e);
-    if (!own.empty())
-      channels.push_back({"torque." + component, "N*m", [own](const Snapshot& s) {
-                            double sum = 0;
-                            for (const std::size_t e : own) sum += s.sums.element_torque[e];
-                            return sum;
-                          }});
-  }
-  for (const TorqueJoint& joint : model.torque_joints) {
-    if (!is_wanted(wanted, joint.component.substr(0, joint.component.find('.')))) continue;
-    const int j = joint.joint, e = joint.elastic;
-    channels.push_back({"torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; }});
-    if (e < 0) continue;
-    if (model.elastic[at(e)].slips || model.elastic[at(e)].springless) {
-      const int a = model.elastic[at(e)].shaft_a, b = model.elastic[at(e)].shaft_b;
-      const double ga = model.elastic[at(e)].gain_a, gb = model.elastic[at(e)].gain_b;
-      channels.push_back({"slip." + joint.component, "rad/s",
-                          [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; }});
-      continue;
-    }
-    channels.push_back(
-        {"spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; }});
-    channels.push_back({"twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; }});
-  }
-  for (const GearTorque& torque : model.gear_torques)
-    if (is_wanted(wanted, torque.name.substr(0, torque.name.find('.'))))
-      channels.push_back({"torque." + torque.name, "N*m", [torque](const Snapshot& s) {
-                            return torque.value(s.joint_torque, s.relation_torque, s.relation_loss);
-                          }});
-  for (std::size_t k = 0; k < model.own_states.size(); ++k)
-    if (is_wanted(wanted, model.own_states[k].component))
-      channels.push_back({model.own_states[k].state.name + "." + model.own_states[k].component,
-                          model.own_states[k].state.unit, [k](const Snapshot& s) { return s.now.own[k]; }});
-  for (const Channel& channel : model.pool_channels)
-    if (is_wanted(wanted, channel.name.substr(channel.name.find('.') + 1))) channels.push_back(channel);
-  refuse_too_many(model.scene, channels.size());
-  return channels;
-}
 
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -116,6 +32,7 @@ void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
 }
 
 void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  if (!time_.empty()) return;  // goes on
   begin_ = t;
   record(t, equations.snapshot(t, y));
 }
@@ -131,86 +48,6 @@ void TrajectoryRecorder::step(StepView& view) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-
-std::vector<ExtremeOf> extremes_of(const Model& model) {
-  std::vector<ExtremeOf> wanted;
-  const auto shared = &model;  // outlives the run
-  for (const TorqueJoint& joint : model.torque_joints) {
-    const int j = joint.joint, e = joint.elastic;
-    ExtremeOf transmitted{.name = "peak_torque." + joint.component,
-                          .unit = "N*m",
-                          .scale = joint.torque_scale,
-                          .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
-                          .rate = {}};
-    ExtremeOf spring = transmitted;
-    spring.name = "peak_spring_torque." + joint.component;
-    const bool known = e >= 0 && model.network.joints[at(j)].element->knows_torque_rate();
-    if (e >= 0 && (model.elastic[at(e)].slips || model.elastic[at(e)].springless)) {
-      wanted.push_back(std::move(transmitted));  // no spring
-      continue;
-    }
-    if (e >= 0) {
-      const ElasticJoint elastic = model.elastic[at(e)];
-      if (known)
-        transmitted.rate = [shared, elastic, e, j](const Snapshot& s) {
-          const double acceleration =
-              elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
-          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
-        };
-      transmitted.slope = transmitted.rate;
-      spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
-      // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
-      const ConnectionMaker& element = *model.network.joints[at(j)].element;
-      if (known && element.stiffness() > 0 && !element.has_modes())
-        spring.slope = [shared, e, j](const Snapshot& s) {
-          return shared->network.joints[at(j)].element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);
-        };
-      else
-        transmitted.slope = {};
-      // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
-      if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
-    }
-    wanted.push_back(std::move(transmitted));
-    wanted.push_back(std::move(spring));
-  }
-  for (const GearTorque& torque : model.gear_torques)
-    wanted.push_back(
-        {.name = "peak_torque." + torque.name,
-         .unit = "N*m",
-         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
-         .value =
-             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
-         .rate = {}});
-  const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
-  const double gain = model.gain_of_node[at(node)];
-  const std::string link = model.network.nodes[at(node)].component;
-  ExtremeOf speed{.name = "max_speed." + link,
-                  .unit = "rad/s",
-                  .scale = model.speed_scale,
-                  .which = ExtremeOf::Which::maximum,
-                  .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
-                  .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
-  speed.slope = speed.rate;
-  wanted.push_back(speed);
-  speed.name = "min_speed." + link;
-  speed.which = ExtremeOf::Which::minimum;
-  wanted.push_back(std::move(speed));
-  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
-    const auto& [component, state] = model.own_states[k];
-    if (state.peak)
-      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
-                        .unit = state.unit,
-                        .scale = state.scale,
-                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
-                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
-  }
-  for (const Channel& channel : model.pool_channels) {
-    const std::string quantity = channel.name.substr(0, channel.name.find('.'));
-    if (quantity == "position") continue;
-    wanted.push_back({.name = "peak_" + channel.name, .unit = channel.unit, .value = channel.value, .rate = {}});
-  }
-  return wanted;
-}
 
 double ExtremeRecorder::merit(std::size_t i, double value) const {
   switch (wanted_[i].which) {
@@ -307,25 +144,44 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-void CycleRecorder::begin(double, std::span<const double> y, Equations& equations) {
+namespace {
+
+// Done so far, per account [J].
+std::vector<double> works(const Model& m, const Snapshot& s) {
+  std::vector<double> work(m.accounts.size(), 0.0);
+  if (s.quadrature) std::copy(s.quadrature, s.quadrature + work.size(), work.begin());
+  return work;
+}
+
+double link_speed(const Model& m, const Snapshot& s) {
+  return m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
+}
+
+}  // namespace
+
+void CycleRecorder::remember(Tape& tape) {
+  tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_);
+  goes_on_ = tape.reading();
+}
+
+void CycleRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   const Model& m = equations.model();
   cycle_ = m.cycle;
-  if (cycle_ == 0) return;
+  if (cycle_ == 0 || goes_on_) return;
+  const Snapshot& s = equations.snapshot(t, y);
   const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
   const double nearest = cycle_ * std::round(angle / cycle_);
   if (std::abs(nearest - angle) < 1e-9) {  // starts on the boundary
     open_ = true;
-    begin_ = 0;
-    work_at_begin_.assign(m.accounts.size(), 0.0);
+    begin_ = t;
+    work_at_begin_ = works(m, s);
     low_ = nearest - cycle_;
     high_ = nearest + cycle_;
   } else {
     low_ = cycle_ * std::floor(angle / cycle_);
     high_ = low_ + cycle_;
   }
-  const double omega =
-      m.angles[at(m.reduction_angle)].gain * equations.snapshot(0, y).now.speed[m.shaft_of_node[at(m.reduction_node)]];
-  max_ = min_ = omega;
+  max_ = min_ = link_speed(m, s);
 }
 
 void CycleRecorder::see_speed(double omega) {
@@ -336,9 +192,8 @@ void CycleRecorder::see_speed(double omega) {
 void CycleRecorder::pass(double t, int sense, StepView& view) {
   const Model& m = view.equations().model();
   const Snapshot& s = view.snapshot(t);
-  std::vector<double> work(m.accounts.size(), 0.0);
-  if (s.quadrature) std::copy(s.quadrature, s.quadrature + work.size(), work.begin());
-  const double omega = m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
+  std::vector<double> work = works(m, s);
+  const double omega = link_speed(m, s);
   see_speed(omega);
   if (open_ && (sense_ == 0 || sense == sense_)) {
     CycleRecord record{begin_, t, max_, min_, work};
@@ -430,7 +285,9 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
   ++checked;
 }
 
-void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) { check(t, y, equations); }
+void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) {
+  if (checked == 0) check(t, y, equations);  // else it goes on
+}
 
 // At the end of the step in which checks fall due: dense output is of a lower order than the steps it lies between.
 void EnergyAudit::step(StepView& view) {

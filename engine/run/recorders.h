@@ -21,6 +21,7 @@ class TrajectoryRecorder final : public Observer {
   TrajectoryRecorder(std::vector<Channel> channels, double until, int rows);
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void remember(Tape& tape) override { tape(begin_, time_, values_); }
 
   const std::vector<Channel>& channels() const { return channels_; }
   const std::vector<double>& time() const { return time_; }
@@ -57,10 +58,12 @@ class ExtremeRecorder final : public Observer {
     double value = 0, time = 0;
     bool any = false;
     double merit_then = 0;  // at that time: what is a little larger later on is the same peak
+    void remember(Tape& tape) { tape(value, time, any, merit_then); }
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void remember(Tape& tape) override { tape(found_); }
   const std::vector<ExtremeOf>& wanted() const { return wanted_; }
   const std::vector<Found>& found() const { return found_; }
 
@@ -88,6 +91,7 @@ struct CycleRecord {
   double mean_speed() const { return 0.5 * (omega_max + omega_min); }
   // δ (theory 2.6), whichever way it turns
   double delta() const { return (omega_max - omega_min) / std::abs(mean_speed()); }
+  void remember(Tape& tape) { tape(begin, end, omega_max, omega_min, work); }
 };
 
 // A cycle lies between two multiples of its angle that are passed one after the other in the same sense; where the
@@ -96,12 +100,14 @@ class CycleRecorder final : public Observer {
  public:
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void remember(Tape& tape) override;
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
 
  private:
   void see_speed(double omega);
   void pass(double t, int sense, StepView& view);
   std::vector<CycleRecord> cycles_;
+  bool goes_on_ = false;
   double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, the one passed last among them [rad]
   int sense_ = 0;                          // of that passing; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle
@@ -115,6 +121,10 @@ class EnergyAudit final : public Observer {
   EnergyAudit(double until, int checks) : until_(until), checks_(checks) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void remember(Tape& tape) override {
+    tape(kinetic_start, kinetic_end, stored_start, stored_end, largest_residual, reduction_residual, turnover,
+         largest_kinetic, checked, work, start_);
+  }
 
   double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0;
   double largest_residual = 0;    // [J]

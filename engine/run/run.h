@@ -11,6 +11,7 @@
 
 #include "engine/events/equations.h"
 #include "engine/run/step_limits.h"
+#include "engine/run/tape.h"
 #include "engine/steppers/stepper.h"
 
 namespace kurbel {
@@ -33,12 +34,13 @@ struct LoopMemory {
   bool operator==(const LoopMemory&) const = default;
 };
 
-// Where a run can go on, here or in another process: the state, what the audit has integrated so far, and the loop's
-// memory. Whoever goes on starts the stepper anew, so that all who do take the same steps, to the last bit.
+// Where a run can go on, here or in another process: the state, what the audit has integrated so far, the loop's memory
+// and the observers'. Whoever goes on starts the stepper anew, so that all who do take the same steps, to the last bit.
 struct Checkpoint {
   State state;
   std::vector<double> integrals;  // as the equations order them; empty without an audit
   LoopMemory loop;
+  std::vector<std::vector<double>> observers;  // in their order; empty: whoever goes on observes from here on only
   bool operator==(const Checkpoint&) const = default;
 };
 
@@ -68,7 +70,8 @@ struct RunOptions {
   // Begins here rather than where the scene says.
   std::optional<RunStart> from = {};
   const Checkpoint* checkpoint = nullptr;  // or goes on there
-  bool to_go_on = false;                   // its end must be one to go on from: "auto" takes no method over the angle
+  // Its end must be one to go on from, observers' memory included: "auto" takes no method over the angle.
+  bool to_go_on = false;
   // Ends where this falls through zero (of order one), located exactly; it must not begin at zero.
   std::function<double(double t, std::span<const double> y)> stop = {};
   RunExtension* extension = nullptr;
@@ -118,8 +121,11 @@ class StepView {
 class Observer {
  public:
   virtual ~Observer() = default;
+  // At the start; also where a run goes on, after the memory of what was before.
   virtual void begin(double /*t*/, std::span<const double> /*y*/, Equations&) {}
   virtual void step(StepView& view) = 0;
+  // Passes all that further steps build on, for a checkpoint.
+  virtual void remember(Tape&) {}
 };
 
 struct RunOutcome {

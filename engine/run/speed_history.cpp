@@ -152,7 +152,7 @@ void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equati
   for (const Network::Node& n : m.network.nodes)
     if (n.prescribed >= 0 && !m.network.prescribed[static_cast<std::size_t>(n.prescribed)].is_nothing())
       prescribed_somewhere_ = true;
-  if (m.cycle == 0 && t == 0) angles_.push_back(equations.angle_with_turns(angle_, y));
+  if (m.cycle == 0 && t == 0 && angles_.empty()) angles_.push_back(equations.angle_with_turns(angle_, y));
 }
 
 // Elements are switched between steps only, at events and edges.

@@ -27,6 +27,7 @@ class BandHistory {
     double at(double t) const;
     double time(std::size_t point) const;
     void find_extremes();
+    void remember(Tape& tape) { tape(begin, end, value, lowest, lowest_at, highest, highest_at); }
   };
 
   void add(const Stretch& stretch);
@@ -37,6 +38,7 @@ class BandHistory {
   double end() const { return low_.back().end; }
   double last() const { return low_.back().value.back(); }
   std::size_t size() const { return low_.size() + high_.size(); }
+  void remember(Tape& tape) { tape(low_, high_); }
   // The curve stays within [low, high] from here on; nothing: it never was outside. Where it jumps in, the time of the
   // jump; end() where it ends outside.
   std::optional<double> last_outside(double low, double high) const;
@@ -51,6 +53,7 @@ class SpeedRecorder final : public Observer {
   explicit SpeedRecorder(double until) : until_(until) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void remember(Tape& tape) override { tape(on_, driven_, coasting_, off_since_, angles_); }
 
   // Up to the time at which the last driving source went off for good; all of the run where none did.
   const BandHistory& driven() const { return driven_.empty() ? coasting_ : driven_; }

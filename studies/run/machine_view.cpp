@@ -175,7 +175,8 @@ MachineView machine_view(const std::vector<const Result*>& results) {
     for (std::size_t i = 0;
          i < angle.x.size() && std::abs(value_at(angle, end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i)
       begin = angle.x[i];
-  const int frames = std::clamp(static_cast<int>(frames_per_turn * turns), fewest_frames, most_frames);
+  const int frames = static_cast<int>(
+      std::clamp(frames_per_turn * turns, 1.0 * fewest_frames, 1.0 * most_frames));  // of 1e12 turns, too
   for (int i = 0; i < frames; ++i) view.time.push_back(begin + (end - begin) * i / (frames - 1));
   for (const Result* r : results)
     view.motions.push_back(motion_of(*r, view, r->model->elastic.empty() ? Role::rigid : Role::elastic));

@@ -68,6 +68,7 @@ class Simulation {
   void take_checkpoint(const std::string& text) {
     checkpoint_ = checkpoint_from(text, equations_);
     checkpoint_->integrals.clear();
+    checkpoint_->observers.clear();
     result_.begins_at = checkpoint_->state.t;
     if (settings_.until <= checkpoint_->state.t)
       throw UnfitCheckpoint(fmt::format("is of {:.9g} s, and the run ends at {:.9g} s; let it run on with --until",
@@ -343,6 +344,7 @@ class Simulation {
     result_.model = model_;
     fill_energy(*run.energy);
     if (!run.last_state.empty()) fill_final(run);
+    run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);

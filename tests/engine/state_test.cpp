@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "engine/run/checkpoint.h"
+#include "engine/run/recorders.h"
+#include "engine/run/speed_history.h"
 #include "tests/coverage/variant.h"
 #include "tests/hard/random_machine.h"
 #include "tests/support/scenes.h"
@@ -158,6 +160,91 @@ TEST(State, TwoThreadsGoOnFromOneToTheSameBits) {
   }
 }
 
+// What a run watched by all recorders leaves behind.
+struct Watched {
+  TrajectoryRecorder trajectory;
+  ExtremeRecorder extremes;
+  CycleRecorder cycles;
+  SpeedRecorder speed;
+  EnergyAudit energy;
+  explicit Watched(const Model& model, double until)
+      : trajectory(channels_of(model, {}), until, 50), extremes(extremes_of(model)), speed(until), energy(until, 10) {}
+  std::vector<Observer*> all() { return {&trajectory, &extremes, &cycles, &speed, &energy}; }
+  std::vector<std::vector<double>> memory() {
+    std::vector<std::vector<double>> list;
+    for (Observer* observer : all()) {
+      Tape tape;
+      observer->remember(tape);
+      list.push_back(tape.take());
+    }
+    return list;
+  }
+};
+
+RunOutcome watch(Equations& equations, Watched& by, double until, const Checkpoint* from = nullptr) {
+  RunOptions options = options_until(until);
+  options.tolerance = 1e-10;
+  options.checkpoint = from;
+  return integrate(equations, options, by.all());
+}
+
+// Two legs, the second by other recorders that read what the first ones knew: to the last bit what the first ones make
+// of both, and within the accuracy what they see of the run in one piece.
+TEST(State, RecordersGoOnWithTheRun) {
+  for (const char* name : {"crank_press", "four_cylinder_engine", "worm_hoist", "stick_slip", "dc_hoist"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = test::scene_file(std::string("scenes/") + name + ".toml");
+    const auto model = compile(scene, scene.effects);
+    const double until = 0.5 * scene.run.until;
+    Equations here(model, true), elsewhere(model, true);
+    Watched both(*model, until), second(*model, until), whole(*model, until);
+    const RunOutcome first = watch(here, both, 0.4 * until);
+    ASSERT_TRUE(first.complete) << first.diagnosis;
+    const Checkpoint read = checkpoint_from(text_of(first.checkpoint, here), elsewhere);
+    EXPECT_EQ(read.observers, both.memory());
+    const RunOutcome end = watch(elsewhere, second, until, &read);
+    ASSERT_TRUE(end.complete) << end.diagnosis;
+    watch(here, both, until, &first.checkpoint);
+    EXPECT_EQ(second.memory(), both.memory());
+
+    watch(here, whole, until);
+    EXPECT_EQ(second.trajectory.time(), whole.trajectory.time());
+    ASSERT_EQ(second.cycles.cycles().size(), whole.cycles.cycles().size());
+    for (std::size_t k = 0; k < whole.cycles.cycles().size(); ++k) {
+      const CycleRecord &a = second.cycles.cycles()[k], &b = whole.cycles.cycles()[k];
+      EXPECT_NEAR(a.end - a.begin, b.end - b.begin, 1e-6 * (b.end - b.begin)) << k;
+      EXPECT_NEAR(a.omega_max, b.omega_max, 1e-6 * std::abs(b.omega_max)) << k;
+    }
+    for (std::size_t i = 0; i < whole.extremes.found().size(); ++i) {
+      const double a = second.extremes.found()[i].value, b = whole.extremes.found()[i].value;
+      EXPECT_NEAR(a, b, 1e-6 * std::max(whole.extremes.wanted()[i].scale, std::abs(b)))
+          << whole.extremes.wanted()[i].name;
+    }
+    EXPECT_LT(second.energy.relative(), 1e-7);
+    EXPECT_EQ(second.energy.checked, whole.energy.checked);
+  }
+}
+
+// A press at 60 rpm that is gone on with at a multiple of its angle: its next cycle begins there and lasts a second,
+// and what was done before is not counted into it.
+TEST(State, ACycleThatBeginsWhereTheRunGoesOnBeginsThere) {
+  const Scene scene = scene_from(R"(line = ["drive", "press"]
+drive = { kind = "prescribed speed", speed = "60 rpm" }
+press = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", crank_inertia = "1 kg*m2", slider_mass = "40 kg" }
+run = { until = "3 s" })");
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, true);
+  const RunOutcome first = integrate(equations, options_until(1), {});
+  ASSERT_TRUE(first.complete) << first.diagnosis;
+  CycleRecorder cycles;
+  RunOptions options = options_until(2.5);
+  options.checkpoint = &first.checkpoint;
+  integrate(equations, options, {&cycles});
+  ASSERT_EQ(cycles.cycles().size(), 1u);
+  EXPECT_NEAR(cycles.cycles()[0].begin, 1, 1e-9);
+  EXPECT_NEAR(cycles.cycles()[0].end, 2, 1e-9);
+}
+
 TEST(State, AnotherMachinesStateIsRefusedWithWhatDiffers) {
   const Scene press = test::scene_file("scenes/crank_press.toml"), hoist = test::scene_file("scenes/worm_hoist.toml");
   Equations a(compile(press, press.effects), true), b(compile(hoist, hoist.effects), true);
@@ -169,7 +256,7 @@ TEST(State, AnotherMachinesStateIsRefusedWithWhatDiffers) {
   } catch (const UnfitCheckpoint& unfit) {
     EXPECT_NE(std::string(unfit.what()).find("is of another machine: its state "), std::string::npos) << unfit.what();
   }
-  for (const char* broken : {"", "{}", "[1, 2", "null", "{\"kind\": \"kurbel checkpoint 1\"}"})
+  for (const char* broken : {"", "{}", "[1, 2", "null", "{\"kind\": \"kurbel checkpoint 2\"}"})
     EXPECT_THROW(checkpoint_from(broken, a), UnfitCheckpoint) << broken;
   std::string wrong = text;
   wrong.replace(wrong.find("\"direction\": [") + 14, 0, "\n 7,");

@@ -1,0 +1,210 @@
+// recordables.cpp — what can be recorded of a model: channels for its trajectory, quantities whose peaks count.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/numerics/index.h"
+#include "engine/run/recorders.h"
+
+namespace kurbel {
+namespace {
+
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& component) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
+}
+// "crank" of "crank.pin"
+std::string owner_of(const std::string& dotted) { return dotted.substr(0, dotted.find('.')); }
+// "pin" of "force.pin"
+std::string behind_dot(const std::string& dotted) { return dotted.substr(dotted.find('.') + 1); }
+
+// Both ends of a long machine stand for the rest.
+std::vector<std::string> default_components(const Model& model) {
+  const std::vector<std::string>& all = model.network.components;
+  if (all.size() <= 60) return {};
+  return {all.front(), all.back()};
+}
+
+// A trajectory is held in memory: 2 GB at most.
+void refuse_too_many(const Scene& scene, std::size_t channels) {
+  const double needed = 1e-9 * sizeof(double) * scene.run.samples * static_cast<double>(channels);
+  if (needed <= 2) return;
+  throw SceneError({{scene.file, scene.run.method_at,
+                     fmt::format("[run]: samples = {} of {} quantities take {:.2g} GB; must be at most 2 GB: fewer "
+                                 "samples, or the components that matter in output",
+                                 scene.run.samples, channels, needed)}});
+}
+
+class ChannelList {
+ public:
+  ChannelList(const Model& model, const std::vector<std::string>& components)
+      : model_(model), wanted_(components.empty() ? default_components(model) : components) {}
+
+  std::vector<Channel> make() {
+    for (const std::string& component : model_.network.components)
+      if (is_wanted(wanted_, component)) {
+        add_motions(component);
+        add_elements(component);
+      }
+    for (const TorqueJoint& joint : model_.torque_joints)
+      if (is_wanted(wanted_, owner_of(joint.component))) add_joint(joint);
+    for (const GearTorque& torque : model_.gear_torques)
+      if (is_wanted(wanted_, owner_of(torque.name)))
+        add("torque." + torque.name, "N*m",
+            [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); });
+    for (std::size_t k = 0; k < model_.own_states.size(); ++k) {
+      const auto& [component, state] = model_.own_states[k];
+      if (is_wanted(wanted_, component))
+        add(state.name + "." + component, state.unit, [k](const Snapshot& s) { return s.now.own[k]; });
+    }
+    for (const Channel& channel : model_.pool_channels)
+      if (is_wanted(wanted_, behind_dot(channel.name))) channels_.push_back(channel);
+    return std::move(channels_);
+  }
+
+ private:
+  void add(std::string name, std::string unit, std::function<double(const Snapshot&)> value) {
+    channels_.push_back({std::move(name), std::move(unit), std::move(value)});
+  }
+
+  void add_motion(const std::string& name, int node) {
+    const int shaft = model_.shaft_of_node[at(node)];
+    const double gain = model_.gain_of_node[at(node)];
+    add("angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
+    add("speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; });
+  }
+  void add_motions(const std::string& component) {
+    const Network::Ports& ports = model_.network.ports.at(component);
+    if (ports.in == ports.out) return add_motion(component, ports.in);
+    add_motion(component + ".in", ports.in);
+    add_motion(component + ".out", ports.out);
+    for (const auto& [name, node] : ports.others)
+      if (node != ports.in && node != ports.out) add_motion(component + "." + name, node);
+  }
+
+  // Torque of its motors, loads and the like, those over the angle apart.
+  void add_elements(const std::string& component) {
+    std::vector<std::size_t> own;
+    for (std::size_t e = 0; e < model_.network.elements.size(); ++e)
+      if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle() == 0)
+        own.push_back(e);
+    if (own.empty()) return;
+    add("torque." + component, "N*m", [own](const Snapshot& s) {
+      double sum = 0;
+      for (const std::size_t e : own) sum += s.sums.element_torque[e];
+      return sum;
+    });
+  }
+
+  void add_joint(const TorqueJoint& joint) {
+    const int j = joint.joint, e = joint.elastic;
+    add("torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
+    if (e < 0) return;
+    const ElasticJoint& elastic = model_.elastic[at(e)];
+    if (elastic.slips || elastic.springless) {
+      const int a = elastic.shaft_a, b = elastic.shaft_b;
+      const double ga = elastic.gain_a, gb = elastic.gain_b;
+      add("slip." + joint.component, "rad/s",
+          [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; });
+      return;
+    }
+    add("spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
+    add("twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; });
+  }
+
+  const Model& model_;
+  std::vector<std::string> wanted_;
+  std::vector<Channel> channels_;
+};
+
+// What a joint transmits and what its spring does of that; no spring: the torque alone. The model outlives the run.
+void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<ExtremeOf>& wanted) {
+  const int j = joint.joint, e = joint.elastic;
+  ExtremeOf transmitted{.name = "peak_torque." + joint.component,
+                        .unit = "N*m",
+                        .scale = joint.torque_scale,
+                        .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
+                        .rate = {}};
+  if (e >= 0 && (model.elastic[at(e)].slips || model.elastic[at(e)].springless)) {
+    wanted.push_back(std::move(transmitted));
+    return;
+  }
+  ExtremeOf spring = transmitted;
+  spring.name = "peak_spring_torque." + joint.component;
+  if (e >= 0) {
+    const ElasticJoint elastic = model.elastic[at(e)];
+    const ConnectionMaker* element = model.network.joints[at(j)].element.get();
+    const bool known = element->knows_torque_rate();
+    if (known)
+      transmitted.rate = [element, elastic, e](const Snapshot& s) {
+        const double acceleration =
+            elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
+        return element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
+      };
+    spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+    // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
+    if (known && element->stiffness() > 0 && !element->has_modes()) {
+      transmitted.slope = transmitted.rate;
+      spring.slope = [element, e](const Snapshot& s) {
+        return element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);
+      };
+    }
+    // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
+    if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
+  }
+  wanted.push_back(std::move(transmitted));
+  wanted.push_back(std::move(spring));
+}
+
+void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
+  const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
+  const double gain = model.gain_of_node[at(node)];
+  const std::string link = model.network.nodes[at(node)].component;
+  ExtremeOf speed{.name = "max_speed." + link,
+                  .unit = "rad/s",
+                  .scale = model.speed_scale,
+                  .which = ExtremeOf::Which::maximum,
+                  .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
+                  .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
+  speed.slope = speed.rate;
+  wanted.push_back(speed);
+  speed.name = "min_speed." + link;
+  speed.which = ExtremeOf::Which::minimum;
+  wanted.push_back(std::move(speed));
+}
+
+}  // namespace
+
+std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
+  std::vector<Channel> channels = ChannelList(model, components).make();
+  refuse_too_many(model.scene, channels.size());
+  return channels;
+}
+
+std::vector<ExtremeOf> extremes_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  for (const TorqueJoint& joint : model.torque_joints) add_peaks(model, joint, wanted);
+  for (const GearTorque& torque : model.gear_torques)
+    wanted.push_back(
+        {.name = "peak_torque." + torque.name,
+         .unit = "N*m",
+         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
+         .value =
+             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
+         .rate = {}});
+  add_link_speeds(model, wanted);
+  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
+    const auto& [component, state] = model.own_states[k];
+    if (state.peak)
+      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
+                        .unit = state.unit,
+                        .scale = state.scale,
+                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
+                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
+  }
+  for (const Channel& channel : model.pool_channels)
+    if (owner_of(channel.name) != "position")
+      wanted.push_back({.name = "peak_" + channel.name, .unit = channel.unit, .value = channel.value, .rate = {}});
+  return wanted;
+}
+
+}  // namespace kurbel

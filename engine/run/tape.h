@@ -1,0 +1,74 @@
+// tape.h — what an observer remembers as a list of numbers, written and read by one and the same function.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace kurbel {
+
+// An observer passes its members one by one: an empty tape takes them down, a written one gives them back.
+//
+//     void remember(Tape& tape) override { tape(time_, values_); }
+class Tape {
+ public:
+  Tape() = default;
+  explicit Tape(std::vector<double> written) : numbers_(std::move(written)), reading_(true) {}
+
+  // Throws std::invalid_argument where a written tape is shorter than what is asked of it.
+  template <class... T>
+  void operator()(T&... member) {
+    (pass(member), ...);
+  }
+  bool reading() const { return reading_; }
+  bool at_end() const { return next_ == numbers_.size(); }
+  std::vector<double> take() { return std::move(numbers_); }
+
+ private:
+  void pass(double& number) {
+    if (!reading_) return numbers_.push_back(number);
+    if (at_end()) throw std::invalid_argument("a recorder's memory is shorter than the recorder's");
+    number = numbers_[next_++];
+  }
+  template <class Whole>
+  requires std::is_integral_v<Whole>
+  void pass(Whole& whole) {
+    double number = static_cast<double>(whole);  // counts, far below 2⁵³
+    pass(number);
+    whole = static_cast<Whole>(number);
+  }
+  template <class T>
+  void pass(std::optional<T>& maybe) {
+    bool any = maybe.has_value();
+    pass(any);
+    if (reading_) maybe = any ? std::optional<T>(T{}) : std::nullopt;
+    if (any) pass(*maybe);
+  }
+  template <class T>
+  void pass(std::vector<T>& list) {
+    std::size_t size = list.size();
+    pass(size);
+    if (reading_) {
+      if (size > numbers_.size() - next_) throw std::invalid_argument("a recorder's memory is damaged");
+      list.assign(size, T{});
+    }
+    for (T& item : list) pass(item);
+  }
+  template <class T, std::size_t n>
+  void pass(std::array<T, n>& list) {
+    for (T& item : list) pass(item);
+  }
+  template <class T>
+  requires requires(T& item, Tape& tape) { item.remember(tape); }
+  void pass(T& item) { item.remember(*this); }
+
+  std::vector<double> numbers_;
+  std::size_t next_ = 0;
+  bool reading_ = false;
+};
+
+}  // namespace kurbel
