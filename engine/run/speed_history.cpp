@@ -24,16 +24,8 @@ const std::array<double, BandHistory::points>& chebyshev() {
 
 // Minima that differ by less are the same one come again: the later one counts.
 constexpr double same_extreme = 1e-9;
-
-// Time of the least value near a point: thirds, to where round-off hides the difference.
-template <class F>
-double lowest_between(const F& f, double a, double b) {
-  for (int i = 0; i < 40; ++i) {
-    const double c = a + (b - a) / 3, d = b - (b - a) / 3;
-    (f(c) < f(d) ? b : a) = f(c) < f(d) ? d : c;
-  }
-  return 0.5 * (a + b);
-}
+// Of the golden section, to 3e-6 of two points' distance: round-off hides nearer ones from each other.
+constexpr int extreme_steps = 26;
 
 // Where g ≥ 0 for good within the stretch, if g(inside_out) < 0 at a known time. The end where it is negative there.
 template <class G>
@@ -88,10 +80,10 @@ void BandHistory::Stretch::find_extremes() {
     const double from = time(best == 0 ? 0 : best - 1), to = time(best == last_point ? last_point : best + 1);
     const double inside = best == 0 ? time(0) + 1e-3 * (to - time(0)) : time(best) - 1e-3 * (time(best) - from);
     if ((best == 0 || best == last_point) && sign * at(inside) >= sign * value[best]) return;
-    const double t = lowest_between([&](double x) { return sign * at(x); }, from, to), found = at(t);
-    if (sign * found < sign * value_there) {
-      value_there = found;
-      time_there = t;
+    const Maximum found = find_maximum([&](double x) { return -sign * at(x); }, from, to, extreme_steps);
+    if (-found.value < sign * value_there) {
+      value_there = -sign * found.value;
+      time_there = found.at;
     }
   };
   extreme(1, lowest, lowest_at);
