@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -52,6 +53,22 @@ EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Even
   match.only_in_fine = fine.size() - matched;
   match.only_in_coarse = coarse.size() - matched;
   return match;
+}
+
+void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight,
+                      std::vector<std::optional<double>>& errors) {
+  const bool first = errors.empty();
+  if (first) errors.resize(events.size());
+  const EventMatch match = match_events(witness, events);
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    std::optional<double>& error = errors[k];
+    if (!match.error[k] || (!first && !error)) {
+      error.reset();
+    } else {
+      const double rounding = 8 * std::numeric_limits<double>::epsilon() * events[k].t;
+      error = std::max({error.value_or(0), weight * *match.error[k], rounding});
+    }
+  }
 }
 
 }  // namespace kurbel

@@ -18,4 +18,9 @@ struct EventMatch {
 // Otherwise (a contact that flickers once more): those that are the nearest in time to each other.
 EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Event>& fine);
 
+// Raises the errors of a run's event times [s] to `weight` times what a witness differs by, and at least to rounding;
+// nothing where any witness has no such event. `errors` is empty before the first witness.
+void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight,
+                      std::vector<std::optional<double>>& errors);
+
 }  // namespace kurbel

@@ -188,11 +188,47 @@ std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOu
   }
   return list;
 }
+
 }  // namespace
 
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run) {
   Figures(model, equations, run, tolerance).collect();
   run.last_state = last_state(model, equations, run.outcome);
+}
+
+EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit) {
+  EnergyBalance e;
+  for (std::size_t k = 0; k < audit.work.size(); ++k) {
+    e.by_line[name_of(model.accounts[k].kind)] += audit.work[k];
+    e.by_account[model.accounts[k].name] += audit.work[k];
+  }
+  e.kinetic_start = audit.kinetic_start;
+  e.kinetic_end = audit.kinetic_end;
+  e.stored_start = audit.stored_start;
+  e.stored_end = audit.stored_end;
+  e.residual = audit.largest_residual;
+  e.relative = audit.relative();
+  e.reduction_residual = audit.reduction_residual;
+  e.checks = audit.checked;
+  return e;
+}
+
+std::map<std::string, ComponentState> final_state(const Model& model, const std::vector<Figure>& last_state) {
+  std::map<std::string, ComponentState> states;
+  if (last_state.empty()) return states;
+  const Figure* f = last_state.data();
+  for (const std::string& component : model.network.components) {
+    ComponentState state{f[0].value, f[1].value, {}, {}};
+    state.angle_error = f[0].error, state.speed_error = f[1].error;
+    const Network::Ports& ports = model.network.ports.at(component);
+    if (ports.out != ports.in) {
+      state.angle_out = f[2].value, state.speed_out = f[3].value;
+      state.angle_out_error = f[2].error, state.speed_out_error = f[3].error;
+    }
+    states[component] = state;
+    f += 4;
+  }
+  return states;
 }
 
 std::vector<Figure> figure_list(const Model& model) {

@@ -1,7 +1,9 @@
 // figures.h — one run with all that watches it, and the figures that it yields.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/run/run.h"
@@ -28,5 +30,10 @@ struct OneRun {
 // Fills `figures` and `last_state` of a run that has got somewhere; `tolerance`: of its steps, which tells what is
 // steady.
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run);
+
+// What becomes of these watchers in a Result.
+EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit);
+// By component; none from a run that has got nowhere, whose `last_state` is empty.
+std::map<std::string, ComponentState> final_state(const Model& model, const std::vector<Figure>& last_state);
 
 }  // namespace kurbel

@@ -1,11 +1,10 @@
-// simulate.cpp — the ladder of tolerances, and the figures of one run.
+// simulate.cpp — the ladder of tolerances, the run from elsewhere, and what is told of the run that they confirm.
 #include "studies/run/simulate.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -194,8 +193,10 @@ class Simulation {
     const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
                  of_energy = fine_->energy->relative();
     measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
-    if (coarse_) add_event_errors(*coarse_, weight_of_coarse_);
-    if (elsewhere_) add_event_errors(*elsewhere_, weight_of_elsewhere);
+    if (coarse_)
+      add_event_errors(fine_->outcome.events, coarse_->outcome.events, weight_of_coarse_, result_.event_errors);
+    if (elsewhere_)
+      add_event_errors(fine_->outcome.events, elsewhere_->outcome.events, weight_of_elsewhere, result_.event_errors);
     result_.measured_accuracy = std::max(of_figures, of_energy);
     result_.errors_measured = true;
     result_.accuracy_confirmed = confirmed();
@@ -212,23 +213,6 @@ class Simulation {
                             : !elsewhere_        ? unconfirmed_ + "; errors are by the run before it"
                             : !coarse_           ? unconfirmed_ + "; errors are by a run by another method"
                                                  : unconfirmed_);
-  }
-
-  // Errors of the events' times; none where a run has no such event.
-  void add_event_errors(const OneRun& witness, double weight) {
-    const std::vector<Event>& events = fine_->outcome.events;
-    const bool first = result_.event_errors.empty();
-    if (first) result_.event_errors.resize(events.size());
-    const EventMatch match = match_events(witness.outcome.events, events);
-    for (std::size_t k = 0; k < events.size(); ++k) {
-      std::optional<double>& error = result_.event_errors[k];
-      if (!match.error[k] || (!first && !error)) {
-        error.reset();
-      } else {
-        const double rounding = 8 * std::numeric_limits<double>::epsilon() * events[k].t;
-        error = std::max({error.value_or(0), weight * *match.error[k], rounding});
-      }
-    }
   }
 
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
@@ -342,8 +326,8 @@ class Simulation {
     result_.statistics.limits = limits_of(run.outcome);
     result_.trajectory = run.trajectory;
     result_.model = model_;
-    fill_energy(*run.energy);
-    if (!run.last_state.empty()) fill_final(run);
+    result_.energy = energy_balance(m, *run.energy);
+    result_.final_state = final_state(m, run.last_state);
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
@@ -387,36 +371,6 @@ class Simulation {
         "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
         "the end",
         m.network.nodes[at(m.reduction_node)].component, degrees - 360 * std::floor(degrees / 360), stop->t, drive));
-  }
-  void fill_energy(const EnergyAudit& audit) {
-    EnergyBalance& e = result_.energy;
-    for (std::size_t k = 0; k < audit.work.size(); ++k) {
-      e.by_line[name_of(model_->accounts[k].kind)] += audit.work[k];
-      e.by_account[model_->accounts[k].name] += audit.work[k];
-    }
-    e.kinetic_start = audit.kinetic_start;
-    e.kinetic_end = audit.kinetic_end;
-    e.stored_start = audit.stored_start;
-    e.stored_end = audit.stored_end;
-    e.residual = audit.largest_residual;
-    e.relative = audit.relative();
-    e.reduction_residual = audit.reduction_residual;
-    e.checks = audit.checked;
-  }
-  void fill_final(const OneRun& run) {
-    std::size_t k = 0;
-    for (const std::string& component : model_->network.components) {
-      const Figure* const f = &run.last_state[k];
-      ComponentState state{f[0].value, f[1].value, {}, {}};
-      state.angle_error = f[0].error, state.speed_error = f[1].error;
-      const Network::Ports& ports = model_->network.ports.at(component);
-      if (ports.out != ports.in) {
-        state.angle_out = f[2].value, state.speed_out = f[3].value;
-        state.angle_out_error = f[2].error, state.speed_out_error = f[3].error;
-      }
-      result_.final_state[component] = state;
-      k += 4;
-    }
   }
 
   std::shared_ptr<const Model> model_;

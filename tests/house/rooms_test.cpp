@@ -39,7 +39,6 @@ const std::map<std::string, long> known_lengths = {
     {"studies/modes/modes_output.cpp", 694},
     {"studies/reduce/reduce_output.cpp", 474},
     {"studies/run/run_report.cpp", 540},
-    {"studies/run/simulate.cpp", 458},
     {"studies/size/size_output.cpp", 671},
     {"studies/steady/steady_output.cpp", 483},
 };
