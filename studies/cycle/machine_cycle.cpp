@@ -142,6 +142,76 @@ std::vector<double> refined(RigidMachine& machine, const MachineCycle& cycle, do
   return breaks;
 }
 
+// Mean torques at a constant speed [rad/s].
+struct Balance {
+  double speed;
+  MeanTorque mean;
+};
+
+// From next to standstill to beyond where the drive exceeds the load, if that comes to an end.
+std::vector<Balance> scan_of_speeds(RigidMachine& machine) {
+  const double top = 2 * machine.model().speed_scale;
+  std::vector<Balance> scan;
+  const auto look = [&](double speed) {
+    Deadline::check();
+    scan.push_back({speed, mean_torque(machine, speed)});
+  };
+  // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
+  constexpr int steps = 80;
+  for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
+  for (int i = 1; i <= steps; ++i) look(top * i / steps);
+  // Rated quantities need not be near where the machine runs: a series motor's R/κ is far below.
+  constexpr double farthest = 1e3;
+  while (scan.back().mean.net() > 0 && scan.back().speed < farthest * top) look(1.1 * scan.back().speed);
+  return scan;
+}
+
+// Where the net torque turns from driving to braking as the speed rises: the fastest such place, the slower ones as
+// others. Speed 0: there is none.
+OperatingSpeed where_balance_falls(RigidMachine& machine, const std::vector<Balance>& scan) {
+  OperatingSpeed found;
+  for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
+    if (!(scan[i].mean.net() > 0 && scan[i + 1].mean.net() <= 0)) continue;
+    if (found.speed > 0) found.others.push_back(found.speed);
+    found.speed = find_root([&](double speed) { return mean_torque(machine, speed).net(); }, scan[i].speed,
+                            scan[i].mean.net(), scan[i + 1].speed, scan[i + 1].mean.net());
+  }
+  return found;
+}
+
+void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
+  const double step = 1e-4 * found.speed;
+  found.mean_drive = mean_torque(machine, found.speed).drive;
+  const MeanTorque faster = mean_torque(machine, found.speed + step), slower = mean_torque(machine, found.speed - step);
+  found.slope = (faster.net() - slower.net()) / (2 * step);
+  found.drive_slope = (faster.drive - slower.drive) / (2 * step);
+}
+
+// Either the drive is too strong for every speed looked at, or too weak.
+[[noreturn]] void refuse_unbalanced(const RigidMachine& machine, const std::vector<Balance>& scan) {
+  const auto best = std::max_element(scan.begin(), scan.end(),
+                                     [](const Balance& a, const Balance& b) { return a.mean.net() < b.mean.net(); });
+  if (best->mean.net() > 0)
+    throw std::invalid_argument(fmt::format(
+        "no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, at the end "
+        "{:.4g} against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
+        rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
+  const std::string balance = fmt::format(
+      "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
+      "takes {:.6g} N·m; {:.6g} N·m are missing{}",
+      rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
+      best->mean.load == 0
+          ? ""
+          : fmt::format(" ({:.3g} % of the load)", 100 * -best->mean.net() / std::abs(best->mean.load)));
+  if (machine.uses_time())
+    throw WeakDrive(fmt::format(
+        "as it is at t = 0 the drive is too weak for the cycle: {}. Some torque depends on time and may be another "
+        "later (a converter's ramp, a switching): give the machine without that, or simulate it with kurbel run",
+        balance));
+  throw WeakDrive(fmt::format(
+      "the drive is too weak for the cycle: {}; take a stronger motor, a larger ratio, or a smaller load", balance));
+}
+
 }  // namespace
 
 std::vector<double> cycle_edges(RigidMachine& machine) {
@@ -184,65 +254,11 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
     throw std::invalid_argument(
         "no torque of the machine depends on its speed: every speed is as steady as any other, and the mean speed must "
         "be given; write e.g. --mean-speed \"60 rpm\"");
-  const double top = 2 * machine.model().speed_scale;
-  struct At {
-    double speed;
-    MeanTorque mean;
-  };
-  std::vector<At> scan;
-  const auto look = [&](double speed) {
-    Deadline::check();
-    scan.push_back({speed, mean_torque(machine, speed)});
-  };
-  // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
-  constexpr int steps = 80;
-  for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
-  for (int i = 1; i <= steps; ++i) look(top * i / steps);
-  // Rated quantities need not be near where the machine runs: a series motor's R/κ is far below.
-  constexpr double farthest = 1e3;
-  while (scan.back().mean.net() > 0 && scan.back().speed < farthest * top) look(1.1 * scan.back().speed);
-  OperatingSpeed found;
-  for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
-    if (!(scan[i].mean.net() > 0 && scan[i + 1].mean.net() <= 0)) continue;
-    if (found.speed > 0) found.others.push_back(found.speed);
-    found.speed = find_root([&](double speed) { return mean_torque(machine, speed).net(); }, scan[i].speed,
-                            scan[i].mean.net(), scan[i + 1].speed, scan[i + 1].mean.net());
-  }
-  if (found.speed > 0) {
-    const double step = 1e-4 * found.speed;
-    found.mean_drive = mean_torque(machine, found.speed).drive;
-    const MeanTorque faster = mean_torque(machine, found.speed + step),
-                     slower = mean_torque(machine, found.speed - step);
-    found.slope = (faster.net() - slower.net()) / (2 * step);
-    found.drive_slope = (faster.drive - slower.drive) / (2 * step);
-    return found;
-  }
-  const auto best =
-      std::max_element(scan.begin(), scan.end(), [](const At& a, const At& b) { return a.mean.net() < b.mean.net(); });
-  if (best->mean.net() > 0)
-    throw std::invalid_argument(
-        fmt::format("no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, "
-                    "at the end {:.4g} "
-                    "against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
-                    rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
-  const std::string balance = fmt::format(
-      "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
-      "takes "
-      "{:.6g} N·m; {:.6g} N·m are missing{}",
-      rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
-      best->mean.load == 0
-          ? ""
-          : fmt::format(" ({:.3g} % of the load)", 100 * -best->mean.net() / std::abs(best->mean.load)));
-  if (machine.uses_time())
-    throw WeakDrive(
-        fmt::format("as it is at t = 0 the drive is too weak for the cycle: {}. Some torque depends on time "
-                    "and may be another later (a converter's ramp, a switching): give the machine without "
-                    "that, or simulate it with kurbel run",
-                    balance));
-  throw WeakDrive(
-      fmt::format("the drive is too weak for the cycle: {}; take a stronger motor, a larger ratio, or a "
-                  "smaller load",
-                  balance));
+  const std::vector<Balance> scan = scan_of_speeds(machine);
+  OperatingSpeed found = where_balance_falls(machine, scan);
+  if (!(found.speed > 0)) refuse_unbalanced(machine, scan);
+  set_slopes(machine, found);
+  return found;
 }
 
 SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& cycle, double more_inertia,
