@@ -1,4 +1,4 @@
-// modes.cpp — from the linearised drive to critical speeds, swings over the speed range, and what the limits say.
+// modes.cpp — from the linearised drive to its modes, critical speeds, and swings over the speed range.
 #include "studies/modes/modes.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,8 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
-#include "studies/run/simulate.h"
+#include "studies/modes/drive_limits.h"
+#include "studies/modes/torque_history.h"
 
 namespace kurbel {
 namespace {
@@ -62,10 +63,9 @@ class Study {
     find_critical_speeds();
     find_zones();
     sweep();
-    read_limits();
-    find_barred_ranges();
-    if (!options_.torque.empty()) simulate_torque();
-    judge();
+    find_barred_ranges(*model_, options_.barred_factor, found_);
+    if (!options_.torque.empty()) add_history();
+    judge_limits(found_);
     return std::move(found_);
   }
 
@@ -338,201 +338,18 @@ class Study {
     }
   }
 
-  void read_limits() {
-    for (const ElasticJoint& e : model_->elastic) {
-      DriveLimits limits;
-      const Section* s = model_->scene.find(model_->network.joints[at(e.joint)].component);
-      if (s && s->kind) {
-        limits.nominal = s->number_or("nominal_torque", 0);
-        limits.maximum = s->number_or("maximum_torque", 0);
-        limits.vibratory = s->number_or("vibratory_torque", 0);
-        limits.power = s->number_or("dissipated_power", 0);
-        limits.application_factor = s->number_or("application_factor", 1);
-        limits.shear_stress = s->number_or("allowable_shear_stress", 0);
-        if (limits.shear_stress > 0) {
-          const double outer = s->number_or("diameter", 0), bore = s->number_or("bore", 0);
-          limits.polar_modulus = pi / 16 * (std::pow(outer, 4) - std::pow(bore, 4)) / outer;
-        }
-      }
-      // A coupling hammers where its torque changes sign; crankshafts do so by nature, idle ends carry no mean torque.
-      const std::size_t j = found_.limits.size();
-      const double rated = model_->torque_scale / model_->scale_ratio[at(model_->network.joints[at(e.joint)].a)];
-      means_judge_.push_back((!s || !s->kind || s->kind->name == "coupling") &&
-                             std::abs(found_.here.joints[j].mean) > 0.02 * rated);
-      found_.limits.push_back(limits);
-    }
+  void add_history() {
+    found_.history = simulate_torque(*model_, effects_, found_.modes.back().omega, options_);
+    if (found_.history->complete) return;
+    found_.complete = false;
+    found_.diagnosis = found_.history->diagnosis;
   }
-
-  // Excess of a joint's swing over what it may have; > 0: barred.
-  struct Bar {
-    double limit = 0, value = 0;
-    std::string reason;
-  };
-  Bar bar(std::size_t j, const JointResponse& joint) const {
-    const DriveLimits& limits = found_.limits[j];
-    if (limits.vibratory > 0) return {limits.vibratory, joint.peak, "vibratory_torque"};
-    if (limits.maximum > 0)
-      return {limits.maximum, std::max(std::abs(joint.upper), std::abs(joint.lower)), "maximum_torque"};
-    if (limits.shear_stress > 0)
-      return {limits.shear_stress * limits.polar_modulus, std::max(std::abs(joint.upper), std::abs(joint.lower)),
-              "allowable_shear_stress"};
-    return {means_judge_[j] ? options_.barred_factor * std::abs(joint.mean) : HUGE_VAL, joint.peak,
-            fmt::format("{:g} × mean torque", options_.barred_factor)};
-  }
-
-  void find_barred_ranges() {
-    for (std::size_t j = 0; j < found_.joint_names.size(); ++j) {
-      std::optional<BarredRange> open;
-      double speed_before = 0, excess_before = 0;
-      for (std::size_t i = 0; i < found_.sweep.size(); ++i) {
-        const SpeedResponse& s = found_.sweep[i];
-        const Bar b = bar(j, s.joints[j]);
-        const double excess = b.value - b.limit;
-        const bool barred = excess > 0;
-        // Ends between two points of the sweep: straight between them.
-        const double share = i > 0 && excess != excess_before && std::isfinite(excess) && std::isfinite(excess_before)
-                                 ? std::clamp(-excess_before / (excess - excess_before), 0.0, 1.0)
-                                 : 1.0;
-        const double edge = i > 0 ? speed_before + share * (s.speed - speed_before) : s.speed;
-        if (barred && !open) open = BarredRange{j, edge, s.speed, b.limit, b.value, b.reason};
-        if (barred) {
-          open->to = s.speed;
-          if (b.value > open->peak) open->peak = b.value, open->limit = b.limit;
-        } else if (open) {
-          open->to = edge;
-          found_.barred.push_back(*open);
-          open.reset();
-        }
-        speed_before = s.speed;
-        excess_before = excess;
-      }
-      if (open) found_.barred.push_back(*open);
-    }
-  }
-
-  void simulate_torque();
-  void judge();
-  void add_verdicts(std::size_t j);
 
   const ModesOptions& options_;
   Effects effects_;
-  std::vector<char> means_judge_;  // per joint without limits: its mean torque bounds its swing
   std::shared_ptr<const Model> model_;
   ModesStudy found_;
 };
-
-// Enough samples for twice the highest mode shown, within reason.
-void Study::simulate_torque() {
-  Scene scene = model_->scene;
-  const std::size_t dot = options_.torque.find('.');
-  const std::string component = options_.torque.substr(0, dot);
-  if (!scene.find(component))
-    throw std::invalid_argument(fmt::format("--torque {}: no such component in the scene", options_.torque));
-  const double highest = found_.modes.back().omega / (2 * pi);
-  const double wanted = std::clamp(5 * highest * scene.run.until, 4096.0, 131072.0);
-  scene.run.samples = static_cast<int>(wanted);
-  const std::string link = model_->network.nodes[at(model_->reduction_node)].component;
-  scene.run.output = {component};
-  if (link != component) scene.run.output.push_back(link);
-  SimulateOptions options;
-  options.measure_error = false;
-  options.interrupted = options_.interrupted;
-  options.log = options_.log;
-  if (options_.progress)
-    options.progress = [this](const std::string& what, double f) { options_.progress(what, 0.8 + 0.2 * f); };
-  const Result result = simulate(scene, effects_, "elastic", options);
-  const TrajectoryRecorder& t = *result.trajectory;
-  const auto column = [&](const std::vector<std::string>& names) {
-    for (const std::string& name : names)
-      for (std::size_t k = 0; k < t.channels().size(); ++k)
-        if (t.channels()[k].name == name) {
-          std::vector<double> values;
-          for (std::size_t row = 0; row < t.time().size(); ++row) values.push_back(t.value(row, k));
-          return values;
-        }
-    throw std::invalid_argument(
-        fmt::format("--torque {}: the component carries no torque that is recorded; give a coupling, shaft, motor or "
-                    "load",
-                    options_.torque));
-  };
-  TorqueHistory history;
-  history.channel = "torque." + options_.torque;
-  history.time = t.time();
-  history.value = column({history.channel, history.channel + ".1"});
-  history.speed = column({"speed." + link, "speed." + link + ".in"});
-  history.angle = column({"angle." + link, "angle." + link + ".in"});
-  history.complete = result.complete;
-  history.diagnosis = result.diagnosis;
-  if (history.time.size() >= 64) {
-    const double step = (history.time.back() - history.time.front()) / static_cast<double>(history.time.size() - 1);
-    history.spectrum = spectrum_of(history.value, step);
-    history.lines = waterfall(history.time, history.speed, history.value, 12);
-    const double turns = 1.0 / 64;
-    std::vector<double> forwards = history.angle;
-    if (forwards.back() < forwards.front())
-      for (double& a : forwards) a = -a;
-    const std::vector<double> resampled = resampled_over_angle(forwards, history.value, 2 * pi * turns);
-    if (resampled.size() >= 16) history.orders = spectrum_of(resampled, turns);
-    history.cycles = rainflow(history.value);
-    std::sort(history.cycles.begin(), history.cycles.end(),
-              [](const LoadCycle& a, const LoadCycle& b) { return a.range > b.range; });
-    history.greatest = *std::max_element(history.value.begin(), history.value.end());
-    history.least = *std::min_element(history.value.begin(), history.value.end());
-  }
-  if (!result.complete) {
-    found_.complete = false;
-    found_.diagnosis = result.diagnosis;
-  }
-  found_.history = std::move(history);
-}
-
-void Study::judge() {
-  for (std::size_t j = 0; j < found_.limits.size(); ++j)
-    if (found_.limits[j].any()) add_verdicts(j);
-}
-
-// DIN 740-2 at the operating point, and passing through the resonances of the range below it.
-void Study::add_verdicts(std::size_t j) {
-  const DriveLimits& limits = found_.limits[j];
-  const JointResponse& here = found_.here.joints[j];
-  const std::string& name = found_.joint_names[j];
-  double passing = 0, speed = 0;
-  for (const SpeedResponse& s : found_.sweep) {
-    const double most = std::max(std::abs(s.joints[j].upper), std::abs(s.joints[j].lower));
-    if (s.speed <= std::abs(found_.drive.at.speed) * (1 + 1e-9) && most > passing) passing = most, speed = s.speed;
-  }
-  double largest = std::max(std::abs(here.upper), std::abs(here.lower));
-  if (limits.nominal > 0)
-    found_.verdicts.push_back({name, "nominal torque: K_A |T_mean| ≤ T_KN",
-                               limits.application_factor * std::abs(here.mean), limits.nominal, "N*m",
-                               fmt::format("K_A = {:g}", limits.application_factor)});
-  if (limits.maximum > 0) {
-    found_.verdicts.push_back({name, "maximum torque while passing resonances: |T| ≤ T_Kmax",
-                               std::max(passing, largest), limits.maximum, "N*m",
-                               passing > largest ? fmt::format("steady swing at {:.5g} 1/min; a quick passage stays "
-                                                               "below it",
-                                                               rpm(speed))
-                                                 : "at the operating point"});
-    if (found_.history && found_.history->channel == "torque." + name)
-      found_.verdicts.push_back({name, "maximum torque of the simulated run: |T| ≤ T_Kmax",
-                                 std::max(found_.history->greatest, -found_.history->least), limits.maximum, "N*m",
-                                 "of the samples"});
-  }
-  if (limits.vibratory > 0) {
-    // Continuous swing: S_f = √(f/10 Hz) above 10 Hz.
-    const double f = here.dominant_omega / (2 * pi);
-    const double factor = f > 10 ? std::sqrt(f / 10) : 1;
-    found_.verdicts.push_back({name, "vibratory torque: S_f T_W ≤ T_KW", factor * here.peak, limits.vibratory, "N*m",
-                               fmt::format("S_f = √(f/10 Hz) = {:.3g} at {:.4g} Hz", factor, f)});
-  }
-  if (limits.power > 0)
-    found_.verdicts.push_back({name, "dissipated power: P_W ≤ P_KW", here.power, limits.power, "W", ""});
-  if (limits.shear_stress > 0)
-    found_.verdicts.push_back(
-        {name, "shear stress: K_A |T|/W_p ≤ τ_allowable", limits.application_factor * largest / limits.polar_modulus,
-         limits.shear_stress, "Pa",
-         fmt::format("W_p = {:.5g} cm³, K_A = {:g}", 1e6 * limits.polar_modulus, limits.application_factor)});
-}
 
 }  // namespace
 

@@ -35,7 +35,6 @@ const std::map<std::string, long> known_lengths = {
     {"studies/accuracy/accuracy.cpp", 564},
     {"studies/forces/forces_output.cpp", 631},
     {"studies/gears/gears_output.cpp", 485},
-    {"studies/modes/modes.cpp", 552},
     {"studies/modes/modes_output.cpp", 694},
     {"studies/reduce/reduce_output.cpp", 474},
     {"studies/run/run_report.cpp", 540},
