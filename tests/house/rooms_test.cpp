@@ -32,7 +32,6 @@ const std::map<std::string, long> known_lengths = {
     {"engine/analysis/return_map.cpp", 571},
     {"engine/rigid/work_equation.cpp", 487},
     {"mechanisms/slider_crank/slider_crank_forces.cpp", 560},
-    {"studies/accuracy/accuracy.cpp", 564},
     {"studies/forces/forces_output.cpp", 631},
     {"studies/gears/gears_output.cpp", 485},
     {"studies/modes/modes_output.cpp", 694},

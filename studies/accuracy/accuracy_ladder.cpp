@@ -1,0 +1,130 @@
+// accuracy_ladder.cpp — the ladder of methods and tolerances: the error of every rung, and the time that it takes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "studies/accuracy/accuracy_work.h"
+
+namespace kurbel {
+namespace {
+
+// A method whose trajectory is this near to what the references agree on has nothing more to gain.
+constexpr double floor_is_reached = 2;
+
+struct Climber {
+  std::size_t level;
+  std::string method;
+  bool open = true;
+  double last_cost = 0, growth = 2;  // of a whole rung [s], from rung to rung
+};
+
+std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork& level) {
+  std::vector<std::string> methods = work.options.methods;
+  if (methods.empty())
+    methods = {"work", "dopri5", "verner6", "dop853", "fehlberg8", "adams", "esdirk3", "esdirk", "esdirk5", "bdf"};
+  if (!level.tables) std::erase(methods, "work");
+  return methods;
+}
+
+// The integration with its peaks and cycles, as a user needs it; without samples and the audit of the energy.
+bool time_runs(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level) {
+  std::vector<double> seconds;
+  double sum = 0;
+  const int least = 3;
+  while (static_cast<int>(seconds.size()) < work.options.most_repetitions &&
+         (static_cast<int>(seconds.size()) < least || sum < 0.03)) {
+    Equations equations(level.model, false);
+    ExtremeRecorder extremes(extremes_of(*level.model));
+    CycleRecorder cycles;
+    RunOptions o{.tolerance = s.tolerance,
+                 .method = s.method,
+                 .until = level.model->scene.run.until,
+                 .budget = work.options.time,
+                 .interrupted = work.options.interrupted,
+                 .progress = {},
+                 .work_tables = level.tables};
+    const RunOutcome outcome = integrate(equations, o, {&extremes, &cycles});
+    if (!outcome.complete) return false;
+    seconds.push_back(outcome.statistics.cpu_seconds);
+    sum += seconds.back();
+    if (sum > 1) break;
+  }
+  set_times(s, seconds);
+  return true;
+}
+
+void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
+  LevelAtWork& level = work.levels[c.level];
+  MeasuredSetting s;
+  s.level = c.level;
+  s.method = c.method;
+  s.tolerance = tolerance;
+  Result r;
+  try {
+    SimulateOptions o = work.simulate_options(c.method, tolerance);
+    o.budget = work.options.time / 15;
+    r = simulate(level.model, level.told.name, o);
+  } catch (const std::invalid_argument& refusal) {
+    c.open = false;
+    return work.omit(fmt::format("{}, {}", level.told.name, c.method), refusal.what());
+  }
+  if (!r.complete) {
+    c.open = false;
+    return work.omit(fmt::format("{}, {} at {:.0e} and tighter", level.told.name, c.method, tolerance), r.diagnosis);
+  }
+  const double difference = trajectory_difference(*r.trajectory, *level.reference.trajectory);
+  s.trajectory_error = std::max(difference, level.told.agreement);
+  measure_figures(s, work, level, [&](const std::string& name) {
+    const Figure* f = r.find(name);
+    return f ? f->value : not_known;
+  });
+  const StepperStatistics& counts = r.statistics.stepper;
+  s.steps = counts.steps;
+  s.rejected = counts.rejected;
+  s.flow_calls = counts.flow_calls;
+  s.jacobian_calls = counts.jacobian_calls;
+  s.events = r.statistics.events;
+  s.energy_drift = r.energy.relative;
+  if (!time_runs(s, work, level)) {
+    c.open = false;
+    return;
+  }
+  work.study.settings.push_back(s);
+  // One more rung at the floor shows that it is one.
+  if (difference <= floor_is_reached * level.told.agreement) c.open = false;
+}
+
+}  // namespace
+
+// Loose tolerances of all before tight ones of any, so that a study cut short is still one of all methods.
+void climb_ladder(AccuracyWork& work) {
+  std::vector<Climber> climbers;
+  for (std::size_t i = 0; i < work.levels.size(); ++i)
+    for (const std::string& method : methods_for(work, work.levels[i]))
+      climbers.push_back({.level = i, .method = method});
+  const double rung_limit = work.options.time / 15;
+  const double rungs = static_cast<double>(climbers.size() * work.options.tolerances.size());
+  double done = 0;
+  for (const double tolerance : work.options.tolerances)
+    for (Climber& c : climbers) {
+      done += 1;
+      if (!c.open) continue;
+      if (work.interrupted()) return;
+      work.progress(fmt::format("{}, {} at {:.0e}", work.levels[c.level].told.name, c.method, tolerance), done / rungs);
+      const double expected = c.growth * c.last_cost;
+      if (expected > rung_limit || work.spent() + expected > work.options.time) {
+        work.omit(fmt::format("{}, {} at {:.0e} and tighter", work.levels[c.level].told.name, c.method, tolerance),
+                  fmt::format("would take some {:.2g} s of the study's {:g} s", expected, work.options.time));
+        c.open = false;
+        continue;
+      }
+      const double before = work.spent();
+      take_rung(work, c, tolerance);
+      const double cost = work.spent() - before;
+      if (c.last_cost > 0) c.growth = std::clamp(cost / c.last_cost, 1.2, 10.0);
+      c.last_cost = cost;
+    }
+}
+
+}  // namespace kurbel

@@ -1,0 +1,77 @@
+// accuracy_work.cpp — options of the study's runs, its messages, how far trajectories are apart, times of repeated runs.
+#include "studies/accuracy/accuracy_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+
+AccuracyWork::AccuracyWork(const Scene& of, const AccuracyOptions& asked)
+    : scene(of), options(asked), begin(processor_time()) {
+  scene.run.model = "reduced";
+  scene.run.method = "auto";
+  study.title = of.heading();
+  study.scene_file = of.file;
+  study.scene_text = of.text;
+}
+
+void AccuracyWork::log(const std::string& text) const {
+  if (options.log) options.log(text);
+}
+
+void AccuracyWork::progress(const std::string& what, double fraction) const {
+  if (options.progress) options.progress(what, fraction);
+}
+
+void AccuracyWork::omit(const std::string& what, const std::string& why) {
+  study.omissions.push_back({what, why});
+  log(fmt::format("left out: {}: {}", what, why));
+}
+
+SimulateOptions AccuracyWork::simulate_options(const std::string& method, double tolerance) const {
+  SimulateOptions o;
+  o.measure_error = false;
+  o.method = method;
+  o.accuracy = 10 * tolerance;  // a single run takes a tenth of the accuracy as its local tolerance
+  o.interrupted = options.interrupted;
+  return o;
+}
+
+std::string link_of(const Model& model) { return model.network.nodes[at(model.reduction_node)].component; }
+
+namespace {
+
+// Angles count in rad, whatever was turned; speeds and twists over the largest that they reach.
+bool is_state(const Channel& channel) {
+  return channel.name.starts_with("angle.") || channel.name.starts_with("speed.") || channel.name.starts_with("twist.");
+}
+
+}  // namespace
+
+double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecorder& reference) {
+  if (a.time().size() != reference.time().size()) return HUGE_VAL;
+  double largest = 0;
+  for (std::size_t k = 0; k < a.channels().size(); ++k) {
+    if (!is_state(a.channels()[k])) continue;
+    double scale = 0, difference = 0;
+    for (std::size_t row = 0; row < a.time().size(); ++row) {
+      scale = std::max(scale, std::abs(reference.value(row, k)));
+      difference = std::max(difference, std::abs(a.value(row, k) - reference.value(row, k)));
+    }
+    if (a.channels()[k].name.starts_with("angle.")) scale = 1;
+    if (scale > 0) largest = std::max(largest, difference / scale);
+  }
+  return largest;
+}
+
+void set_times(MeasuredSetting& s, std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  s.seconds = seconds[seconds.size() / 2];
+  s.fastest = seconds.front();
+  s.slowest = seconds.back();
+  s.repetitions = static_cast<int>(seconds.size());
+}
+
+}  // namespace kurbel

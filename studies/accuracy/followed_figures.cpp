@@ -1,0 +1,84 @@
+// followed_figures.cpp — which figures the study of accuracy follows, and how far off they are.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "studies/accuracy/accuracy_work.h"
+
+namespace kurbel {
+namespace {
+
+bool is_of_link(const std::string& name, const Model& model) {
+  return name.substr(name.find('.') + 1) == link_of(model);
+}
+
+// Peaks first, the largest one before all; then what else is asked of a machine, in this order.
+std::vector<const Figure*> worth_following(const Result& full, const Model& model, const std::string& wanted) {
+  std::vector<const Figure*> peaks, others;
+  const auto sound = [](const Figure& f) {
+    return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
+  };
+  for (const Figure& f : full.figures)
+    if (sound(f) && f.name.starts_with("peak_torque.")) peaks.push_back(&f);
+  for (const char* prefix : {"delta.", "run_up_time", "final_angle.", "final_speed.", "max_speed.", "peak_force."})
+    for (const Figure& f : full.figures)
+      if (sound(f) && f.name.starts_with(prefix) && (!f.name.starts_with("final_") || is_of_link(f.name, model)))
+        others.push_back(&f);
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });
+  if (peaks.size() > 3) peaks.resize(3);
+  peaks.insert(peaks.end(), others.begin(), others.end());
+  if (!wanted.empty()) {
+    const Figure* asked = full.find(wanted);
+    if (!asked) {
+      std::string names;
+      for (const Figure& f : full.figures) names += (names.empty() ? "" : ", ") + f.name;
+      throw std::invalid_argument(
+          fmt::format("--figure \"{}\": the scene yields no such figure; it yields {}", wanted, names));
+    }
+    std::erase(peaks, asked);
+    peaks.insert(peaks.begin(), asked);
+  }
+  if (peaks.size() > 8) peaks.resize(8);
+  return peaks;
+}
+
+}  // namespace
+
+void follow_figures(AccuracyWork& work) {
+  const LevelAtWork& full = work.levels[work.study.fullest];
+  for (const Figure* f : worth_following(full.reference, *full.model, work.options.figure))
+    work.study.figures.push_back({f->name, f->unit});
+  for (LevelAtWork& level : work.levels)
+    for (const FollowedFigure& followed : work.study.figures) {
+      const Figure* f = level.reference.find(followed.name);
+      const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
+      level.told.value.push_back(sound ? f->value : not_known);
+      // Two runs may agree by luck: never below their tolerance.
+      level.told.floor.push_back(sound ? std::max(*f->error / std::abs(f->value), reference_tolerance) : not_known);
+    }
+}
+
+void measure_figures(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level,
+                     const std::function<double(const std::string&)>& value) {
+  const ModelLevel& full = work.levels[work.study.fullest].told;
+  for (std::size_t i = 0; i < work.study.figures.size(); ++i) {
+    const double v = value(work.study.figures[i].name), reference = level.told.value[i];
+    s.numerical_error.push_back(std::max(std::abs(v / reference - 1), level.told.floor[i]));
+    s.total_error.push_back(std::max(std::abs(v / full.value[i] - 1), full.floor[i]));
+    if (std::isnan(v) || std::isnan(reference)) s.numerical_error.back() = not_known;
+    if (std::isnan(v)) s.total_error.back() = not_known;
+  }
+}
+
+void fill_model_errors(AccuracyStudy& study) {
+  const ModelLevel full = study.levels[study.fullest];
+  for (ModelLevel& level : study.levels)
+    for (std::size_t i = 0; i < study.figures.size(); ++i)
+      level.model_error.push_back(
+          &level == &study.levels[study.fullest] ? 0 : std::abs(level.value[i] / full.value[i] - 1));
+}
+
+}  // namespace kurbel
