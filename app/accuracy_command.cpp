@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "studies/accuracy/accuracy_output.h"
 
 namespace kurbel::app {
@@ -63,22 +64,29 @@ int accuracy(const AccuracyArguments& arguments) {
   return code;
 }
 
-}  // namespace
-
-void add_accuracy_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<AccuracyArguments>();
-  CLI::App* command =
-      app.add_subcommand("accuracy", "what accuracy costs: error per time over methods, tolerances and models");
-  add_study_options(*command, arguments->study, "accuracy");
-  command->add_option("--within", arguments->within, "the cheapest setting with at most this error, e.g. 0.1%");
-  command->add_option("--budget", arguments->budget, "the most exact setting for this processor time, e.g. 50ms");
-  command->add_option("--figure", arguments->figure,
-                      "the figure that this is about (default: the largest peak torque, else δ)");
-  command->add_option("--methods", arguments->methods, "only these, e.g. dop853 esdirk (default: all that apply)");
-  command->add_option("--tolerances", arguments->tolerances, "only these, e.g. 1e-4 1e-8 (default: 1e-3 … 1e-12)");
-  command->add_flag("--no-multibody", arguments->no_multibody, "leave Simbody's closed loop out, which takes longest");
-  command->add_option("--time", arguments->time, "processor time that the study may take, about (default: 60 s)");
-  command->callback([&code, arguments] { code = accuracy(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--within", arguments->within, "the cheapest setting with at most this error, e.g. 0.1%");
+  command.add_option("--budget", arguments->budget, "the most exact setting for this processor time, e.g. 50ms");
+  command.add_option("--figure", arguments->figure,
+                     "the figure that this is about (default: the largest peak torque, else δ)");
+  command.add_option("--methods", arguments->methods, "only these, e.g. dop853 esdirk (default: all that apply)");
+  command.add_option("--tolerances", arguments->tolerances, "only these, e.g. 1e-4 1e-8 (default: 1e-3 … 1e-12)");
+  command.add_flag("--no-multibody", arguments->no_multibody, "leave Simbody's closed loop out, which takes longest");
+  command.add_option("--time", arguments->time, "processor time that the study may take, about (default: 60 s)");
+  command.callback([&code, arguments] { code = accuracy(*arguments); });
 }
 
+const Verb verb{{.place = 11,
+                 .name = "accuracy",
+                 .arguments = "scene.toml",
+                 .help = "what accuracy costs: error per time over methods, tolerances and models",
+                 .does = "what accuracy costs: every integrator × tolerance × level of the model against references by "
+                         "two independent methods, work–precision diagrams, Pareto front, conclusion in words; "
+                         "`--within 0.1%` and `--budget 50ms` answer the inverse questions; `kurbel run scene.toml "
+                         "--setting FILE` takes the cheapest setting of its summary that was exact enough",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

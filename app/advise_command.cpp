@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/verb.h"
 #include "studies/advise/advise_output.h"
 #include "studies/files/whole_file.h"
 
@@ -43,18 +44,24 @@ int run_advise(const AdviseArguments& arguments) {
   return present(output_of(advice), arguments.study);
 }
 
-}  // namespace
-
-void add_advise_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<AdviseArguments>();
-  CLI::App* command = app.add_subcommand("advise", "the cheapest set of effects whose figures stay within a tolerance");
-  add_study_options(*command, arguments->study, "advise");
-  command->add_option("--within", arguments->within, "deviation allowed from the fullest model (default: 1 %)");
-  command->add_option("--figures", arguments->figures,
-                      "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)");
-  command->add_option("--write", arguments->write, "writes the scene with the effects advised");
-  command->add_flag("--no-held-out", arguments->no_held_out, "skips the check at other loads and speeds");
-  command->callback([&code, arguments] { code = run_advise(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--within", arguments->within, "deviation allowed from the fullest model (default: 1 %)");
+  command.add_option("--figures", arguments->figures,
+                     "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)");
+  command.add_option("--write", arguments->write, "writes the scene with the effects advised");
+  command.add_flag("--no-held-out", arguments->no_held_out, "skips the check at other loads and speeds");
+  command.callback([&code, arguments] { code = run_advise(*arguments); });
 }
 
+const Verb verb{{.place = 10,
+                 .name = "advise",
+                 .arguments = "scene.toml --within 1%",
+                 .help = "the cheapest set of effects whose figures stay within a tolerance",
+                 .does = "the cheapest set of effects whose figures stay within a tolerance of the fullest model; "
+                         "screened, then run; `--write lean.toml`",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

@@ -73,13 +73,13 @@ void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::ve
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study) {
-  options.study = study;
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  options.study = command.get_name();
   add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
                      "folder for report.html, summary.json and tables as CSV, replaced as a whole (default: "
                      "results/SCENE/" +
-                         study + ")");
+                         options.study + ")");
   command.add_flag("--no-files", options.no_files, "print only");
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,

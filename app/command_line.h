@@ -35,7 +35,7 @@ struct StudyOptions {
 // --out, or results/SCENE/STUDY: no study writes over another's results.
 std::filesystem::path results_of(const StudyOptions& options);
 void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
-void add_study_options(CLI::App& command, StudyOptions& options, const std::string& study);
+void add_study_options(CLI::App& command, StudyOptions& options);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {
@@ -68,18 +68,5 @@ double quantity_of(const std::string& option, const std::string& text, const std
 
 // Prints, writes the files unless asked not to, and returns the exit code.
 int present(const StudyOutput& output, const StudyOptions& options);
-
-// Each registers its commands; an action leaves its exit code in `code`.
-void add_advise_command(CLI::App& app, int& code);    // advise
-void add_effects_command(CLI::App& app, int& code);   // effects
-void add_accuracy_command(CLI::App& app, int& code);  // accuracy
-void add_forces_command(CLI::App& app, int& code);    // forces
-void add_gears_command(CLI::App& app, int& code);     // gears
-void add_modes_command(CLI::App& app, int& code);     // modes
-void add_run_commands(CLI::App& app, int& code);      // run, compare
-void add_reduce_command(CLI::App& app, int& code);    // reduce
-void add_size_command(CLI::App& app, int& code);      // size
-void add_scene_commands(CLI::App& app, int& code);    // check, figures, new, keys, schema
-void add_steady_command(CLI::App& app, int& code);    // steady
 
 }  // namespace kurbel::app

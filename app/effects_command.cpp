@@ -5,6 +5,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "studies/effects/effect_study_output.h"
 
 namespace kurbel::app {
@@ -33,14 +34,20 @@ int study(const StudyOptions& arguments) {
   return present(output_of(found), arguments);
 }
 
-}  // namespace
-
-void add_effects_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<StudyOptions>();
-  CLI::App* command = app.add_subcommand("effects", "what each effect changes and costs; without a scene: the list");
-  add_study_options(*command, *arguments, "effects");
-  command->get_option("scene")->required(false);
-  command->callback([&code, arguments] { code = study(*arguments); });
+  add_study_options(command, *arguments);
+  command.get_option("scene")->required(false);
+  command.callback([&code, arguments] { code = study(*arguments); });
 }
 
+const Verb verb{{.place = 9,
+                 .name = "effects",
+                 .arguments = "scene.toml",
+                 .help = "what each effect changes and costs; without a scene: the list",
+                 .does = "what each effect changes and costs: the full model, and the model without one effect at a "
+                         "time, ranked; without a scene: the list of effects",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "studies/forces/forces_output.h"
 
 namespace kurbel::app {
@@ -36,20 +37,26 @@ int forces(const ForcesArguments& arguments) {
   return present(output_of(found), arguments.study);
 }
 
-}  // namespace
-
-void add_forces_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<ForcesArguments>();
-  CLI::App* command = app.add_subcommand(
-      "forces",
-      "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank");
-  add_study_options(*command, arguments->study, "forces");
-  command->add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
-  command->add_option("--speed", arguments->speed,
-                      "speed of the crank in the first problem, e.g. \"300 rpm\" (default: the scene's start speed)");
-  command->add_option("--mechanism", arguments->mechanism, "which slider-crank (default: the first)");
-  command->add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
-  command->callback([&code, arguments] { code = forces(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
+  command.add_option("--speed", arguments->speed,
+                     "speed of the crank in the first problem, e.g. \"300 rpm\" (default: the scene's start speed)");
+  command.add_option("--mechanism", arguments->mechanism, "which slider-crank (default: the first)");
+  command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
+  command.callback([&code, arguments] { code = forces(*arguments); });
 }
 
+const Verb verb{
+    {.place = 5,
+     .name = "forces",
+     .arguments = "scene.toml",
+     .help =
+         "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank",
+     .does = "kinetostatics of the slider-crank: reactions in every joint with their friction, balancing "
+             "torque, shaking forces, counterweights (`--speed`, `--positions`)",
+     .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

@@ -10,6 +10,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
@@ -72,17 +73,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "kurbel 0.1.0");
   int code = exit_done;
-  add_run_commands(app, code);
-  add_reduce_command(app, code);
-  add_size_command(app, code);
-  add_forces_command(app, code);
-  add_gears_command(app, code);
-  add_modes_command(app, code);
-  add_steady_command(app, code);
-  add_effects_command(app, code);
-  add_advise_command(app, code);
-  add_accuracy_command(app, code);
-  add_scene_commands(app, code);
+  for (const VerbText& verb : verbs()) verb.set_up(*app.add_subcommand(verb.name, verb.help), code);
   refuse_empty_values(app);
   try {
     const kurbel::Deadline deadline(HUGE_VAL, &interrupted());  // whatever a command is at

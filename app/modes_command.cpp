@@ -6,6 +6,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "studies/modes/modes_output.h"
 
 namespace kurbel::app {
@@ -48,31 +49,36 @@ int modes(const ModesArguments& arguments) {
   return present(output_of(found), arguments.study);
 }
 
-}  // namespace
-
-void add_modes_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<ModesArguments>();
-  CLI::App* command = app.add_subcommand(
-      "modes", "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra");
-  add_study_options(*command, arguments->study, "modes");
-  command->add_option("--effects", arguments->effects,
-                      "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
-  command->add_option("--count", arguments->count, "number of modes (default: 20)");
-  command->add_option("--speed", arguments->speed,
-                      "operating point, e.g. \"300 rpm\" of the reduction link (default: its start, else steady)");
-  command->add_option("--angle", arguments->angle,
-                      "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
+  add_study_options(command, arguments->study);
+  command.add_option("--effects", arguments->effects,
+                     "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
+  command.add_option("--count", arguments->count, "number of modes (default: 20)");
+  command.add_option("--speed", arguments->speed,
+                     "operating point, e.g. \"300 rpm\" of the reduction link (default: its start, else steady)");
+  command.add_option("--angle", arguments->angle,
+                     "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
   command
-      ->add_option("--range", arguments->range,
-                   "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
+      .add_option("--range", arguments->range, "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
       ->expected(2);
-  command->add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
-  command->add_option("--barred", arguments->barred,
-                      "bars speeds where a joint without limits swings by more than this times its mean (default: 1)");
-  command->add_option(
-      "--torque", arguments->torque,
-      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
-  command->callback([&code, arguments] { code = modes(*arguments); });
+  command.add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
+  command.add_option("--barred", arguments->barred,
+                     "bars speeds where a joint without limits swings by more than this times its mean (default: 1)");
+  command.add_option("--torque", arguments->torque,
+                     "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
+  command.callback([&code, arguments] { code = modes(*arguments); });
 }
 
+const Verb verb{
+    {.place = 7,
+     .name = "modes",
+     .arguments = "scene.toml",
+     .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
+     .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
+             "speeds, parametric zones, limits after DIN 740-2; spectrum of a simulated torque (`--count`, "
+             "`--speed`, `--range`, `--orders`, `--torque`)",
+     .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/verb.h"
 #include "studies/reduce/reduce.h"
 
 namespace kurbel::app {
@@ -21,19 +22,24 @@ int reduce_scene(ReduceArguments arguments) {
   return present(output_of(reduce(scene, arguments.options)), arguments.study);
 }
 
-}  // namespace
-
-void add_reduce_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<ReduceArguments>();
-  CLI::App* command = app.add_subcommand("reduce", "inertia, torques and drive reduced to one shaft or slider");
-  add_study_options(*command, arguments->study, "reduce");
-  command->add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");
-  command->add_option("--to", arguments->options.to,
-                      "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)");
-  command->add_option("--speed", arguments->speed,
-                      "of the crank, for torques that depend on it (default: the operating speed)");
-  command->add_option("--orders", arguments->options.orders, "harmonics up to this order (default: 12)");
-  command->callback([&code, arguments] { code = reduce_scene(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");
+  command.add_option("--to", arguments->options.to,
+                     "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)");
+  command.add_option("--speed", arguments->speed,
+                     "of the crank, for torques that depend on it (default: the operating speed)");
+  command.add_option("--orders", arguments->options.orders, "harmonics up to this order (default: 12)");
+  command.callback([&code, arguments] { code = reduce_scene(*arguments); });
 }
 
+const Verb verb{{.place = 3,
+                 .name = "reduce",
+                 .arguments = "scene.toml",
+                 .help = "inertia, torques and drive reduced to one shaft or slider",
+                 .does = "inertia, torques and the drive's elastic chain on any shaft or slider (`--to`), harmonics",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

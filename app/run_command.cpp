@@ -11,6 +11,7 @@
 
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 #include "engine/model/model.h"
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
@@ -30,8 +31,8 @@ struct RunArguments {
   bool no_error = false, explain = false;
 };
 
-void add_run_options(CLI::App& command, RunArguments& arguments, const std::string& name) {
-  add_study_options(command, arguments.study, name);
+void add_run_options(CLI::App& command, RunArguments& arguments) {
+  add_study_options(command, arguments.study);
   command.add_option("--effects", arguments.effects,
                      "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
                      "some couplings; -NAME takes one away (overrides the scene)");
@@ -148,31 +149,48 @@ int compare(const RunArguments& arguments) {
   return present(output_of(c), arguments.study);
 }
 
-}  // namespace
-
-void add_run_commands(CLI::App& app, int& code) {
-  const auto add = [&](const char* name, const char* what, int (*action)(const RunArguments&)) {
-    const auto arguments = std::make_shared<RunArguments>();
-    CLI::App* command = app.add_subcommand(name, what);
-    add_run_options(*command, *arguments, name);
-    command->callback([&code, arguments, action] { code = action(*arguments); });
-    return std::pair{command, arguments};
-  };
-  const auto [run_command, run_arguments] = add("run", "simulate a scene", run);
-  run_command->add_flag("--explain", run_arguments->explain,
-                        "print what is merged, the coordinates and their inertias, and stop");
-  run_command->add_option(
-      "--setting", run_arguments->setting,
-      "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
-      "the cheapest that was exact enough");
-  run_command->add_option("--save-state", run_arguments->save_state,
-                          "writes the state at the end into this file, for --from-state");
-  run_command->add_option(
-      "--from-state", run_arguments->from_state,
-      "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
-  const auto [compare_command, compare_arguments] =
-      add("compare", "the rigid against the elastic model, or any two sets of effects", compare);
-  compare_command->add_option("--against", compare_arguments->against, "effects of the first model (default: none)");
+void set_up_run(CLI::App& command, int& code) {
+  const auto arguments = std::make_shared<RunArguments>();
+  add_run_options(command, *arguments);
+  command.add_flag("--explain", arguments->explain,
+                   "print what is merged, the coordinates and their inertias, and stop");
+  command.add_option("--setting", arguments->setting,
+                     "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
+                     "the cheapest that was exact enough");
+  command.add_option("--save-state", arguments->save_state,
+                     "writes the state at the end into this file, for --from-state");
+  command.add_option("--from-state", arguments->from_state,
+                     "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
+  command.callback([&code, arguments] { code = run(*arguments); });
 }
 
+void set_up_compare(CLI::App& command, int& code) {
+  const auto arguments = std::make_shared<RunArguments>();
+  add_run_options(command, *arguments);
+  command.add_option("--against", arguments->against, "effects of the first model (default: none)");
+  command.callback([&code, arguments] { code = compare(*arguments); });
+}
+
+const Verb run_verb{
+    {.place = 1,
+     .name = "run",
+     .arguments = "scene.toml",
+     .help = "simulate a scene",
+     .does = "simulates; prints figures with units and measured errors, writes `report.html`, `summary.json` and "
+             "`trajectory.csv` into `results/SCENE/run`",
+     .set_up = set_up_run,
+     .more = {
+         "scene.toml --explain | what was merged, the coordinates and their inertias, and why",
+         "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
+         "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
+         "time"}}};
+
+const Verb compare_verb{{.place = 2,
+                         .name = "compare",
+                         .arguments = "scene.toml",
+                         .help = "the rigid against the elastic model, or any two sets of effects",
+                         .does = "rigid against elastic, or any two sets of effects (`--effects`, `--against`)",
+                         .set_up = set_up_compare}};
+
+}  // namespace
 }  // namespace kurbel::app

@@ -1,6 +1,7 @@
-// scene_commands.cpp — commands that help to write a scene: check, figures, new, keys, schema.
+// scene_commands.cpp — commands that help to write a scene, or to find commands: check, figures, new, keys, schema, commands.
 #include "app/command_line.h"
 #include "app/terminal.h"
+#include "app/verb.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +29,14 @@ namespace fs = std::filesystem;
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
   const auto near = nearest(word, names);
   return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+}
+
+// "press, pump, …"
+std::string names_of_templates() {
+  std::string names;
+  for (const SceneTemplate& scene : scene_templates())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
+  return names;
 }
 
 const SceneTemplate& template_named(const std::string& kind) {
@@ -112,43 +121,117 @@ int figures(const std::string& file, bool allow_files, const std::vector<std::st
   return exit_done;
 }
 
-}  // namespace
+// Scene and what is set beside it.
+struct SceneArguments {
+  std::string file;
+  bool allow_files = false;
+  std::vector<std::string> set;
+};
+template <int (*action)(const std::string&, bool, const std::vector<std::string>&)>
+void set_up_with_scene(CLI::App& command, int& code) {
+  const auto scene = std::make_shared<SceneArguments>();
+  add_scene(command, scene->file, scene->allow_files, scene->set);
+  command.callback([&code, scene] { code = action(scene->file, scene->allow_files, scene->set); });
+}
 
-void add_scene_commands(CLI::App& app, int& code) {
-  struct Words {
-    std::string first, second;
-    bool list = false, allow_files = false;
-    std::vector<std::string> set;
+void set_up_new(CLI::App& command, int& code) {
+  struct Wanted {
+    std::string kind, file;
+    bool list = false;
   };
-  const auto add = [&](const char* name, const char* what, int (*action)(const Words&)) {
-    const auto words = std::make_shared<Words>();
-    CLI::App* command = app.add_subcommand(name, what);
-    command->callback([&code, words, action] { code = action(*words); });
-    return std::pair{command, words};
-  };
-  const auto [check_command, checked] =
-      add("check", "validate a scene", [](const Words& w) { return check(w.first, w.allow_files, w.set); });
-  add_scene(*check_command, checked->first, checked->allow_files, checked->set);
-  const auto [figures_command, listed_scene] =
-      add("figures", "list the figures that runs of a scene yield",
-          [](const Words& w) { return figures(w.first, w.allow_files, w.set); });
-  add_scene(*figures_command, listed_scene->first, listed_scene->allow_files, listed_scene->set);
-  const auto [new_command, made] =
-      add("new", "write a commented scene to start from", [](const Words& w) { return new_scene(w.first, w.second); });
-  std::string kinds;
-  for (const SceneTemplate& scene : scene_templates())
-    kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", scene.name);
-  new_command->add_option("kind", made->first, kinds);
-  new_command->add_option("file", made->second,
-                          "file to write (default: KIND.toml); one that exists is never overwritten");
-  const auto [keys_command, kind] = add("keys", "print the keys of one kind, or of a whole scene (Markdown)",
-                                        [](const Words& w) { return print_keys(w.first, w.list); });
-  keys_command->add_option("kind", kind->first, "e.g. coupling, \"induction motor\", run (default: all)");
-  keys_command->add_flag("--list", kind->list, "only the names of the kinds, a line each");
-  add("schema", "print the JSON Schema of a scene, for editors", [](const Words&) {
-    say(scene_schema());
-    return exit_done;
+  const auto wanted = std::make_shared<Wanted>();
+  command.add_option("kind", wanted->kind, names_of_templates());
+  command.add_option("file", wanted->file, "file to write (default: KIND.toml); one that exists is never overwritten");
+  command.add_flag("--list", wanted->list, "only the names of the kinds, a line each");
+  command.callback([&code, wanted] {
+    code = exit_done;
+    if (!wanted->list)
+      code = new_scene(wanted->kind, wanted->file);
+    else
+      for (const SceneTemplate& scene : scene_templates()) say(fmt::format("{}\n", scene.name));
   });
 }
 
+void set_up_keys(CLI::App& command, int& code) {
+  const auto wanted = std::make_shared<std::pair<std::string, bool>>("", false);
+  command.add_option("kind", wanted->first, "e.g. coupling, \"induction motor\", run (default: all)");
+  command.add_flag("--list", wanted->second, "only the names of the kinds, a line each");
+  command.callback([&code, wanted] { code = print_keys(wanted->first, wanted->second); });
+}
+
+void set_up_schema(CLI::App& command, int& code) {
+  command.callback([&code] {
+    say(scene_schema());
+    code = exit_done;
+  });
+}
+
+// What completion, manual page and docs/commands.md are made of.
+void set_up_commands(CLI::App& command, int& code) {
+  struct Wanted {
+    std::string name;
+    bool manual = false, markdown = false;
+  };
+  const auto wanted = std::make_shared<Wanted>();
+  command.add_option("command", wanted->name, "its options, a line each (default: the commands, a line each)");
+  command.add_flag("--manual", wanted->manual, "all commands with their options, for the manual page (roff)");
+  command.add_flag("--markdown", wanted->markdown, "all commands as a table (Markdown)");
+  command.callback([&code, wanted] {
+    say(wanted->manual         ? verbs_as_manual()
+        : wanted->markdown     ? verbs_as_markdown()
+        : wanted->name.empty() ? names_of_verbs()
+                               : options_of_verb(wanted->name));
+    code = exit_done;
+  });
+}
+
+const Verb check_verb{{.place = 12,
+                       .name = "check",
+                       .arguments = "scene.toml",
+                       .help = "validate a scene",
+                       .does = "validates only; all errors at once as `file:line:col: what, got, allowed, next step`",
+                       .set_up = set_up_with_scene<check>,
+                       .of_scene = false}};
+const Verb figures_verb{{.place = 13,
+                         .name = "figures",
+                         .arguments = "scene.toml",
+                         .help = "list the figures that runs of a scene yield",
+                         .does = "names of the figures that runs of the scene yield",
+                         .set_up = set_up_with_scene<figures>,
+                         .of_scene = false}};
+const Verb new_verb{{.place = 14,
+                     .name = "new",
+                     .arguments = "press",
+                     .help = "write a commented scene to start from",
+                     .does = "writes a commented scene to start from: " + names_of_templates() +
+                             "; a file that exists is never overwritten. Beside it, where there is none, the schema by "
+                             "which editors complete and check keys",
+                     .set_up = set_up_new,
+                     .of_scene = false}};
+const Verb keys_verb{{.place = 15,
+                      .name = "keys",
+                      .arguments = "coupling",
+                      .help = "print the keys of one kind, or of a whole scene (Markdown)",
+                      .does =
+                          "keys of one kind, for the terminal; without a kind every key of a scene with unit, default "
+                          "and domain (docs/keys.md)",
+                      .set_up = set_up_keys,
+                      .of_scene = false}};
+const Verb schema_verb{{.place = 16,
+                        .name = "schema",
+                        .help = "print the JSON Schema of a scene, for editors",
+                        .does = "JSON Schema of a scene (docs/scene.schema.json): editors complete and check by its "
+                                "`#:schema` line",
+                        .set_up = set_up_schema,
+                        .of_scene = false}};
+const Verb commands_verb{{.place = 17,
+                          .name = "commands",
+                          .arguments = "run",
+                          .help = "list the commands, or the options of one, for completion and manual",
+                          .does = "options of a command, a line each, as completion asks for them; without a name the "
+                                  "commands",
+                          .set_up = set_up_commands,
+                          .of_scene = false}};
+
+}  // namespace
 }  // namespace kurbel::app

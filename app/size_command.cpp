@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/verb.h"
 #include "studies/size/size.h"
 
 namespace kurbel::app {
@@ -34,27 +35,33 @@ int size_scene(SizeArguments arguments) {
   return present(output_of(size_flywheel(scene, o)), arguments.study);
 }
 
-}  // namespace
-
-void add_size_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<SizeArguments>();
-  CLI::App* command = app.add_subcommand("size", "the flywheel that keeps the speed's fluctuation δ within bounds");
   SizeOptions& o = arguments->options;
-  add_study_options(*command, arguments->study, "size");
-  command->add_option("--delta", o.delta, "demanded δ = (ω_max − ω_min)/ω_mean, e.g. 0.05");
-  command->add_option("--machine", o.machine,
-                      "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");
-  command->add_option("--mean-speed", arguments->mean_speed,
-                      "of the crank (default: where drive and mean load balance)");
-  command->add_option("--flywheel", o.flywheel,
-                      "component to size (default: the scene's flywheel, else one on the crank)");
-  command->add_option("--form", arguments->form, "rim (on spokes; default) or disc");
-  command->add_option("--material", o.material, "grey cast iron (default), nodular cast iron, cast steel, steel");
-  command->add_option("--diameter", arguments->diameter, "outer diameter (default: by proportion)");
-  command->add_option("--rim-speed", arguments->rim_speed, "limit, e.g. \"30 m/s\" (default: the material's)");
-  command->add_option("--sheet", arguments->sheet, "length of the diagrams for their scales, e.g. \"240 mm\"");
-  command->add_flag("!--no-simulation", o.simulate, "do not run the sized machine");
-  command->callback([&code, arguments] { code = size_scene(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--delta", o.delta, "demanded δ = (ω_max − ω_min)/ω_mean, e.g. 0.05");
+  command.add_option("--machine", o.machine,
+                     "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");
+  command.add_option("--mean-speed", arguments->mean_speed,
+                     "of the crank (default: where drive and mean load balance)");
+  command.add_option("--flywheel", o.flywheel,
+                     "component to size (default: the scene's flywheel, else one on the crank)");
+  command.add_option("--form", arguments->form, "rim (on spokes; default) or disc");
+  command.add_option("--material", o.material, "grey cast iron (default), nodular cast iron, cast steel, steel");
+  command.add_option("--diameter", arguments->diameter, "outer diameter (default: by proportion)");
+  command.add_option("--rim-speed", arguments->rim_speed, "limit, e.g. \"30 m/s\" (default: the material's)");
+  command.add_option("--sheet", arguments->sheet, "length of the diagrams for their scales, e.g. \"240 mm\"");
+  command.add_flag("!--no-simulation", o.simulate, "do not run the sized machine");
+  command.callback([&code, arguments] { code = size_scene(*arguments); });
 }
 
+const Verb verb{{.place = 4,
+                 .name = "size",
+                 .arguments = "scene.toml --delta 0.05",
+                 .help = "the flywheel that keeps the speed's fluctuation δ within bounds",
+                 .does = "flywheel for a demanded δ by three methods and with the motor's slope, its dimensions; δ "
+                         "reached rigid and elastic",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

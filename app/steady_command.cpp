@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/verb.h"
 #include "studies/steady/steady_output.h"
 
 namespace kurbel::app {
@@ -56,21 +57,27 @@ int steady(const SteadyArguments& arguments) {
   return present(output_of(study), arguments.study);
 }
 
-}  // namespace
-
-void add_steady_command(CLI::App& app, int& code) {
+void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<SteadyArguments>();
-  CLI::App* command =
-      app.add_subcommand("steady", "the steady cycle directly: its figures, its stability, operating points");
-  add_study_options(*command, arguments->study, "steady");
-  command->add_option("--effects", arguments->effects,
-                      "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
-  command->add_option("--mean-speed", arguments->mean_speed,
-                      "mean speed of the crank, e.g. \"60 rpm\": finds the drive torque that it needs");
-  command->add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
-  command->add_flag("--no-start", arguments->no_start,
-                    "skip the start from rest and the gearbox ratio that starts fastest");
-  command->callback([&code, arguments] { code = steady(*arguments); });
+  add_study_options(command, arguments->study);
+  command.add_option("--effects", arguments->effects,
+                     "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
+  command.add_option("--mean-speed", arguments->mean_speed,
+                     "mean speed of the crank, e.g. \"60 rpm\": finds the drive torque that it needs");
+  command.add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
+  command.add_flag("--no-start", arguments->no_start,
+                   "skip the start from rest and the gearbox ratio that starts fastest");
+  command.callback([&code, arguments] { code = steady(*arguments); });
 }
 
+const Verb verb{{.place = 8,
+                 .name = "steady",
+                 .arguments = "scene.toml",
+                 .help = "the steady cycle directly: its figures, its stability, operating points",
+                 .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet "
+                         "multipliers (is it stable?), operating points, motor use, start time; `--mean-speed \"60 "
+                         "rpm\"` finds the drive torque for a speed",
+                 .set_up = set_up}};
+
+}  // namespace
 }  // namespace kurbel::app

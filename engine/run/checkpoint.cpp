@@ -102,4 +102,24 @@ Checkpoint checkpoint_from(const std::string& text, const Equations& equations) 
   return c;
 }
 
+std::vector<std::vector<double>> memory_of(const std::vector<Observer*>& observers) {
+  std::vector<std::vector<double>> memory;
+  for (Observer* observer : observers) {
+    Tape tape;
+    observer->remember(tape);
+    memory.push_back(tape.take());
+  }
+  return memory;
+}
+
+void recall(const std::vector<Observer*>& observers, const std::vector<std::vector<double>>& memory) {
+  if (memory.empty()) return;
+  if (memory.size() != observers.size()) throw std::invalid_argument("the checkpoint remembers other observers");
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    Tape tape(memory[i]);
+    observers[i]->remember(tape);
+    if (!tape.at_end()) throw std::invalid_argument("the checkpoint remembers another observer");
+  }
+}
+
 }  // namespace kurbel

@@ -1,8 +1,9 @@
-// checkpoint.h — a checkpoint as text, and back to the last bit.
+// checkpoint.h — a checkpoint as text, and back to the last bit; what observers remember in it.
 #pragma once
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "engine/run/run.h"
 
@@ -19,5 +20,10 @@ struct UnfitCheckpoint : std::invalid_argument {
 // Throws UnfitCheckpoint where the text is none, or of a machine of other states: what is not alike, in words.
 // Parameters may be others: a machine that has warmed up goes on under another load.
 Checkpoint checkpoint_from(const std::string& text, const Equations& equations);
+
+// What each of them has seen so far, as numbers, and back. Throws std::invalid_argument for the memory of others; none
+// at all: they begin anew.
+std::vector<std::vector<double>> memory_of(const std::vector<Observer*>& observers);
+void recall(const std::vector<Observer*>& observers, const std::vector<std::vector<double>>& memory);
 
 }  // namespace kurbel

@@ -11,6 +11,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/rigid/work_stepper.h"
+#include "engine/run/checkpoint.h"
 #include "engine/run/diagnosis.h"
 #include "engine/run/event_location.h"
 #include "engine/run/flush_denormals.h"
@@ -83,29 +84,13 @@ class Loop {
     method_ = choice_.resumed(method_);
     out_.limits.begin(system_.size(), location_.guard_count());
     make(method_, checkpoint.state.t, y);
-    recall(checkpoint.observers);
+    recall(observers_, checkpoint.observers);
     for (Observer* observer : observers_) observer->begin(checkpoint.state.t, stepper_->y(), equations_);
-  }
-
-  void recall(const std::vector<std::vector<double>>& memories) const {
-    if (memories.empty()) return;
-    if (memories.size() != observers_.size())
-      throw std::invalid_argument("integrate: the checkpoint remembers other observers");
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-      Tape tape(memories[i]);
-      observers_[i]->remember(tape);
-      if (!tape.at_end()) throw std::invalid_argument("integrate: the checkpoint remembers another observer");
-    }
   }
 
   Checkpoint checkpoint() const {
     Checkpoint here{{out_.t, out_.state, equations_.modes()}, {}, memory_, {}};
-    for (Observer* observer : observers_) {
-      if (!options_.to_go_on) break;
-      Tape tape;
-      observer->remember(tape);
-      here.observers.push_back(tape.take());
-    }
+    if (options_.to_go_on) here.observers = memory_of(observers_);
     const std::size_t states = equations_.size() - (equations_.audit() ? equations_.integral_count() : 0);
     here.integrals.assign(out_.state.begin() + static_cast<std::ptrdiff_t>(states), out_.state.end());
     here.state.y.resize(states);

@@ -131,32 +131,46 @@ TEST_F(NewScene, ConclusionIsBoldOnATerminalUnlessColoursAreUnwanted) {
   EXPECT_EQ(plain.text.find("\033[1m"), std::string::npos) << plain.text;
 }
 
-// Man page and completion know every command and option that --help names, README and docs/commands.md every command.
-TEST_F(NewScene, ManPageAndCompletionNameEveryCommandAndOption) {
-  std::string man = std::regex_replace(text_of(test::source_path("docs/kurbel.1")), std::regex("\\\\-"), "-");
-  const std::string completion = text_of(test::source_path("scripts/kurbel.bash-completion"));
-  const std::string readme = text_of(test::source_path("README.md"));
-  const std::string commands = text_of(test::source_path("docs/commands.md"));
-  const std::string help = kurbel("--help").text;
-  std::set<std::string> names;
-  std::smatch found;
-  const std::string list = help.substr(help.find("Subcommands:"));
-  const std::regex command("\n  ([a-z]+) "), option("(--[a-z-]+)");
-  for (std::sregex_iterator it(list.begin(), list.end(), command), end; it != end; ++it) {
-    const std::string name = (*it)[1];
-    names.insert(name);
+// What stands between the marks of a file.
+std::string made_part(const std::string& file) {
+  const std::string text = text_of(test::source_path(file));
+  const std::size_t begin = text.find('\n', text.find("made by the program: begin")) + 1;
+  const std::size_t end = text.find("made by the program: end");
+  return text.substr(begin, text.rfind('\n', end) + 1 - begin);
+}
+
+// A command says itself in one place: manual page, docs/commands.md and completion follow. README names each.
+TEST_F(NewScene, ManPageTableAndCompletionAreWhatTheCommandsSayOfThemselves) {
+  EXPECT_EQ(made_part("docs/kurbel.1"), kurbel("commands --manual").text) << "renew it: scripts/renew-docs";
+  EXPECT_EQ(made_part("docs/commands.md"), kurbel("commands --markdown").text) << "renew it: scripts/renew-docs";
+  const std::string readme = text_of(test::source_path("README.md")), help = kurbel("--help").text;
+  std::istringstream names(kurbel("commands").text);
+  int count = 0;
+  for (std::string name; std::getline(names, name); ++count) {
+    EXPECT_NE(help.find("\n  " + name + " "), std::string::npos) << "kurbel --help lacks " << name;
     EXPECT_NE(readme.find("kurbel " + name), std::string::npos) << "README.md lacks " << name;
-    EXPECT_NE(commands.find("kurbel " + name), std::string::npos) << "docs/commands.md lacks " << name;
-    const std::string of_command = kurbel(name + " --help").text;
+    const std::string of_command = kurbel(name + " --help").text, listed = kurbel("commands " + name).text;
+    std::set<std::string> in_help, in_list;
+    const std::regex option("(--[a-z-]+)");
     const std::string options = of_command.substr(of_command.find("Options:"));
-    for (std::sregex_iterator o(options.begin(), options.end(), option); o != end; ++o) names.insert((*o)[1]);
+    // Those at the begin of a line; others stand in explanations.
+    const std::regex first("\n  (?:-[a-z],)?(--[a-z-]+)");
+    for (std::sregex_iterator o(options.begin(), options.end(), first), end; o != end; ++o) in_help.insert((*o)[1]);
+    for (std::sregex_iterator o(listed.begin(), listed.end(), option), end; o != end; ++o) in_list.insert((*o)[1]);
+    EXPECT_EQ(in_help, in_list) << name;
+    if (name == "new" || name == "commands") continue;  // complete their words
+    const std::string completed =
+        shell("bash -c 'source \"" + test::source_path("scripts/kurbel.bash-completion") + "\"; COMP_WORDS=(\"" +
+              std::string(KURBEL_EXECUTABLE) + "\" " + name + " --); COMP_CWORD=2; _kurbel; echo ${COMPREPLY[*]}'")
+            .text;
+    if (name != "schema")
+      for (const std::string& word : in_list) EXPECT_NE(completed.find(word), std::string::npos) << name << " " << word;
   }
-  EXPECT_GE(names.size(), 15u);
-  for (const std::string& name : names) {
-    EXPECT_NE(man.find(name), std::string::npos) << "docs/kurbel.1 lacks " << name;
-    EXPECT_NE(completion.find(name), std::string::npos) << "scripts/kurbel.bash-completion lacks " << name;
-  }
-  for (const SceneTemplate& scene : scene_templates()) EXPECT_NE(completion.find(scene.name), std::string::npos);
+  EXPECT_GE(count, 17);
+  std::set<std::string> offered;
+  std::istringstream templates(kurbel("new --list").text);
+  for (std::string name; std::getline(templates, name);) offered.insert(name);
+  for (const SceneTemplate& scene : scene_templates()) EXPECT_TRUE(offered.count(scene.name)) << scene.name;
 }
 
 // bash completes the components of a scene after --effects.

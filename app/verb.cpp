@@ -1,0 +1,128 @@
+// verb.cpp — the list of commands, and what help, manual page and completion say of them.
+#include "app/verb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "app/command_line.h"
+#include "engine/scene/messages.h"
+
+namespace kurbel::app {
+namespace {
+
+std::vector<VerbText>& registered() {
+  static std::vector<VerbText> list;  // made when the first one comes, whichever that is
+  return list;
+}
+
+// A command as it is set up, alone.
+struct SetUp {
+  CLI::App program;
+  CLI::App* command;
+  int code = 0;
+  explicit SetUp(const VerbText& verb) : command(program.add_subcommand(verb.name, verb.help)) {
+    verb.set_up(*command, code);
+  }
+};
+
+std::set<std::string> shared_options() {
+  CLI::App program;
+  StudyOptions options;
+  add_study_options(program, options);
+  std::set<std::string> names;
+  for (const CLI::Option* option : program.get_options()) names.insert(option->get_name());
+  return names;
+}
+
+// roff: a hyphen that is one, and no line that begins with a request.
+std::string roff(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '`') continue;
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '"')
+      out += "\\(dq";
+    else if (c == '-')
+      out += "\\-";
+    else if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n'))
+      out += std::string("\\&") + c;
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+}  // namespace
+
+Verb::Verb(VerbText text) { registered().push_back(std::move(text)); }
+
+std::vector<VerbText> verbs() {
+  std::vector<VerbText> list = registered();
+  std::sort(list.begin(), list.end(), [](const VerbText& a, const VerbText& b) { return a.place < b.place; });
+  return list;
+}
+
+std::string verbs_as_manual() {
+  const std::set<std::string> shared = shared_options();
+  std::string text;
+  for (const VerbText& verb : verbs()) {
+    text += fmt::format(".SS kurbel {} {}\n{}.\n", verb.name, roff(verb.arguments), roff(capitalised(verb.does)));
+    for (const std::string& more : verb.more) {
+      const std::size_t bar = more.find(" | ");
+      text += fmt::format(".TP\n.B kurbel {} {}\n{}.\n", verb.name, roff(more.substr(0, bar)),
+                          roff(capitalised(more.substr(bar + 3))));
+    }
+    const SetUp made(verb);
+    for (const CLI::Option* option : made.command->get_options()) {
+      if (option->get_name() == "--help" || (verb.of_scene && shared.count(option->get_name()))) continue;
+      if (option->get_positional()) continue;
+      text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name()), roff(option->get_description()));
+    }
+  }
+  return text;
+}
+
+std::string verbs_as_markdown() {
+  std::string text = "| command | what it does |\n|---|---|\n";
+  for (const VerbText& verb : verbs()) {
+    text += fmt::format("| `kurbel {}{}` | {} |\n", verb.name, verb.arguments.empty() ? "" : " " + verb.arguments,
+                        verb.does);
+    for (const std::string& more : verb.more) {
+      const std::size_t bar = more.find(" | ");
+      text += fmt::format("| `kurbel {} {}` | {} |\n", verb.name, more.substr(0, bar), more.substr(bar + 3));
+    }
+  }
+  return text;
+}
+
+std::string names_of_verbs() {
+  std::string text;
+  for (const VerbText& verb : verbs()) text += verb.name + "\n";
+  return text;
+}
+
+std::string options_of_verb(const std::string& name) {
+  std::vector<std::string> names;
+  for (const VerbText& verb : verbs()) {
+    names.push_back(verb.name);
+    if (verb.name != name) continue;
+    const SetUp made(verb);
+    std::string text;
+    for (const CLI::Option* option : made.command->get_options())
+      for (const std::string& word : option->get_lnames()) text += "--" + word + "\n";
+    return text;
+  }
+  throw std::invalid_argument(fmt::format("no command \"{}\"; allowed: {}", name, listed(names)));
+}
+
+}  // namespace kurbel::app
