@@ -1,10 +1,8 @@
-// return_map.cpp — one round from section to section, and Newton on it.
+// return_map.cpp — one round from section to section, and its derivative.
 #include "engine/analysis/return_map.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,41 +15,11 @@
 namespace kurbel {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-constexpr int most_periods = 1000;          // of the first law within a common period
-constexpr double same_ratio = 1e-9;         // by which a ratio of periods may miss a fraction
 constexpr std::size_t most_unknowns = 400;  // the derivative is full
 constexpr double overlap = 0.02;            // of a round, by which the first run goes on
 constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
 
 Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-struct NamedPeriod {
-  double period;
-  std::string component;
-};
-
-// The smallest multiple of the first period that is a multiple of all.
-double common_multiple(const std::vector<NamedPeriod>& periods, const std::string& unit) {
-  const double first = periods.front().period;
-  const auto meets = [&](int k, const NamedPeriod& p) {
-    const double ratio = k * first / p.period;
-    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= same_ratio * ratio;
-  };
-  for (int k = 1; k <= most_periods; ++k)
-    if (std::all_of(periods.begin(), periods.end(), [&](const NamedPeriod& p) { return meets(k, p); }))
-      return k * first;
-  const NamedPeriod* odd = &periods.back();
-  for (const NamedPeriod& p : periods) {
-    bool ever = false;
-    for (int k = 1; k <= most_periods && !ever; ++k) ever = meets(k, p);
-    if (!ever) odd = &p;
-  }
-  throw std::invalid_argument(fmt::format(
-      "there is no steady cycle: what repeats after {:.9g} {} (\"{}\") and after {:.9g} {} (\"{}\") never meets within "
-      "{} periods. Make the ratio of the two a fraction, or simulate a long time with kurbel run",
-      first, unit, periods.front().component, odd->period, unit, odd->component, most_periods));
-}
 
 // Where events happen: angles of the link at the ends of steps.
 class AngleLog final : public Observer {
@@ -97,50 +65,7 @@ double angle_turned(const PrescribedSpeed& given, double until) {
   return sum;
 }
 
-int prescribed_node(const Model& m) {
-  const Network& net = m.network;
-  int found = -1;
-  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
-    if (net.nodes[n].prescribed < 0) continue;
-    if (m.node_ratio[n] == 0 && net.prescribed[at(net.nodes[n].prescribed)].is_nothing()) continue;  // the frame
-    if (found >= 0)
-      throw std::invalid_argument(
-          fmt::format("\"{}\" and \"{}\" both prescribe a speed; a steady cycle is sought for one prescribed speed at "
-                      "most: simulate with kurbel run",
-                      net.nodes[at(found)].component, net.nodes[n].component));
-    found = static_cast<int>(n);
-  }
-  return found;
-}
-
 }  // namespace
-
-Periodicity periodicity_of(const Model& m) {
-  Periodicity result;
-  std::vector<NamedPeriod> angles, times;
-  for (const Network::ShaftElement& e : m.network.elements) {
-    if (e.element->uses_angle() && e.element->angle_period() > 0)
-      angles.push_back({e.element->angle_period() / m.scale_ratio[at(e.node)], e.component});
-    if (e.element->time_period() > 0) times.push_back({e.element->time_period(), e.component});
-    result.settled_from = std::max(result.settled_from, e.element->settled_from());
-  }
-  result.angle_matters = !angles.empty();
-  result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
-  if (const int node = prescribed_node(m); node >= 0) {
-    const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
-    const std::string& name = m.network.nodes[at(node)].component;
-    const double link_speed = std::abs(given.speed.back() / m.node_ratio[at(node)]);
-    if (!(link_speed > 0))
-      throw std::invalid_argument(
-          fmt::format("\"{}\" prescribes a mean speed of 0: nothing turns, so there is no cycle", name));
-    if (given.amplitude != 0) times.push_back({1 / std::abs(given.frequency), name});
-    if (result.angle_matters || times.empty()) times.push_back({result.angle / link_speed, name});
-    if (!given.time.empty()) result.settled_from = std::max(result.settled_from, given.time.back());
-  }
-  result.by_time = !times.empty();
-  if (result.by_time) result.time = common_multiple(times, "s");
-  return result;
-}
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
@@ -390,182 +315,6 @@ std::string ReturnMap::unknown_name(std::size_t i) const {
     --i;
   }
   return equations_.state_name(equations_.model().angle_count() + i);
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-
-std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
-  std::vector<std::complex<double>> sorted(values.begin(), values.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](auto a, auto b) {
-    const double difference = std::abs(a) - std::abs(b);
-    return std::abs(difference) > 1e-12 ? difference > 0 : a.imag() > b.imag();
-  });
-  return sorted;
-}
-
-namespace {
-
-constexpr int most_rounds = 60, most_derivatives = 12;
-constexpr int most_run_on = 8;
-constexpr double residual_floor = 30;  // times the residual asked for may be left where round-off stops the descent
-
-class Newton {
- public:
-  Newton(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough)
-      : system_(system), x_(guess), enough_(enough) {}
-
-  NewtonOutcome run() {
-    if (evaluate(x_, true)) iterate();
-    return std::move(out_);
-  }
-
- private:
-  enum class Progress { made, floor, ended };
-
-  bool evaluate(const Eigen::VectorXd& x, bool with_derivative) {
-    ++out_.rounds;
-    if (with_derivative) ++out_.derivatives;
-    Eigen::MatrixXd derivative;
-    valid_ = system_.evaluate(x, residual_, with_derivative ? &derivative : nullptr);
-    if (!valid_) return false;
-    norm_ = residual_.cwiseAbs().maxCoeff();
-    if (with_derivative) {
-      at_ = x;
-      solver_.compute(derivative);
-    }
-    return true;
-  }
-
-  void iterate() {
-    while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
-      const Progress progress = advance(limited(-solver_.solve(residual_)));
-      if (progress == Progress::ended) return;
-      if (progress == Progress::floor) break;
-    }
-    out_.residual = norm_;
-    if (norm_ <= residual_floor * enough_) return finish();
-    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} rounds)",
-                           norm_, out_.rounds);
-  }
-
-  // Far steps lead to other machines: nothing changes by more than half of the largest there is.
-  Eigen::VectorXd limited(Eigen::VectorXd step) const {
-    const double longest = 0.5 * std::max(0.2, x_.cwiseAbs().maxCoeff()), length = step.cwiseAbs().maxCoeff();
-    if (!(length < HUGE_VAL)) return residual_;
-    if (length > longest) step *= longest / length;
-    return step;
-  }
-
-  // One step, halved while it does not pay; with a kept derivative only the whole step is tried. Steps are judged by
-  // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
-  // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
-  Progress advance(const Eigen::VectorXd& step) {
-    const Eigen::VectorXd from = x_, residual_from = residual_;
-    const double norm_from = norm_, length = step.cwiseAbs().maxCoeff();
-    const bool fresh = at_ == x_;
-    for (double part = 1; part > 0.02; part *= 0.5) {
-      const Eigen::VectorXd trial = from + part * step;
-      if (evaluate(trial, false)) {
-        const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
-        if (contraction < 1 - 0.25 * part) {
-          x_ = trial;
-          if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
-          return evaluate(x_, true) ? Progress::made : Progress::ended;
-        }
-      }
-      if (system_.stopped && system_.stopped()) return Progress::ended;
-      if (out_.rounds >= most_rounds) break;
-      if (!fresh || norm_from <= residual_floor * enough_) break;
-    }
-    x_ = from;
-    residual_ = residual_from;
-    norm_ = norm_from;
-    if (norm_ <= residual_floor * enough_) return Progress::floor;  // round-off: nothing shrinks any more
-    if (fresh) {                                                    // Newton finds no way down: let the machine run on
-      if (!system_.run_on || ++run_on_ > most_run_on) return Progress::floor;
-      x_ = from + residual_from;
-    }
-    return evaluate(x_, true) ? Progress::made : Progress::ended;
-  }
-
-  // Kept while the rounds that are left with it cost less than a new one.
-  bool keep_derivative(double contraction) const {
-    if (contraction >= 0.9) return false;
-    return std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction) <= system_.derivative_cost + 1;
-  }
-
-  // The derivative at the solution itself, for the multipliers.
-  void finish() {
-    if (at_ != x_) {
-      x_ += limited(-solver_.solve(residual_));
-      if (!evaluate(x_, true)) return;
-    }
-    out_.found = true;
-    out_.x = x_;
-    out_.residual = norm_;
-  }
-
-  const NewtonSystem& system_;
-  Eigen::VectorXd x_, at_, residual_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
-  NewtonOutcome out_;
-  double enough_, norm_ = 0;
-  int run_on_ = 0;
-  bool valid_ = false;
-};
-
-}  // namespace
-
-NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough) {
-  return Newton(system, guess, enough).run();
-}
-
-SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
-  SteadyPoint out;
-  ReturnMap::Image image;
-  const double cost_before = map.cost();
-  NewtonSystem system;
-  system.evaluate = [&](const Eigen::VectorXd& z, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
-    ReturnMap::Image here = map.image(z, derivative != nullptr);
-    const bool returned = here.end == ReturnMap::End::returned;
-    if (returned) {
-      residual = here.z - z;
-      if (derivative) *derivative = here.derivative - Eigen::MatrixXd::Identity(z.size(), z.size());
-    }
-    image = std::move(here);
-    return returned;
-  };
-  system.stopped = [&] { return image.end == ReturnMap::End::interrupted; };
-  system.derivative_cost = static_cast<double>(map.size()) + 1;
-  system.run_on = true;
-  const NewtonOutcome newton = solve(system, guess, enough);
-  out.rounds = newton.rounds;
-  out.derivatives = newton.derivatives;
-  out.residual = newton.residual;
-  out.cost = map.cost() - cost_before;
-  out.end = image.end;
-  if (newton.found) {
-    out.take(newton.x, image);
-  } else if (image.end != ReturnMap::End::returned) {
-    out.why = image.why;
-  } else {
-    out.end = ReturnMap::End::failed;
-    out.why =
-        newton.why +
-        ": there may be no steady cycle of this period near the guess. Try another start speed, --periods 2, or a "
-        "long kurbel run";
-  }
-  return out;
-}
-
-void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image) {
-  found = true;
-  z = at;
-  derivative = image.derivative;
-  multipliers = multipliers_of(derivative);
-  time = image.time;
-  grazed = image.grazed;
 }
 
 }  // namespace kurbel

@@ -15,21 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/newton.h"
+#include "engine/analysis/periodicity.h"
 #include "engine/run/run.h"
 
 namespace kurbel {
-
-// After what the machine's laws repeat.
-struct Periodicity {
-  double angle = 0;            // of the reduction link [rad]; 2π where no law depends on an angle
-  bool angle_matters = false;  // some law does
-  bool by_time = false;        // some law depends on time, or a speed is prescribed
-  double time = 0;             // common period of all that does [s]
-  double settled_from = 0;     // laws over time that do not repeat hold still from here on [s]
-};
-
-// Throws std::invalid_argument in words where the cycles never meet (periods that are not commensurable).
-Periodicity periodicity_of(const Model& model);
 
 struct ReturnMapOptions {
   double tolerance = 1e-12;  // local, over the scale of each state
@@ -116,24 +106,6 @@ struct SteadyPoint {
   double largest() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }
   void take(const Eigen::VectorXd& at, const ReturnMap::Image& image);
 };
-
-// r(x) = 0 for as many unknowns as residuals, all of order one.
-struct NewtonSystem {
-  // Residual, and its derivative where asked for; false where there is none.
-  std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative)> evaluate;
-  std::function<bool()> stopped = {};  // by the user
-  double derivative_cost = 1;          // in evaluations without
-  bool run_on = false;                 // x + r(x) is a sensible step where Newton has none: for maps
-};
-struct NewtonOutcome {
-  bool found = false;
-  std::string why;
-  Eigen::VectorXd x;  // the last evaluation was at x and with derivative
-  double residual = 0;
-  int rounds = 0, derivatives = 0;
-};
-// Newton with damping, derivatives kept while they serve.
-NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough);
 
 // By Newton from a guess. `enough`: residual at which it ends.
 SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough = 1e-10);

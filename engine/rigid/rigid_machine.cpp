@@ -134,78 +134,110 @@ RigidMachine::At RigidMachine::at(double phi, double omega, bool shares) {
 }
 
 // Walks once round with the modes that hold; a guard that falls below zero marks an edge, also where it comes back
-// within the same cell.
-std::vector<double> RigidMachine::edges(int direction) {
-  const Model& m = *model_;
-  std::vector<std::size_t> watched;
-  std::size_t next = 0;
-  for (const auto& pool : m.pools) {
-    const auto count = static_cast<std::size_t>(pool->guard_count());
-    if (pool->guards_are_of_angle())
-      for (std::size_t i = 0; i < count; ++i) watched.push_back(next + i);
-    next += count;
+// within the same cell. s grows in the direction of motion.
+class RigidMachine::EdgeSearch {
+ public:
+  EdgeSearch(RigidMachine& machine, int direction)
+      : machine_(machine), sign_(direction >= 0 ? 1 : -1), guard_(machine.equations_.guard_count()) {
+    std::size_t next = 0;
+    for (const auto& pool : machine.model().pools) {
+      const auto count = static_cast<std::size_t>(pool->guard_count());
+      if (pool->guards_are_of_angle())
+        for (std::size_t i = 0; i < count; ++i) watched_.push_back(next + i);
+      next += count;
+    }
   }
-  std::vector<double> found, guard(equations_.guard_count());
-  if (watched.empty()) return found;
-  const double sign = direction >= 0 ? 1 : -1;
-  // s grows in the direction of motion; the search begins off the round angles where edges like to lie.
-  const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + cycle_;
-  const auto guards_at = [&](double s) -> const std::vector<double>& {
-    fill_state(sign * s, sign);
-    equations_.guards(0, state_, guard);
-    return guard;
+
+  std::vector<double> run() {
+    if (!watched_.empty()) walk_round();
+    std::sort(found_.begin(), found_.end());
+    const auto same = [](double a, double b) { return b - a < 1e-12; };
+    found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr double nowhere = HUGE_VAL;
+  // Where the first guard falls through zero, and its value at the begin of the stretch.
+  struct Fall {
+    double s = nowhere, value_at_begin = 1;
   };
-  const auto one = [&](std::size_t i) { return [&, i](double s) { return guards_at(s)[i]; }; };
-  set_modes(sign * begin, sign);
-  double here = begin, looked = ahead;
-  while (here < end) {
-    Deadline::check();
-    // On one grid all along, so that cells keep off the round angles behind an edge, too.
-    const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end),
-                 middle = 0.5 * (here + to);
-    const std::vector<double> at_here = guards_at(here), at_middle = guards_at(middle), at_to = guards_at(to);
-    double edge = HUGE_VAL, value_here = 1;
-    for (const std::size_t i : watched) {
-      double below = HUGE_VAL;  // where the guard is negative, first guess
+
+  void walk_round() {
+    // Begins off the round angles where edges like to lie.
+    const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + machine_.cycle_;
+    machine_.set_modes(sign_ * begin, sign_);
+    double here = begin, looked = ahead;
+    while (here < end) {
+      Deadline::check();
+      // On one grid all along, so that cells keep off the round angles behind an edge, too.
+      const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end);
+      const Fall fall = first_fall(here, to);
+      if (fall.s == nowhere) {
+        here = to;
+        looked = ahead;
+        continue;
+      }
+      // Nothing but rounding above zero already here: at a dead centre the slider's place tells the piece only further
+      // on.
+      if (fall.value_at_begin < -below_zero && looked < farthest) {
+        looked *= 10;
+        machine_.look_ahead(sign_ * here, sign_, looked);
+        continue;
+      }
+      looked = ahead;
+      const double edge = std::max(fall.s, here);
+      note(edge);
+      machine_.set_modes(sign_ * edge, sign_);
+      here = std::max(edge, std::nextafter(here, end));
+      // Past the edge by what counts as here, so that its own guard is found above zero.
+      here += 2 * ahead * std::max(1.0, std::abs(here));
+    }
+  }
+
+  Fall first_fall(double begin, double end) {
+    const double middle = 0.5 * (begin + end);
+    const std::vector<double> at_begin = guards_at(begin), at_middle = guards_at(middle), at_end = guards_at(end);
+    Fall first;
+    for (const std::size_t i : watched_) {
+      const double lesser = std::min(at_begin[i], at_end[i]), greater = std::max(at_begin[i], at_end[i]);
+      double below = nowhere;  // where the guard is negative, first guess
       if (at_middle[i] < below_zero) {
         below = middle;
-      } else if (at_to[i] < below_zero) {
-        below = to;
-      } else if (at_middle[i] < 1 && (at_middle[i] <= std::min(at_here[i], at_to[i]) ||
-                                      std::min(at_here[i], at_to[i]) < 0.1 * std::max(at_here[i], at_to[i]))) {
-        const double low = lowest(one(i), here, to);
+      } else if (at_end[i] < below_zero) {
+        below = end;
+      } else if (at_middle[i] < 1 && (at_middle[i] <= lesser || lesser < 0.1 * greater)) {
+        const double low = lowest(guard(i), begin, end);
         if (guards_at(low)[i] < below_zero) below = low;
       }
-      if (below == HUGE_VAL) continue;
-      const double from = at_here[i];
-      const double root = from > 0 ? find_root(one(i), here, from, below, guards_at(below)[i]) : here;
-      if (root < edge) value_here = from;
-      edge = std::min(edge, root);
+      if (below == nowhere) continue;
+      const double root = at_begin[i] > 0 ? find_root(guard(i), begin, at_begin[i], below, guards_at(below)[i]) : begin;
+      if (root < first.s) first = {root, at_begin[i]};
     }
-    if (edge == HUGE_VAL) {
-      here = to;
-      looked = ahead;
-      continue;
-    }
-    // Nothing but rounding above zero already here: at a dead centre the slider's place tells the piece only further
-    // on.
-    if (value_here < -below_zero && looked < farthest) {
-      looked *= 10;
-      look_ahead(sign * here, sign, looked);
-      continue;
-    }
-    looked = ahead;
-    edge = std::max(edge, here);
-    const double angle = periodic_ ? place_within(sign * edge, cycle_) : sign * edge;
-    found.push_back(cycle_ - angle < 1e-13 ? 0 : angle);
-    set_modes(sign * edge, sign);
-    here = std::max(edge, std::nextafter(here, end));
-    // Past the edge by what counts as here, so that its own guard is found above zero.
-    here += 2 * ahead * std::max(1.0, std::abs(here));
+    return first;
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end(), [](double a, double b) { return b - a < 1e-12; }), found.end());
-  return found;
-}
+
+  void note(double s) {
+    const double phi = sign_ * s, cycle = machine_.cycle_;
+    const double angle = machine_.periodic_ ? place_within(phi, cycle) : phi;
+    found_.push_back(cycle - angle < 1e-13 ? 0 : angle);
+  }
+
+  const std::vector<double>& guards_at(double s) {
+    machine_.fill_state(sign_ * s, sign_);
+    machine_.equations_.guards(0, machine_.state_, guard_);
+    return guard_;
+  }
+  std::function<double(double)> guard(std::size_t i) {
+    return [this, i](double s) { return guards_at(s)[i]; };
+  }
+
+  RigidMachine& machine_;
+  double sign_;
+  std::vector<std::size_t> watched_;  // guards that change at angles
+  std::vector<double> guard_, found_;
+};
+
+std::vector<double> RigidMachine::edges(int direction) { return EdgeSearch(*this, direction).run(); }
 
 }  // namespace kurbel

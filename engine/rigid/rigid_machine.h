@@ -69,6 +69,7 @@ class RigidMachine {
     const ShaftElementMaker* maker;  // belongs to the model
     double ratio, phase;             // own angle = ratio · φ + phase
   };
+  class EdgeSearch;
   void look_ahead(double phi, double omega, double distance);
   void fill_state(double phi, double omega);
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class WorkOverAngle {
 
  private:
   static constexpr std::size_t nodes = 16;
+  // Near a change point I_r turns within √(2 (l − r)/r) of an angle: 4.5e-4 rad where the rod is a 10⁻⁷ longer than the
+  // crank. Panels are halved until they resolve that; in narrow ones what remains may be the tables' rounding.
+  static constexpr double narrow = std::numbers::pi / 512;  // [rad]
   using Values = std::array<double, nodes>;
   struct Panel {
     double begin = 0, half = 0;        // half: half its width [rad]

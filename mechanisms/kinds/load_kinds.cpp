@@ -179,6 +179,88 @@ bool read_load(const Section& s, const Mechanism& mechanism, const std::string& 
   return true;
 }
 
+Kind press_kind() {
+  return {.name = "press",
+          .doc = "nominal force before the working end, on the working stroke only, then break-through",
+          .placement = Placement::nested,
+          .keys = {{.name = "nominal_force",
+                    .unit = "N",
+                    .domain = not_negative,
+                    .doc = "force F_n against the motion",
+                    .required = true},
+                   {.name = "nominal_travel",
+                    .unit = "m",
+                    .domain = positive,
+                    .doc = "distance before the working end where the force begins",
+                    .required = true},
+                   {.name = "rise",
+                    .unit = "m",
+                    .fallback = "\"0 mm\"",
+                    .domain = not_negative,
+                    .doc = "travel within which the force rises; 0: an edge"},
+                   {.name = "breakthrough",
+                    .unit = "m",
+                    .fallback = "\"0 mm\"",
+                    .domain = not_negative,
+                    .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
+                   {.name = "drop",
+                    .unit = "m",
+                    .fallback = "\"0 mm\"",
+                    .domain = not_negative,
+                    .doc = "travel within which the force falls after break-through"},
+                   rounding_key("rounding", "m"),
+                   working_end_key(),
+                   work_key("\"useful\"")}};
+}
+
+Kind table_kind() {
+  return {
+      .name = "table",
+      .doc = "force by table over travel or crank angle (indicator diagram)",
+      .placement = Placement::nested,
+      .keys = {{.name = "force",
+                .type = KeyType::curve,
+                .unit = "N",
+                .doc = "positive pushes the slider away from the working end; over the distance to that end "
+                       "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
+                       "720 deg for four strokes)",
+                .required = true,
+                .choices = {"travel", "angle"}},
+               rounding_key("rounding", "m"),
+               rounding_key("rounding_angle", "rad"),
+               working_end_key(),
+               work_key("\"useful\"")}};
+}
+
+Kind compressor_kind() {
+  return {
+      .name = "compressor",
+      .doc =
+          "gas force of a compressor: compression, delivery, re-expansion of the clearance volume, suction; the "
+          "valves open at located events",
+      .placement = Placement::nested,
+      .keys = {{.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
+               {.name = "suction_pressure", .unit = "Pa", .domain = positive, .doc = "p₁, absolute", .required = true},
+               {.name = "delivery_pressure", .unit = "Pa", .domain = positive, .doc = "p₂, absolute", .required = true},
+               {.name = "outside_pressure",
+                .unit = "Pa",
+                .domain = not_negative,
+                .doc = "on the other face of the piston, absolute; default: suction_pressure"},
+               {.name = "clearance",
+                .domain = positive,
+                .doc = "clearance volume over swept volume, e.g. 0.05",
+                .required = true},
+               {.name = "compression_exponent",
+                .fallback = "1.3",
+                .domain = positive,
+                .doc = "polytropic exponent n: 1 isothermal, 1.4 adiabatic for air"},
+               {.name = "expansion_exponent",
+                .domain = positive,
+                .doc = "polytropic exponent of the re-expansion; default: compression_exponent"},
+               working_end_key(),
+               work_key("\"useful\"")}};
+}
+
 }  // namespace
 
 void read_loads(const Section& s, Mechanism& mechanism, Messages& messages) {
@@ -194,37 +276,7 @@ void read_loads(const Section& s, Mechanism& mechanism, Messages& messages) {
 
 const std::vector<Kind>& slider_load_kinds() {
   static const std::vector<Kind> kinds = {
-      {.name = "press",
-       .doc = "nominal force before the working end, on the working stroke only, then break-through",
-       .placement = Placement::nested,
-       .keys = {{.name = "nominal_force",
-                 .unit = "N",
-                 .domain = not_negative,
-                 .doc = "force F_n against the motion",
-                 .required = true},
-                {.name = "nominal_travel",
-                 .unit = "m",
-                 .domain = positive,
-                 .doc = "distance before the working end where the force begins",
-                 .required = true},
-                {.name = "rise",
-                 .unit = "m",
-                 .fallback = "\"0 mm\"",
-                 .domain = not_negative,
-                 .doc = "travel within which the force rises; 0: an edge"},
-                {.name = "breakthrough",
-                 .unit = "m",
-                 .fallback = "\"0 mm\"",
-                 .domain = not_negative,
-                 .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
-                {.name = "drop",
-                 .unit = "m",
-                 .fallback = "\"0 mm\"",
-                 .domain = not_negative,
-                 .doc = "travel within which the force falls after break-through"},
-                rounding_key("rounding", "m"),
-                working_end_key(),
-                work_key("\"useful\"")}},
+      press_kind(),
       {.name = "constant",
        .doc = "force along the stroke, whatever the motion",
        .placement = Placement::nested,
@@ -242,46 +294,8 @@ const std::vector<Kind>& slider_load_kinds() {
            {{.name = "viscous", .unit = "N*s/m", .fallback = "\"0 N*s/m\"", .domain = not_negative, .doc = "c"},
             {.name = "quadratic", .unit = "N*s2/m2", .fallback = "\"0 N*s2/m2\"", .domain = not_negative, .doc = "q"},
             work_key("\"useful\"")}},
-      {.name = "table",
-       .doc = "force by table over travel or crank angle (indicator diagram)",
-       .placement = Placement::nested,
-       .keys = {{.name = "force",
-                 .type = KeyType::curve,
-                 .unit = "N",
-                 .doc = "positive pushes the slider away from the working end; over the distance to that end "
-                        "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                        "720 deg for four strokes)",
-                 .required = true,
-                 .choices = {"travel", "angle"}},
-                rounding_key("rounding", "m"),
-                rounding_key("rounding_angle", "rad"),
-                working_end_key(),
-                work_key("\"useful\"")}},
-      {.name = "compressor",
-       .doc = "gas force of a compressor: compression, delivery, re-expansion of the clearance volume, suction; the "
-              "valves open at located events",
-       .placement = Placement::nested,
-       .keys =
-           {{.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
-            {.name = "suction_pressure", .unit = "Pa", .domain = positive, .doc = "p₁, absolute", .required = true},
-            {.name = "delivery_pressure", .unit = "Pa", .domain = positive, .doc = "p₂, absolute", .required = true},
-            {.name = "outside_pressure",
-             .unit = "Pa",
-             .domain = not_negative,
-             .doc = "on the other face of the piston, absolute; default: suction_pressure"},
-            {.name = "clearance",
-             .domain = positive,
-             .doc = "clearance volume over swept volume, e.g. 0.05",
-             .required = true},
-            {.name = "compression_exponent",
-             .fallback = "1.3",
-             .domain = positive,
-             .doc = "polytropic exponent n: 1 isothermal, 1.4 adiabatic for air"},
-            {.name = "expansion_exponent",
-             .domain = positive,
-             .doc = "polytropic exponent of the re-expansion; default: compression_exponent"},
-            working_end_key(),
-            work_key("\"useful\"")}},
+      table_kind(),
+      compressor_kind(),
   };
   return kinds;
 }

@@ -191,6 +191,38 @@ Vector SimbodyReduction::closure_jerks(const State& state, const std::vector<Bod
   return jerks;
 }
 
+// I_r″ = 2 Σ [ m (a·a + v·j) + I_S (α² + ω ζ) ], the derivative of theory 2.1 taken twice; jerk: what d³q/dφ³ adds.
+double SimbodyReduction::curvature(const State& state, const std::vector<BodyMotion>& motion,
+                                   const Vector_<SpatialVec>& jerk) const {
+  double sum = 0;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    const MobilizedBody& body = matter_.getMobilizedBody(MobilizedBodyIndex(int(k)));
+    const SimTK::MassProperties& mass = body.getBodyMassProperties(state);
+    BodyMotion b = motion[k];
+    b.j = b.j + planar(jerk[int(k)][1]);
+    b.zeta = jerk[int(k)][0][2];
+    const Planar<double> com = planar(body.getBodyRotation(state) * mass.getMassCenter());
+    const Planar<double> v = b.v + turn1(b, com), a = b.a + turn2(b, com), j = b.j + turn3(b, com);
+    const double central = mass.getMass() > 0 ? mass.calcCentralInertia().getMoments()[2] : 0;
+    sum += 2 * (mass.getMass() * (dot(a, a) + dot(v, j)) + central * (b.alpha * b.alpha + b.w * b.zeta));
+  }
+  return sum;
+}
+
+// From the bodies' velocities in the state and their accelerations.
+std::vector<PointMotion> SimbodyReduction::point_motions(const State& state,
+                                                         const Vector_<SpatialVec>& acceleration) const {
+  std::vector<PointMotion> points;
+  for (const TrackedPoint& point : points_) {
+    const MobilizedBody& body = matter_.getMobilizedBody(point.body);
+    const Vec3 arm = body.getBodyRotation(state) * point.station;
+    const Vec3 w = body.getBodyAngularVelocity(state);
+    points.push_back({body.getBodyOriginLocation(state) + arm, body.getBodyOriginVelocity(state) + w % arm,
+                      acceleration[point.body][1] + acceleration[point.body][0] % arm + w % (w % arm)});
+  }
+  return points;
+}
+
 Reduction SimbodyReduction::reduce(State& state) const {
   Reduction result;
 
@@ -233,30 +265,12 @@ Reduction SimbodyReduction::reduce(State& state) const {
   // Jerk at constant speed: G ü + (third derivative of the closures without ü) = 0.
   Vector_<SpatialVec> acceleration, jerk;
   matter_.calcBodyAccelerationFromUDot(state, result.q2, acceleration);
-  std::vector<BodyMotion> motion = motion_without_q3(state, result.q2, acceleration);
+  const std::vector<BodyMotion> motion = motion_without_q3(state, result.q2, acceleration);
   result.q3 = solve(closure_jerks(state, motion));
   matter_.multiplyBySystemJacobian(state, result.q3, jerk);
 
-  // I_r″ = 2 Σ [ m (a·a + v·j) + I_S (α² + ω ζ) ], the derivative of theory 2.1 taken twice.
-  for (std::size_t k = 1; k < motion.size(); ++k) {
-    const MobilizedBody& body = matter_.getMobilizedBody(MobilizedBodyIndex(int(k)));
-    const SimTK::MassProperties& mass = body.getBodyMassProperties(state);
-    BodyMotion& b = motion[k];
-    b.j = b.j + planar(jerk[int(k)][1]);
-    b.zeta = jerk[int(k)][0][2];
-    const Planar<double> com = planar(body.getBodyRotation(state) * mass.getMassCenter());
-    const Planar<double> v = b.v + turn1(b, com), a = b.a + turn2(b, com), j = b.j + turn3(b, com);
-    const double central = mass.getMass() > 0 ? mass.calcCentralInertia().getMoments()[2] : 0;
-    result.curvature += 2 * (mass.getMass() * (dot(a, a) + dot(v, j)) + central * (b.alpha * b.alpha + b.w * b.zeta));
-  }
-
-  for (const TrackedPoint& point : points_) {
-    const MobilizedBody& body = matter_.getMobilizedBody(point.body);
-    const Vec3 arm = body.getBodyRotation(state) * point.station;
-    const Vec3 w = body.getBodyAngularVelocity(state);
-    result.points.push_back({body.getBodyOriginLocation(state) + arm, body.getBodyOriginVelocity(state) + w % arm,
-                             acceleration[point.body][1] + acceleration[point.body][0] % arm + w % (w % arm)});
-  }
+  result.curvature = curvature(state, motion, jerk);
+  result.points = point_motions(state, acceleration);
   return result;
 }
 

@@ -89,6 +89,10 @@ class SimbodyReduction {
   std::vector<BodyMotion> motion_without_q3(const SimTK::State& state, const SimTK::Vector& q2,
                                             const SimTK::Vector_<SimTK::SpatialVec>& a) const;
   SimTK::Vector closure_jerks(const SimTK::State& state, const std::vector<BodyMotion>& motion) const;
+  double curvature(const SimTK::State& state, const std::vector<BodyMotion>& motion,
+                   const SimTK::Vector_<SimTK::SpatialVec>& jerk) const;
+  std::vector<PointMotion> point_motions(const SimTK::State& state,
+                                         const SimTK::Vector_<SimTK::SpatialVec>& acceleration) const;
 
   const SimTK::MultibodySystem& system_;
   const SimTK::SimbodyMatterSubsystem& matter_;

@@ -1,0 +1,128 @@
+// newton.cpp — steps that are halved until they pay, a derivative that is kept while it serves.
+#include "engine/analysis/newton.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+constexpr int most_rounds = 60, most_derivatives = 12;
+constexpr int most_run_on = 8;
+constexpr double residual_floor = 30;  // times the residual asked for may be left where round-off stops the descent
+
+class Newton {
+ public:
+  Newton(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough)
+      : system_(system), x_(guess), enough_(enough) {}
+
+  NewtonOutcome run() {
+    if (evaluate(x_, true)) iterate();
+    return std::move(out_);
+  }
+
+ private:
+  enum class Progress { made, floor, ended };
+
+  bool evaluate(const Eigen::VectorXd& x, bool with_derivative) {
+    ++out_.rounds;
+    if (with_derivative) ++out_.derivatives;
+    Eigen::MatrixXd derivative;
+    valid_ = system_.evaluate(x, residual_, with_derivative ? &derivative : nullptr);
+    if (!valid_) return false;
+    norm_ = residual_.cwiseAbs().maxCoeff();
+    if (with_derivative) {
+      at_ = x;
+      solver_.compute(derivative);
+    }
+    return true;
+  }
+
+  void iterate() {
+    while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
+      const Progress progress = advance(limited(-solver_.solve(residual_)));
+      if (progress == Progress::ended) return;
+      if (progress == Progress::floor) break;
+    }
+    out_.residual = norm_;
+    if (norm_ <= residual_floor * enough_) return finish();
+    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} rounds)",
+                           norm_, out_.rounds);
+  }
+
+  // Far steps lead to other machines: nothing changes by more than half of the largest there is.
+  Eigen::VectorXd limited(Eigen::VectorXd step) const {
+    const double longest = 0.5 * std::max(0.2, x_.cwiseAbs().maxCoeff()), length = step.cwiseAbs().maxCoeff();
+    if (!(length < HUGE_VAL)) return residual_;
+    if (length > longest) step *= longest / length;
+    return step;
+  }
+
+  // One step, halved while it does not pay; with a kept derivative only the whole step is tried. Steps are judged by
+  // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
+  // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
+  Progress advance(const Eigen::VectorXd& step) {
+    const Eigen::VectorXd from = x_, residual_from = residual_;
+    const double norm_from = norm_, length = step.cwiseAbs().maxCoeff();
+    const bool fresh = at_ == x_;
+    for (double part = 1; part > 0.02; part *= 0.5) {
+      const Eigen::VectorXd trial = from + part * step;
+      if (evaluate(trial, false)) {
+        const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
+        if (contraction < 1 - 0.25 * part) {
+          x_ = trial;
+          if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
+          return evaluate(x_, true) ? Progress::made : Progress::ended;
+        }
+      }
+      if (system_.stopped && system_.stopped()) return Progress::ended;
+      if (out_.rounds >= most_rounds) break;
+      if (!fresh || norm_from <= residual_floor * enough_) break;
+    }
+    x_ = from;
+    residual_ = residual_from;
+    norm_ = norm_from;
+    if (norm_ <= residual_floor * enough_) return Progress::floor;  // round-off: nothing shrinks any more
+    if (fresh) {                                                    // Newton finds no way down: let the machine run on
+      if (!system_.run_on || ++run_on_ > most_run_on) return Progress::floor;
+      x_ = from + residual_from;
+    }
+    return evaluate(x_, true) ? Progress::made : Progress::ended;
+  }
+
+  // Kept while the rounds that are left with it cost less than a new one.
+  bool keep_derivative(double contraction) const {
+    if (contraction >= 0.9) return false;
+    return std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction) <= system_.derivative_cost + 1;
+  }
+
+  // The derivative at the solution itself, for the multipliers.
+  void finish() {
+    if (at_ != x_) {
+      x_ += limited(-solver_.solve(residual_));
+      if (!evaluate(x_, true)) return;
+    }
+    out_.found = true;
+    out_.x = x_;
+    out_.residual = norm_;
+  }
+
+  const NewtonSystem& system_;
+  Eigen::VectorXd x_, at_, residual_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
+  NewtonOutcome out_;
+  double enough_, norm_ = 0;
+  int run_on_ = 0;
+  bool valid_ = false;
+};
+
+}  // namespace
+
+NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough) {
+  return Newton(system, guess, enough).run();
+}
+
+}  // namespace kurbel

@@ -1,0 +1,92 @@
+// periodicity.cpp — common multiples of the periods of a machine's elements.
+#include "engine/analysis/periodicity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr int most_periods = 1000;   // of the first law within a common period
+constexpr double same_ratio = 1e-9;  // by which a ratio of periods may miss a fraction
+
+struct NamedPeriod {
+  double period;
+  std::string component;
+};
+
+// The smallest multiple of the first period that is a multiple of all.
+double common_multiple(const std::vector<NamedPeriod>& periods, const std::string& unit) {
+  const double first = periods.front().period;
+  const auto meets = [&](int k, const NamedPeriod& p) {
+    const double ratio = k * first / p.period;
+    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= same_ratio * ratio;
+  };
+  for (int k = 1; k <= most_periods; ++k)
+    if (std::all_of(periods.begin(), periods.end(), [&](const NamedPeriod& p) { return meets(k, p); }))
+      return k * first;
+  const NamedPeriod* odd = &periods.back();
+  for (const NamedPeriod& p : periods) {
+    bool ever = false;
+    for (int k = 1; k <= most_periods && !ever; ++k) ever = meets(k, p);
+    if (!ever) odd = &p;
+  }
+  throw std::invalid_argument(fmt::format(
+      "there is no steady cycle: what repeats after {:.9g} {} (\"{}\") and after {:.9g} {} (\"{}\") never meets within "
+      "{} periods. Make the ratio of the two a fraction, or simulate a long time with kurbel run",
+      first, unit, periods.front().component, odd->period, unit, odd->component, most_periods));
+}
+
+}  // namespace
+
+int prescribed_node(const Model& m) {
+  const Network& net = m.network;
+  int found = -1;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+    if (net.nodes[n].prescribed < 0) continue;
+    if (m.node_ratio[n] == 0 && net.prescribed[at(net.nodes[n].prescribed)].is_nothing()) continue;  // the frame
+    if (found >= 0)
+      throw std::invalid_argument(
+          fmt::format("\"{}\" and \"{}\" both prescribe a speed; a steady cycle is sought for one prescribed speed at "
+                      "most: simulate with kurbel run",
+                      net.nodes[at(found)].component, net.nodes[n].component));
+    found = static_cast<int>(n);
+  }
+  return found;
+}
+
+Periodicity periodicity_of(const Model& m) {
+  Periodicity result;
+  std::vector<NamedPeriod> angles, times;
+  for (const Network::ShaftElement& e : m.network.elements) {
+    if (e.element->uses_angle() && e.element->angle_period() > 0)
+      angles.push_back({e.element->angle_period() / m.scale_ratio[at(e.node)], e.component});
+    if (e.element->time_period() > 0) times.push_back({e.element->time_period(), e.component});
+    result.settled_from = std::max(result.settled_from, e.element->settled_from());
+  }
+  result.angle_matters = !angles.empty();
+  result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
+  if (const int node = prescribed_node(m); node >= 0) {
+    const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
+    const std::string& name = m.network.nodes[at(node)].component;
+    const double link_speed = std::abs(given.speed.back() / m.node_ratio[at(node)]);
+    if (!(link_speed > 0))
+      throw std::invalid_argument(
+          fmt::format("\"{}\" prescribes a mean speed of 0: nothing turns, so there is no cycle", name));
+    if (given.amplitude != 0) times.push_back({1 / std::abs(given.frequency), name});
+    if (result.angle_matters || times.empty()) times.push_back({result.angle / link_speed, name});
+    if (!given.time.empty()) result.settled_from = std::max(result.settled_from, given.time.back());
+  }
+  result.by_time = !times.empty();
+  if (result.by_time) result.time = common_multiple(times, "s");
+  return result;
+}
+
+}  // namespace kurbel
