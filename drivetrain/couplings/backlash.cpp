@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "engine/elements/any_connection.h"
 #include "engine/scene/effects.h"
 
 namespace kurbel {
@@ -37,9 +38,8 @@ Backlash BacklashData::settled(double inertia) const {
   return element;
 }
 
-std::shared_ptr<ConnectionMaker> BacklashData::with(const Effects& effects) const {
-  if (effects.backlash) return nullptr;
-  return std::make_shared<ConnectionMakerOf<Coupling, CouplingData>>(without_gap());
+ConnectionForm under(const BacklashData& given, const Effects& effects) {
+  return effects.backlash ? nullptr : connection_form(given.without_gap());
 }
 
 CouplingData BacklashData::without_gap() const {

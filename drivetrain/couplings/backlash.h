@@ -11,12 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "drivetrain/couplings/coupling.h"
 #include "engine/elements/element.h"
-#include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -32,10 +30,11 @@ struct Backlash {
     apart = 0,
     above = 1,
     above_limited = 2,
-    above_cut = 3
+    above_cut = 3,
+    regularised = 100  // the law without events
   };
-  static constexpr int guards = 2;
-  static constexpr int regularised_mode = 100;
+  static constexpr ConnectionTraits is{
+      .spring_takes_motion = true, .guards = 2, .regularised_mode = regularised, .described = true};
   ContactLaw law = ContactLaw::no_pulling;
   double stiffness = 0;    // k [N·m/rad^n], > 0
   double damping = 0;      // c [N·m·s/rad]; of Hunt–Crossley d [s/rad]
@@ -46,7 +45,7 @@ struct Backlash {
   template <class T>
   T torque(const Twist<T>& x) const {
     int mode = x.mode;
-    if (mode == regularised_mode) mode = first_mode({value_of(x.angle), value_of(x.rate)});
+    if (mode == regularised) mode = first_mode({value_of(x.angle), value_of(x.rate)});
     if (mode == apart || mode == above_cut || mode == below_cut) return T(0.0);
     const double side = mode > 0 ? 1 : -1;
     const T p = side * x.angle - 0.5 * gap, rate = side * x.rate;
@@ -74,6 +73,7 @@ struct Backlash {
     using std::pow;
     return stiffness * pow(p, exponent + 1) / (exponent + 1);
   }
+  double energy(const Twist<double>& x) const { return energy(x.angle); }
   double twist_at(double torque) const {
     if (torque == 0) return 0;
     return std::copysign(0.5 * gap + std::pow(std::abs(torque) / stiffness, 1 / exponent), torque);
@@ -135,7 +135,7 @@ struct Backlash {
     }
   }
   std::string mode_name(int mode) const {
-    if (mode == regularised_mode) return "contact without events";
+    if (mode == regularised) return "contact without events";
     if (mode == apart) return "flanks apart";
     const char* flank = mode > 0 ? "driving flank" : "rear flank";
     return std::abs(mode) == 3 ? std::string(flank) + ", parting" : std::string("on the ") + flank;
@@ -161,12 +161,13 @@ struct Backlash {
 // As a scene gives it; without the effect "backlash" the flanks always touch.
 struct BacklashData {
   using Element = Backlash;
+  static constexpr bool other_forms = true;
   Backlash contact;
   Damping given;  // in any of its forms; of Hunt–Crossley unused
 
   Backlash settled(double inertia) const;
   CouplingData without_gap() const;
-  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const;
 };
+ConnectionForm under(const BacklashData& given, const Effects& effects);
 
 }  // namespace kurbel

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "engine/elements/element.h"
 
@@ -24,7 +23,7 @@ struct Damping {
 };
 
 struct Coupling {
-  static constexpr std::string_view kind = "coupling";
+  static constexpr ConnectionTraits is{};
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0
 

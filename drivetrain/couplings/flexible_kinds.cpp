@@ -11,8 +11,13 @@
 #include "drivetrain/couplings/universal_joint.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
+#include "engine/scene/effects.h"
 
 namespace kurbel {
+
+ConnectionForm rubber_under(const StaticRubberData& without_relaxation, const Effects& effects) {
+  return effects.relaxation ? nullptr : connection_form(without_relaxation);
+}
 namespace {
 
 std::array<int, 2> halves(const Section& s, Network& net) {

@@ -19,8 +19,7 @@
 namespace kurbel {
 
 struct FluidCoupling {
-  static constexpr bool springless = true;
-  static constexpr bool uses_speeds = true;
+  static constexpr ConnectionTraits is{.springless = true, .uses_speeds = true};
   Curve lambda;     // λ(ν) [1]
   double size = 0;  // ρ D⁵ [kg·m²], > 0
 
@@ -33,18 +32,16 @@ struct FluidCoupling {
     const T flow = lambda.value(slow / fast) * size * (fast * fast);
     return (a_faster == (value_of(fast) > 0) ? 1.0 : -1.0) * flow;
   }
-  double loss_power(const Twist<double>& x) const { return torque(x) * x.rate; }
 };
 
 struct ViscousFilm {
-  static constexpr bool springless = true;
+  static constexpr ConnectionTraits is{.springless = true};
   double damping = 0;  // c [N·m·s/rad], ≥ 0
 
   template <class T>
   T torque(const Twist<T>& x) const {
     return damping * x.rate;
   }
-  double loss_power(const Twist<double>& x) const { return damping * x.rate * x.rate; }
 
   // c and the peak M/M₀ over k of the best untuned damper.
   static double best_damping(double inertia, double ring, double stiffness) {

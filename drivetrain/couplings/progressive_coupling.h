@@ -18,8 +18,8 @@ namespace kurbel {
 
 class ProgressiveCoupling {
  public:
-  static constexpr int guards = 2;
-  static constexpr int regularised_mode = -1;  // no piece begins before the first point
+  static constexpr int regularised = -1;  // mode: no piece begins before the first point
+  static constexpr ConnectionTraits is{.guards = 2, .regularised_mode = regularised, .described = true};
 
   ProgressiveCoupling() = default;
   // Torques in N·m over twists in rad, with the damping c [N·m·s/rad]. Throws std::invalid_argument in words.
@@ -28,7 +28,7 @@ class ProgressiveCoupling {
 
   template <class T>
   T torque(const Twist<T>& x) const {
-    const int piece = x.mode == regularised_mode ? piece_at(value_of(x.angle)) : x.mode;
+    const int piece = x.mode == regularised ? piece_at(value_of(x.angle)) : x.mode;
     return curve_.value_in(piece, x.angle) + damping_ * x.rate;
   }
   double spring_torque(double twist) const { return curve_.value_in(piece_at(twist), twist); }

@@ -8,14 +8,11 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "drivetrain/couplings/coupling.h"
 #include "engine/elements/element.h"
-#include "engine/model/network.h"
-#include "engine/scene/effects.h"
 
 namespace kurbel {
 
@@ -26,7 +23,7 @@ struct MaxwellBranch {
 
 template <int branches>
 struct RubberCoupling {
-  static constexpr int states = branches;
+  static constexpr ConnectionTraits is{.spring_takes_motion = true, .tells_loss = true, .states = branches};
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0
   std::array<MaxwellBranch, branches> branch{};
@@ -86,6 +83,7 @@ struct StaticRubberData {
 template <int branches>
 struct RubberCouplingData {
   using Element = RubberCoupling<branches>;
+  static constexpr bool other_forms = true;
   CouplingData spring;
   std::array<MaxwellBranch, branches> branch{};
 
@@ -93,11 +91,11 @@ struct RubberCouplingData {
     const Coupling plain = spring.settled(inertia);
     return {plain.stiffness, plain.damping, branch};
   }
-  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const {
-    if (effects.relaxation) return nullptr;
-    return std::make_shared<ConnectionMakerOf<Coupling, StaticRubberData>>(
-        StaticRubberData{spring, {branch.begin(), branch.end()}});
-  }
 };
+ConnectionForm rubber_under(const StaticRubberData& without_relaxation, const Effects& effects);
+template <int branches>
+ConnectionForm under(const RubberCouplingData<branches>& given, const Effects& effects) {
+  return rubber_under({given.spring, {given.branch.begin(), given.branch.end()}}, effects);
+}
 
 }  // namespace kurbel

@@ -57,8 +57,12 @@ struct HookeJoint {
 };
 
 struct UniversalJoint {
-  static constexpr bool uses_angle = true;
-  static constexpr bool uses_speeds = true;
+  static constexpr ConnectionTraits is{.uses_angle = true,
+                                       .uses_speeds = true,
+                                       .turns_unevenly = true,
+                                       .spring_takes_motion = true,
+                                       .tells_loss = true,
+                                       .described = true};
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0
   HookeJoint joint;

@@ -16,12 +16,10 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "engine/elements/element.h"
 #include "engine/elements/stribeck.h"
-#include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -46,12 +44,8 @@ struct StribeckCurve {
   Rated rated() const { return {breakaway, 0}; }
 };
 
-// What stands in place of a bearing under these effects; null: the bearing as it is.
-std::shared_ptr<ShaftElementMaker> bearing_without(const Effects& effects);
-
 struct StickingBearing {
-  static constexpr bool directional = true;
-  static constexpr Account account = Account::harmful;
+  static constexpr ShaftTraits is{.account = Account::harmful, .directional = true, .other_forms = true};
   StribeckCurve curve;
 
   template <class T>
@@ -63,11 +57,10 @@ struct StickingBearing {
   bool uses_time() const { return false; }
   bool uses_speed() const { return curve.uses_speed(); }
   Rated rated() const { return curve.rated(); }
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
 };
 
 struct CreepingBearing {
-  static constexpr Account account = Account::harmful;
+  static constexpr ShaftTraits is{.account = Account::harmful, .described = true, .other_forms = true};
   StribeckCurve curve;
   double creep_speed = 0;  // ω_c [rad/s], > 0
   std::string name = {};   // of the component, for what is said of it
@@ -81,13 +74,11 @@ struct CreepingBearing {
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return curve.rated(); }
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
   std::string describe() const;
 };
 
 struct BristleBearing {
-  static constexpr Account account = Account::harmful;
-  static constexpr int states = 1;
+  static constexpr ShaftTraits is{.account = Account::harmful, .states = 1, .stores = true, .other_forms = true};
   StribeckCurve curve;
   double stiffness = 0;  // σ₀ of the bristles [N·m/rad], > 0
   double damping = 0;    // σ₁ [N·m·s/rad], ≥ 0
@@ -118,7 +109,11 @@ struct BristleBearing {
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return curve.rated(); }
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const { return bearing_without(effects); }
 };
+
+// Without the effect "bearing_friction" none of them is there.
+ShaftForm under(const StickingBearing&, const Effects& effects);
+ShaftForm under(const CreepingBearing&, const Effects& effects);
+ShaftForm under(const BristleBearing&, const Effects& effects);
 
 }  // namespace kurbel

@@ -11,7 +11,13 @@
 
 namespace kurbel {
 
-std::shared_ptr<ShaftElementMaker> bearing_without(const Effects& effects) {
+ShaftForm under(const StickingBearing&, const Effects& effects) {
+  return effects.bearing_friction ? nullptr : no_element();
+}
+ShaftForm under(const CreepingBearing&, const Effects& effects) {
+  return effects.bearing_friction ? nullptr : no_element();
+}
+ShaftForm under(const BristleBearing&, const Effects& effects) {
   return effects.bearing_friction ? nullptr : no_element();
 }
 

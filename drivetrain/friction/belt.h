@@ -11,13 +11,11 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 
 #include "drivetrain/couplings/coupling.h"
 #include "engine/elements/element.h"
-#include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -33,8 +31,8 @@ inline double open_belt_wrap(double diameter_1, double diameter_2, double centre
 
 struct Belt {
   enum Mode : int { slips_back = -1, grips = 0, slips_ahead = 1 };
-  static constexpr int guards = 2;
-  static constexpr int states = 1;
+  static constexpr ConnectionTraits is{
+      .spring_takes_motion = true, .tells_loss = true, .guards = 2, .states = 1, .described = true};
   double stiffness = 0;    // k [N·m/rad], > 0
   double damping = 0;      // c [N·m·s/rad], ≥ 0
   double limit = 0;        // M [N·m], > 0
@@ -96,7 +94,7 @@ struct Belt {
 
 // The belt that does not stretch: grips until the limit, then slips.
 struct RigidBelt {
-  static constexpr bool slips = true;
+  static constexpr ConnectionTraits is{.slips = true, .described = true};
   double limit = 0;  // M [N·m], > 0
   std::string words = {};
 
@@ -112,6 +110,7 @@ struct RigidBelt {
 // As a scene gives it; rigid where its elasticity is off.
 struct BeltData {
   using Element = Belt;
+  static constexpr bool other_forms = true;
   std::string name;                 // of the component
   double ratio = 1, radius = 1;     // i; r₁ [m]
   double stiffness = 0, limit = 0;  // k [N·m/rad], M [N·m], both > 0
@@ -122,8 +121,8 @@ struct BeltData {
     const double scale = inertia > 0 ? limit / std::sqrt(stiffness * inertia) : limit / stiffness;
     return {stiffness, CouplingData{stiffness, damping}.settled(inertia).damping, limit, scale, describe()};
   }
-  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const;
   std::string describe() const;
 };
+ConnectionForm under(const BeltData& given, const Effects& effects);
 
 }  // namespace kurbel

@@ -13,9 +13,8 @@
 
 namespace kurbel {
 
-std::shared_ptr<ConnectionMaker> BeltData::with(const Effects& effects) const {
-  if (effects.is_elastic(name)) return nullptr;
-  return std::make_shared<ConnectionMakerOf<RigidBelt>>(RigidBelt{limit, describe()});
+ConnectionForm under(const BeltData& given, const Effects& effects) {
+  return effects.is_elastic(given.name) ? nullptr : connection_form(RigidBelt{given.limit, given.describe()});
 }
 
 std::string BeltData::describe() const {

@@ -16,8 +16,7 @@ namespace kurbel {
 // Friction clutch and torque limiter. Capacity of n plates: M_k = n μ_k F r_m, r_m = ⅔ (r_o³ − r_i³)/(r_o² − r_i²)
 // (uniform pressure) — clutch_kinds.cpp.
 struct FrictionClutch {
-  static constexpr bool slips = true;
-  static constexpr bool commanded = true;
+  static constexpr ConnectionTraits is{.slips = true, .commanded = true};
   double kinetic = 0;    // M_k at v → 0 [N·m], ≥ 0
   double breakaway = 0;  // M_s [N·m], ≥ M_k
   double slope = 0;      // M′, change of the kinetic capacity with the speed of slip [N·m·s/rad]
@@ -35,7 +34,7 @@ struct FrictionClutch {
 
 // One-way clutch: transmits only τ ≥ 0; b may run ahead of a (v < 0), dragging with M_k.
 struct OneWayClutch {
-  static constexpr bool slips = true;
+  static constexpr ConnectionTraits is{.slips = true};
   double drag = 0;  // M_k while overrunning [N·m], ≥ 0
 
   template <class T>
@@ -48,9 +47,7 @@ struct OneWayClutch {
 
 // Brake on one shaft: M = −p M_k(|ω|) sgn ω, holds up to p M_s.
 struct FrictionBrake {
-  static constexpr bool directional = true;
-  static constexpr bool commanded = true;
-  static constexpr Account account = Account::harmful;
+  static constexpr ShaftTraits is{.account = Account::harmful, .directional = true, .commanded = true};
   double kinetic = 0, breakaway = 0;  // M_k, M_s [N·m]
   double slope = 0;                   // M′ [N·m·s/rad]
 
@@ -61,6 +58,7 @@ struct FrictionBrake {
     return -x.command * static_cast<double>(x.direction) * capacity;
   }
   Hold hold(const ShaftState<double>& x) const { return {-x.command * breakaway, x.command * breakaway}; }
+  bool opens_at_zero() const { return false; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return slope != 0; }
   Rated rated() const { return {breakaway, 0}; }

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/model/network.h"
+#include "engine/elements/gear_loss.h"
 
 namespace kurbel {
 

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "engine/elements/any_connection.h"
+#include "engine/scene/effects.h"
+
 namespace kurbel {
 
 template <class Contact>
 std::string VaryingMesh<Contact>::describe() const {
   std::string text;
-  if constexpr (requires(const Contact& c) { c.describe(); }) text = Contact::describe() + "; ";
+  if constexpr (Contact::is.described) text = Contact::describe() + "; ";
   text += fmt::format("mesh stiffness varies {} times in a turn of the driving wheel", variation.teeth);
   for (std::size_t n = 0; n < variation.harmonic.size(); ++n)
     text += fmt::format("{} {:.4g} %", n == 0 ? ", by harmonics" : ",", 100 * variation.harmonic[n].amplitude);
@@ -16,24 +19,20 @@ std::string VaryingMesh<Contact>::describe() const {
 }
 
 template <class Data>
-std::shared_ptr<ConnectionMaker> MeshData<Data>::with(const Effects& effects) const {
-  std::shared_ptr<ConnectionMaker> plainer;
+ConnectionForm under(const MeshData<Data>& given, const Effects& effects) {
   if constexpr (std::is_same_v<Data, BacklashData>) {
     if (!effects.backlash) {
-      const CouplingData flanks_touch = contact.without_gap();
-      if (effects.mesh_variation)
-        return std::make_shared<ConnectionMakerOf<VaryingMesh<Coupling>, MeshData<CouplingData>>>(
-            MeshData<CouplingData>{flanks_touch, variation});
-      return std::make_shared<ConnectionMakerOf<Coupling, CouplingData>>(flanks_touch);
+      const CouplingData flanks_touch = given.contact.without_gap();
+      if (!effects.mesh_variation) return connection_form(flanks_touch);
+      return connection_form(MeshData<CouplingData>{flanks_touch, given.variation});
     }
   }
-  if (effects.mesh_variation) return nullptr;
-  return std::make_shared<ConnectionMakerOf<typename Data::Element, Data>>(contact);
+  return effects.mesh_variation ? nullptr : connection_form(given.contact);
 }
 
 template struct VaryingMesh<Coupling>;
 template struct VaryingMesh<Backlash>;
-template struct MeshData<CouplingData>;
-template struct MeshData<BacklashData>;
+template ConnectionForm under(const MeshData<CouplingData>&, const Effects&);
+template ConnectionForm under(const MeshData<BacklashData>&, const Effects&);
 
 }  // namespace kurbel

@@ -8,14 +8,11 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "drivetrain/couplings/backlash.h"
 #include "drivetrain/couplings/coupling.h"
-#include "engine/model/network.h"
-#include "engine/scene/effects.h"
 
 namespace kurbel {
 
@@ -61,7 +58,11 @@ T mean_energy(const Backlash& contact, const T& twist) {
 // Contact is Coupling, or Backlash with its modes.
 template <class Contact>
 struct VaryingMesh : Contact {
-  static constexpr bool uses_angle = true;
+  static constexpr ConnectionTraits is = [] {
+    ConnectionTraits varying = Contact::is;
+    varying.uses_angle = varying.spring_takes_motion = varying.described = true;
+    return varying;
+  }();
   MeshVariation variation;
 
   template <class T>
@@ -83,11 +84,13 @@ struct VaryingMesh : Contact {
 template <class Data>
 struct MeshData {
   using Element = VaryingMesh<typename Data::Element>;
+  static constexpr bool other_forms = true;
   Data contact;
   MeshVariation variation;
 
   Element settled(double inertia) const { return {contact.settled(inertia), variation}; }
-  std::shared_ptr<ConnectionMaker> with(const Effects& effects) const;
 };
+template <class Data>
+ConnectionForm under(const MeshData<Data>& given, const Effects& effects);
 
 }  // namespace kurbel

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/model/network.h"
+
 namespace kurbel {
 
 const std::vector<Key>& efficiency_keys() {

@@ -9,6 +9,8 @@
 
 namespace kurbel {
 
+class Network;
+
 const std::vector<Key>& efficiency_keys();
 
 bool gives_efficiency(const Section& section);

@@ -12,7 +12,7 @@ namespace kurbel {
 
 // M = −(M₀ sgn ω + b ω + q ω |ω|). The dry part opposes motion and holds at standstill up to M₀.
 struct OpposingLoad {
-  static constexpr bool directional = true;
+  static constexpr ShaftTraits is{.directional = true};
   Account work_account = Account::useful;
   double dry = 0;          // M₀ [N·m], ≥ 0
   double viscous = 0;      // b [N·m·s/rad], ≥ 0
@@ -31,6 +31,7 @@ struct OpposingLoad {
 
 // M = −(b ω + q ω |ω|): smooth through standstill, holds nothing. For q > 0 the sign is that of ω itself.
 struct SpeedLoad {
+  static constexpr ShaftTraits is{};
   Account work_account = Account::useful;
   double viscous = 0;    // b [N·m·s/rad], ≥ 0
   double quadratic = 0;  // q [N·m·s²/rad²], ≥ 0

@@ -55,10 +55,7 @@ inline Curve CataloguePoints::curve() const {
 }
 
 struct CatalogueMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true, .guards = 2};
   static constexpr int pieces = 16;  // numbers that a mode needs for them, at most
   Curve curve;                       // [rad/s] → [N·m]
   double synchronous_speed = 0;      // ω_s [rad/s]

@@ -7,20 +7,20 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/elements/any_shaft_element.h"
 #include "engine/scene/effects.h"
 
 namespace kurbel {
 
-std::shared_ptr<ShaftElementMaker> DcShuntCircuit::with(const Effects& effects) const {
+ShaftForm under(const DcShuntCircuit& circuit, const Effects& effects) {
+  const BrakedShuntMotor& line = circuit.line;
   if (effects.transients) return nullptr;
-  if (line.brake.resistance > 0) return std::make_shared<ShaftElementMakerOf<BrakedShuntMotor>>(line);
-  return std::make_shared<ShaftElementMakerOf<DcShuntMotor>>(
-      DcShuntMotor{line.stall_torque(), line.voltage / line.constant, line.rated_torque});
+  if (line.brake.resistance > 0) return shaft_form(line);
+  return shaft_form(DcShuntMotor{line.stall_torque(), line.voltage / line.constant, line.rated_torque});
 }
 
-std::shared_ptr<ShaftElementMaker> DcSeriesCircuit::with(const Effects& effects) const {
-  if (effects.transients) return nullptr;
-  return std::make_shared<ShaftElementMakerOf<DcSeriesMotor>>(line);
+ShaftForm under(const DcSeriesCircuit& circuit, const Effects& effects) {
+  return effects.transients ? nullptr : shaft_form(circuit.line);
 }
 
 void DcSeriesCircuit::guard(const ShaftState<double>& x, double* g) const {

@@ -14,14 +14,12 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "drivetrain/motors/dc_series_motor.h"
 #include "drivetrain/motors/motors.h"
 #include "engine/elements/element.h"
-#include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -45,10 +43,7 @@ struct BrakingResistor {
 
 // The shunt motor's static line where it has a braking resistance: M = k (c U − k ω)/(R + R_b).
 struct BrakedShuntMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int guards = 1;
+  static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true, .guards = 1};
   double voltage = 0, resistance = 0, constant = 0;  // U [V], R [Ω], k [N·m/A], > 0
   double rated_torque = 0;                           // for error scales; 0: the stall torque
   BrakingResistor brake;
@@ -57,6 +52,7 @@ struct BrakedShuntMotor {
   T torque(const ShaftState<T>& x) const {
     return constant * (x.command * voltage - constant * x.rate) / (resistance + brake.added(x.mode));
   }
+  bool opens_at_zero() const { return false; }  // closed over its braking resistance
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   double stall_torque() const { return constant * voltage / resistance; }
@@ -68,11 +64,13 @@ struct BrakedShuntMotor {
 };
 
 struct DcShuntCircuit {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int states = 1;
-  static constexpr int guards = 1;
+  static constexpr ShaftTraits is{.account = Account::driving,
+                                  .commanded = true,
+                                  .reversible = true,
+                                  .guards = 1,
+                                  .states = 1,
+                                  .feels_switching = true,
+                                  .other_forms = true};
   BrakedShuntMotor line;                       // its static law
   double inductance = 0;                       // L [H], > 0
   std::optional<double> initial_current = {};  // [A]
@@ -101,16 +99,16 @@ struct DcShuntCircuit {
   int first_mode(const ShaftState<double>& x) const { return line.first_mode(x); }
   int next_mode(const ShaftState<double>& x, int which) const { return line.next_mode(x, which); }
   std::string mode_name(int mode) const { return line.mode_name(mode); }
-
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const;
 };
 
 struct DcSeriesCircuit {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int states = 1;
-  static constexpr int guards = 3;             // runs away; current beyond all bounds; sense of the armature
+  static constexpr ShaftTraits is{.account = Account::driving,
+                                  .commanded = true,
+                                  .reversible = true,
+                                  .guards = 3,  // runs away; current beyond all bounds; sense of the armature
+                                  .states = 1,
+                                  .feels_switching = true,
+                                  .other_forms = true};
   DcSeriesMotor line;                          // its static law
   double inductance = 0;                       // L of armature and field [H], > 0
   std::optional<double> initial_current = {};  // [A]
@@ -146,12 +144,14 @@ struct DcSeriesCircuit {
   int next_mode(const ShaftState<double>& x, int which) const;
   std::string mode_name(int mode) const;
 
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const;
-
  private:
   enum Mode : int { reversed = 1, ran_away = 2 };
   static constexpr double most_current = 50;  // of the stall current: nothing bears that
   static double sense(int mode) { return mode & reversed ? -1 : 1; }
 };
+
+// Their static laws without the effect "transients".
+ShaftForm under(const DcShuntCircuit& circuit, const Effects& effects);
+ShaftForm under(const DcSeriesCircuit& circuit, const Effects& effects);
 
 }  // namespace kurbel

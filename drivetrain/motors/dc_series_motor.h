@@ -23,10 +23,7 @@
 namespace kurbel {
 
 struct DcSeriesMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true, .guards = 2};
   double voltage = 0;         // U [V], > 0
   double resistance = 0;      // R of armature and field [Ω], > 0
   double constant = 0;        // κ, torque over current squared [N·m/A²], > 0

@@ -40,9 +40,7 @@ struct CylinderGeometry {
 
 class EngineTorque {
  public:
-  static constexpr Account account = Account::driving;
-  static constexpr bool uses_angle = true;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.account = Account::driving, .uses_angle = true, .guards = 2};
 
   // cylinder: one cylinder's diagram with the engine's cycle as its period; fires_at: angles φ_k [rad].
   EngineTorque(Curve cylinder, CylinderGeometry geometry, std::vector<double> fires_at)

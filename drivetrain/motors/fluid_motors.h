@@ -52,8 +52,7 @@ struct HydraulicMotor {
 // b bends the line (−1 … 1) so that P_max, M_s and ω₀ of the catalogue agree. Outside 0 … ω₀ its tangents go on.
 // Source: Atlas Copco, Pocket Guide to Air Motors (performance curves).
 struct PneumaticMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.account = Account::driving, .guards = 2};
   double stall_torque = 0;  // M_s [N·m], > 0
   double free_speed = 0;    // ω₀ [rad/s], > 0
   double bend = 0;          // b, −1 … 1

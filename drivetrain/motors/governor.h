@@ -21,10 +21,8 @@
 namespace kurbel {
 
 struct SpeedGovernor {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr int states = 1;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{
+      .account = Account::driving, .commanded = true, .guards = 2, .states = 1, .feels_switching = true};
   enum Mode : int { free = 0, upper = 1, lower = -1 };
   double reference = 0;        // ω_ref [rad/s]
   double proportional = 0;     // K_p [N·m·s/rad], ≥ 0
@@ -62,7 +60,7 @@ struct SpeedGovernor {
     const double u = demand(x);
     g[0] = x.mode == lower ? 1 : x.mode == upper ? (u - most) / scale() : (most - u) / scale();
     g[1] = x.mode == upper ? 1 : x.mode == lower ? (least - u) / scale() : (u - least) / scale();
-    for (int i = 0; i < guards; ++i) g[i] = std::min(g[i], 1.0);
+    for (int i = 0; i < is.guards; ++i) g[i] = std::min(g[i], 1.0);
   }
   int first_mode(const ShaftState<double>& x) const {
     const double u = demand(x);

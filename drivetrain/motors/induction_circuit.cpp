@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/elements/any_shaft_element.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
 
@@ -69,7 +70,7 @@ EquivalentCircuit EquivalentCircuit::of(const InductionMotor& wanted, double fre
 }
 
 void TwoAxisMotor::first_states(const ShaftState<double>& x, double* own) const {
-  std::fill(own, own + states, 0.0);
+  std::fill(own, own + is.states, 0.0);
   if (!x.on || x.rate == 0) return;
   const double field = sense(x.mode) * circuit.field_speed(), slip = field - circuit.pole_pairs * x.rate;
   const Complex zs = circuit.stator_resistance + j * (field * stator()),
@@ -95,9 +96,8 @@ OwnState TwoAxisMotor::state(int k) const {
   return {names[k], "A", starting};
 }
 
-std::shared_ptr<ShaftElementMaker> TwoAxisMotor::with(const Effects& effects) const {
-  if (effects.transients) return nullptr;
-  return std::make_shared<ShaftElementMakerOf<InductionMotor>>(line);
+ShaftForm under(const TwoAxisMotor& motor, const Effects& effects) {
+  return effects.transients ? nullptr : shaft_form(motor.line);
 }
 
 std::string TwoAxisMotor::describe() const {

@@ -19,12 +19,10 @@
 
 #include <algorithm>
 #include <complex>
-#include <memory>
 #include <string>
 
 #include "drivetrain/motors/motors.h"
 #include "engine/elements/element.h"
-#include "engine/model/network.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -50,11 +48,14 @@ struct EquivalentCircuit {
 };
 
 struct TwoAxisMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
-  static constexpr int states = 4;  // i_sd, i_sq, i_rd, i_rq
-  static constexpr int guards = 1;
+  static constexpr ShaftTraits is{.account = Account::driving,
+                                  .commanded = true,
+                                  .reversible = true,
+                                  .guards = 1,
+                                  .states = 4,  // i_sd, i_sq, i_rd, i_rq
+                                  .feels_switching = true,
+                                  .described = true,
+                                  .other_forms = true};
   EquivalentCircuit circuit;
   InductionMotor line;  // its steady characteristic
 
@@ -83,12 +84,13 @@ struct TwoAxisMotor {
   double mutual() const { return circuit.magnetising / circuit.field_speed(); }                             // L_m [H]
   double phase_peak() const { return std::sqrt(2.0 / 3) * circuit.voltage; }                                // |u| [V]
 
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const;
   std::string describe() const;
 
  private:
   static double sense(int mode) { return mode == 0 ? 1 : -1; }
 };
+// Its steady characteristic without the effect "transients".
+ShaftForm under(const TwoAxisMotor& motor, const Effects& effects);
 
 template <class T>
 void TwoAxisMotor::rates(const ShaftState<T>& x, T* rate) const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <string_view>
 
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
@@ -12,10 +11,7 @@ namespace kurbel {
 // DC shunt (separately excited) motor, static line: M = M_stall (c − ω/ω₀), c the voltage over the rated one: 1 unless
 // the operating sequence says otherwise; −1 reversed (plugging); 0 off, the circuit is open.
 struct DcShuntMotor {
-  static constexpr std::string_view kind = "dc shunt motor";
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
+  static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true};
   double stall_torque = 0;   // M_stall [N·m], > 0
   double no_load_speed = 0;  // ω₀ [rad/s], > 0
   double rated_torque = 0;   // for error scales; 0: the stall torque
@@ -35,10 +31,7 @@ struct DcShuntMotor {
 // M_b scales with the square of the voltage factor, and with that of the command of an operating sequence; a negative
 // one turns the field round: M = sgn c · c² M(ω sgn c). 0 is off.
 struct InductionMotor {
-  static constexpr std::string_view kind = "induction motor";
-  static constexpr Account account = Account::driving;
-  static constexpr bool commanded = true;
-  static constexpr bool reversible = true;
+  static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true};
   double breakdown_torque = 0;   // M_b [N·m], > 0
   double synchronous_speed = 0;  // ω_s [rad/s], > 0
   double breakdown_slip = 0;     // s_b [1], > 0

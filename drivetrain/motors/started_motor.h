@@ -14,8 +14,8 @@ namespace kurbel {
 
 template <class Motor, class Starter>
 struct StartedMotor {
-  static constexpr Account account = Account::driving;
-  static constexpr int guards = 5;  // two ends of the characteristic's piece, two limits of torque, end of the stage
+  // Two ends of the characteristic's piece, two limits of torque, end of the stage.
+  static constexpr ShaftTraits is{.account = Account::driving, .settles = true, .guards = 5};
   Motor motor;
   Starter starter;
   double torque_limit = HUGE_VAL;  // [N·m], > 0
@@ -33,7 +33,7 @@ struct StartedMotor {
 
   void guard(const ShaftState<double>& x, double* g) const {
     const Mode m = unpacked(x.mode);
-    std::fill(g, g + guards, 1.0);
+    std::fill(g, g + is.guards, 1.0);
     g[4] = std::min(1.0, starter.guard(m.stage, x.t, x.rate));
     if (m.stage < 0) return;  // switched off for a moment
     motor.guard_piece(m.piece, x.rate + starter.supply(m.stage, x.t).lag, g);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivetrain/shared/torque_source.h"
+#include "engine/model/network.h"
 
 namespace kurbel {
 

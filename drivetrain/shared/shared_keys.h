@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/network.h"
+#include "engine/elements/element.h"
 #include "engine/numerics/curve.h"
 #include "engine/scene/keys.h"
 
 namespace kurbel {
+
+class Network;
 
 std::vector<Key> joined(std::vector<Key> keys, const std::vector<Key>& more);
 const std::vector<Key>& window_keys();                   // start, stop

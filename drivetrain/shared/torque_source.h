@@ -15,6 +15,7 @@ namespace kurbel {
 
 // M = M₀ + M₁ sin(2π f t + ψ)
 struct HarmonicTorque {
+  static constexpr ShaftTraits is{.periodic = true};
   Account work_account = Account::driving;
   double mean = 0;       // M₀ [N·m]
   double amplitude = 0;  // M₁ [N·m]
@@ -34,6 +35,7 @@ struct HarmonicTorque {
 
 // M = sign · f(t), piecewise: the piece is the mode.
 struct TorqueOverTime {
+  static constexpr ShaftTraits is{.timed = true, .periodic = true, .settles = true};
   Account work_account = Account::driving;
   Curve curve;      // [s] → [N·m]
   double sign = 1;  // −1: a load
@@ -67,8 +69,7 @@ struct TorqueOverTime {
 
 // M = sign · f(φ)
 struct TorqueOverAngle {
-  static constexpr bool uses_angle = true;
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.uses_angle = true, .guards = 2};
   Account work_account = Account::driving;
   Curve curve;  // [rad] → [N·m], periodic
   double sign = 1;
@@ -90,7 +91,7 @@ struct TorqueOverAngle {
 
 // M = sign · f(ω): a characteristic given "graphically"; motors by table, hydraulic drives, turbines, brakes.
 struct TorqueOverSpeed {
-  static constexpr int guards = 2;
+  static constexpr ShaftTraits is{.guards = 2};
   Account work_account = Account::driving;
   Curve curve;  // [rad/s] → [N·m]
   double sign = 1;

@@ -39,9 +39,9 @@ class Lineariser {
   void choose_positions() {
     const auto& elements = m_.network.elements;
     const bool turns = std::any_of(elements.begin(), elements.end(),
-                                   [](const Network::ShaftElement& e) { return e.element->uses_angle(); }) ||
+                                   [](const Network::ShaftElement& e) { return e.element->is.uses_angle; }) ||
                        std::any_of(m_.elastic.begin(), m_.elastic.end(), [&](const ElasticJoint& e) {
-                         return m_.network.joints[at(e.joint)].element->uses_angle();
+                         return m_.network.joints[at(e.joint)].element->is.uses_angle;
                        });
     const double cycle = cycle_of(m_).angle;
     if (drive_.at.angle || !turns) {
@@ -88,7 +88,7 @@ class Lineariser {
     for (const double angle : angles_) {
       const Snapshot& s = equations_.snapshot(0, state(angle));
       for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
-        if (!drive_.at.angle_torques && m_.network.elements[e].element->uses_angle()) continue;
+        if (!drive_.at.angle_torques && m_.network.elements[e].element->is.uses_angle) continue;
         const std::size_t n = at(m_.network.elements[e].node);
         torque_[at(m_.shaft_of_node[n])] +=
             m_.gain_of_node[n] * s.sums.element_torque[e] / static_cast<double>(angles_.size());
@@ -216,7 +216,7 @@ class Lineariser {
     Triplets entries;
     for (std::size_t i = 0; i < m_.elastic.size(); ++i) {
       const ElasticJoint& e = m_.elastic[i];
-      const ConnectionMaker& element = *m_.network.joints[at(e.joint)].element;
+      const AnyConnection& element = *m_.network.joints[at(e.joint)].element;
       LinearDrive::Joint joint{drive_.coordinate[at(e.shaft_a)], drive_.coordinate[at(e.shaft_b)], e.gain_a, e.gain_b};
       joint.stiffness = stiffness[i];
       joint.damping = element.torque_rate(twist_[i], 0, 1);  // dτ/dθ̇

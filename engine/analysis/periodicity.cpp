@@ -66,10 +66,10 @@ Periodicity periodicity_of(const Model& m) {
   Periodicity result;
   std::vector<NamedPeriod> angles, times;
   for (const Network::ShaftElement& e : m.network.elements) {
-    if (e.element->uses_angle() && e.element->angle_period() > 0)
-      angles.push_back({e.element->angle_period() / m.scale_ratio[at(e.node)], e.component});
-    if (e.element->time_period() > 0) times.push_back({e.element->time_period(), e.component});
-    result.settled_from = std::max(result.settled_from, e.element->settled_from());
+    if (e.element->is.uses_angle && e.element->angle_period > 0)
+      angles.push_back({e.element->angle_period / m.scale_ratio[at(e.node)], e.component});
+    if (e.element->time_period > 0) times.push_back({e.element->time_period, e.component});
+    result.settled_from = std::max(result.settled_from, e.element->settled_from);
   }
   result.angle_matters = !angles.empty();
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/elements/element_pool.h"
+#include "engine/elements/sound.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -33,7 +34,8 @@ struct ConnectionExtras {
 
 template <class E>
 class ConnectionPool final : public ElementPool {
-  static constexpr int own_states = states_of<E>();
+  static_assert(demand_sound_connection<E>());
+  static constexpr int own_states = E::is.states;
   static constexpr bool needs_extras = Guarded<E> || HasStates<E> || Commanded<E> || UsesAngle<E>;
   struct Nothing {};
   using Extras = std::conditional_t<needs_extras, ConnectionExtras, Nothing>;
@@ -103,7 +105,7 @@ class ConnectionPool final : public ElementPool {
   }
 
   int guard_count() const override {
-    if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::guards;
+    if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::is.guards;
     return 0;
   }
   bool guards_are_of_angle() const override { return !Guarded<E>; }
@@ -112,17 +114,17 @@ class ConnectionPool final : public ElementPool {
       for (const Placed& p : placed_) {
         const Twist<double> x = motion(p, now);
         if (is_regularised(x.mode)) {
-          std::fill(g, g + E::guards, 1.0);
+          std::fill(g, g + E::is.guards, 1.0);
         } else {
           p.element.guard(x, g);
         }
-        g += E::guards;
+        g += E::is.guards;
       }
   }
   void fire(const Instant& now, int guard, int* mode) const override {
     if constexpr (Guarded<E>) {
       const Placed& p = owner(guard);
-      mode[p.more.mode] = p.element.next_mode(motion(p, now), guard % E::guards);
+      mode[p.more.mode] = p.element.next_mode(motion(p, now), guard % E::is.guards);
     }
   }
   GuardLabel label(int guard, const Instant& now) const override {
@@ -135,8 +137,8 @@ class ConnectionPool final : public ElementPool {
         if (!is_regularised(mode[p.more.mode])) mode[p.more.mode] = p.element.first_mode(motion(p, now));
   }
   bool regularise(int guard, int* mode) const override {
-    if constexpr (Guarded<E> && Regularisable<E>) {
-      mode[owner(guard).more.mode] = E::regularised_mode;
+    if constexpr (E::is.regularised_mode.has_value()) {
+      mode[owner(guard).more.mode] = *E::is.regularised_mode;
       return true;
     }
     return false;
@@ -152,9 +154,9 @@ class ConnectionPool final : public ElementPool {
 
   double energy(const Instant& now) const override {
     double sum = 0;
-    if constexpr (!Slipping<E> && !Springless<E>)
+    if constexpr (E::is.has_spring())
       for (const Placed& p : placed_) {
-        if constexpr (HasStates<E> || UsesAngle<E>)
+        if constexpr (E::is.spring_takes_motion)
           sum += p.element.energy(motion(p, now));
         else
           sum += p.element.energy(now.twist[p.at.id]);
@@ -190,10 +192,10 @@ class ConnectionPool final : public ElementPool {
   }
 
   const Placed& owner(int guard) const requires Guarded<E> {
-    return placed_[static_cast<std::size_t>(guard / E::guards)];
+    return placed_[static_cast<std::size_t>(guard / E::is.guards)];
   }
   static bool is_regularised(int mode) {
-    if constexpr (Regularisable<E>) return mode == E::regularised_mode;
+    if constexpr (E::is.regularised_mode.has_value()) return mode == *E::is.regularised_mode;
     return false;
   }
   static std::string mode_text(const Placed& p, const int* mode) {
@@ -240,14 +242,12 @@ class ConnectionPool final : public ElementPool {
   }
   static void add_work(const Placed& p, const Twist<double>& x, double tau, Sums& sums) {
     double spring = 0;
-    if constexpr (Slipping<E> || Springless<E>) {
-    } else if constexpr (requires { p.element.spring_torque(x); }) {
+    if constexpr (E::is.spring_takes_motion)
       spring = p.element.spring_torque(x);
-    } else {
+    else if constexpr (E::is.has_spring())
       spring = p.element.spring_torque(x.angle);
-    }
     sums.spring_torque[p.at.id] = spring;
-    if constexpr (requires { p.element.loss_power(x); })
+    if constexpr (E::is.tells_loss)
       sums.work_rate[p.at.loss_account] -= p.element.loss_power(x);
     else
       sums.work_rate[p.at.loss_account] -= (tau - spring) * x.rate;

@@ -1,5 +1,9 @@
 // element.h — what an element is: a few equations over its local motion. It knows no indices, solvers or files.
 //
+// What it is able to do it says once, as traits by name; the members that belong to each are told here, and checked where
+// it comes into a pool (sound.h): one that is missing, of another form, or there without its trait is a compile error.
+//   static constexpr ConnectionTraits is{.slips = true, .commanded = true};
+//
 // A **connection** joins two shafts a and b. Twist θ = φ_a − i φ_b; its torque τ acts as −τ on a and +i τ on b
 // (theory 1.2): positive τ drives b and brakes a.
 //   template <class T> T torque(const Twist<T>&) const;      transmitted torque τ [N·m], spring and damper
@@ -8,51 +12,73 @@
 //   double energy(double twist) const;                       stored [J]
 //   double stiffness_at_rest() const;                        [N·m/rad]
 //
-// A **slipping connection** (clutch, one-way clutch, belt) has no spring. While it is stuck its two shafts turn as one
-// and τ is whatever that takes; torque() is asked for while it slips, in the sense x.direction of θ̇.
-//   static constexpr bool slips = true;
-//   Hold hold(const Twist<double>&) const;                   range of τ that it can carry without slipping [N·m]
-//   double capacity() const;                                 order of magnitude of that range [N·m]
-//
-// A **springless connection** (viscous film, fluid coupling) has no spring either, and never sticks: torque() is all.
-//   static constexpr bool springless = true;                 it stays, whatever elasticity is on
+// .slips        (clutch, one-way clutch, belt) There is no spring. While it is stuck its two shafts turn as one and τ is
+//               whatever that takes; torque() is asked for while it slips, in the sense x.direction of θ̇.
+//     Hold hold(const Twist<double>&) const;                 range of τ that it can carry without slipping [N·m]
+//     double capacity() const;                               order of magnitude of that range [N·m]
+// .springless   (viscous film, fluid coupling) No spring either, and it never sticks: torque() is all, and all that it
+//               takes is lost. It stays, whatever elasticity is on.
+// .uses_angle   of a: x.turn
+//     template <class T> T turning_torque(x) const;          further torque on a; of a spring −∂E/∂φ_a
+// .uses_speeds  x.turn_rate, so that ω_b = (ω_a − θ̇)/i
+// .turns_unevenly, with uses_angle
+//     double rest_twist(double turn) const;                  its twist unloaded at φ_a; of others 0
+//     double rest_ratio(double turn) const;                  and then i ω_b/ω_a; of others 1
+// .spring_takes_motion  spring_torque and energy take x in place of the twist: with states or an angle always
+// .tells_loss   with states always
+//     double loss_power(x) const;                            its power −dE/dt; of others (τ − spring torque) θ̇
 //
 // A **shaft element** sits on one shaft and exerts a torque M on it, positive in the direction of positive rotation.
 //   template <class T> T torque(const ShaftState<T>&) const;
-//   static constexpr Account account;                        which line of the energy balance its work belongs to
 //   Rated rated() const;                                     orders of magnitude for error scales
-//   static constexpr bool uses_angle = true;                 optional: depends on the angle
-//   static constexpr bool directional = true;                optional: opposes motion; then Hold hold(state) const
-//   double next_edge(double t) const; int mode_at(double t)  optional: piecewise over time
-//   bool uses_time() const; bool uses_speed() const;         optional: whether M depends on t, on ω; unsaid: it does
+//   bool uses_time() const; bool uses_speed() const;         whether M depends on t, on ω
+// .account = a  which line of the energy balance its work belongs to; where that hangs on the use, the line is a member:
+//     Account work_account;
+// .directional  opposes motion
+//     Hold hold(x) const;                                    what it can exert at standstill [N·m]
+// .uses_angle   x.angle
+//     double angle_period() const;                           M repeats after this angle of its own shaft [rad]
+// .timed        piecewise over time
+//     double next_edge(double t) const;                      [s]
+//     int mode_at(double t) const;
+// .periodic
+//     double time_period() const;                            M over time repeats after this [s]; 0: it does not
+// .settles
+//     double settled_from() const;                           its law over time holds still from here on [s]
+// .stores       energy in its states
+//     double stored(const double* own) const;                [J]
+//     double loss_power(x) const;                            −M ω − dE/dt
+// .feels_switching, with states
+//     void switched(x, double* own) const;                   it went on or off (x.on)
 //
-// Either may have, with x its local motion (Twist or ShaftState):
-//   static constexpr int guards = n;                         piecewise; then
-//     void guard(x, double* g) const;                          n values of order 1, positive while x.mode holds
-//     int first_mode(x) const;                                 mode for a state from nowhere
-//     int next_mode(x, int which) const;                       after guard `which` fell through zero
-//     std::string mode_name(int mode) const;                   for the list of events; empty: not worth telling
-//   static constexpr int regularised_mode = m;               a mode without guards, for events that find no rest
-//   static constexpr int states = n;                         states of its own, x.own[0 … n−1]; then
+// Either may be, with x its local motion (Twist or ShaftState):
+// .guards = n   piecewise
+//     void guard(x, double* g) const;                        n values of order 1, positive while x.mode holds
+//     int first_mode(x) const;                               mode for a state from nowhere
+//     int next_mode(x, int which) const;                     after guard `which` fell through zero
+//     std::string mode_name(int mode) const;                 for the list of events; empty: not worth telling
+// .regularised_mode = m, with guards: a mode without guards, for events that find no rest
+// .states = n   states of its own, x.own[0 … n−1]
 //     template <class T> void rates(const X<T>& x, T* rate) const;   their time derivatives
-//     void first_states(x, double* own) const;                 at the start
-//     OwnState state(int k) const;                             its name, unit and order of magnitude
-//     double stored(const double* own) const;                  optional: energy in them [J]
-//   double loss_power(x) const;                              of a connection with states or an angle: its power −dE/dt;
-//                                                            its spring_torque and energy take x in place of the twist.
-//                                                            Of a shaft element that stores: −M ω − dE/dt
-//   void switched(x, double* own) const;                     of a shaft element with states: it went on or off (x.on)
-//   double rest_twist(double turn) const;                    of a connection with uses_angle: its twist unloaded at φ_a
-//   double rest_ratio(double turn) const;                    and then i ω_b/ω_a; unsaid: 0 and 1
-//   static constexpr bool uses_speeds = true;                of a connection: x.turn_rate, so that ω_b = (ω_a − θ̇)/i
-//   template <class T> T turning_torque(x) const;            of a connection with uses_angle: further torque on a,
-//                                                            of a spring −∂E/∂φ_a
-//   static constexpr bool commanded = true;                  an operating sequence sets x.command (1 unless told)
-//     static constexpr bool reversible = true;                 of a shaft element: it may be told less than 0
-//     bool opens_at_zero() const;                              of a shaft element: told 0 it is off, as outside its
-//                                                              window; on the way through 0 it is not
+//     void first_states(x, double* own) const;               at the start
+//     OwnState state(int k) const;                           its name, unit and order of magnitude
+// .commanded    an operating sequence sets x.command (1 unless told); of a shaft element:
+//     bool opens_at_zero() const;                            told 0 it is off, as outside its window; on the way through
+//                                                            0 it is not
+//   .reversible   it may be told less than 0
+// .described
+//     std::string describe() const;                          for people: the law it follows
+// .other_forms  A free function beside it tells what it becomes under effects; null: nothing else.
+//     ConnectionForm under(const E&, const Effects&);        ShaftForm of a shaft element
+//
+// A connection whose damping hangs on the inertias that it joins is given as a **specification** that becomes one:
+//   using Element = E;
+//   E settled(double inertia) const;                         J_red [kg·m²]; 0: none is known
+//   static constexpr bool other_forms = true;                if so; as above
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace kurbel {
@@ -122,72 +148,68 @@ struct Window {
   double start = -1e300, stop = 1e300;  // [s]
 };
 
-template <class E>
-concept UsesAngle = requires {
-  requires E::uses_angle;
-};
-template <class E>
-concept Directional = requires {
-  requires E::directional;
-};
-template <class E>
-concept Guarded = requires {
-  E::guards;
-};
-template <class E>
-concept Slipping = requires {
-  requires E::slips;
-};
-template <class E>
-concept Springless = requires {
-  requires E::springless;
-};
-template <class E>
-concept UsesSpeeds = requires {
-  requires E::uses_speeds;
-};
-template <class E>
-concept HasStates = requires {
-  E::states;
-};
-template <class E>
-concept Commanded = requires {
-  requires E::commanded;
-};
-template <class E>
-concept Reversible = requires {
-  requires E::reversible;
-};
-template <class E>
-concept Regularisable = requires {
-  E::regularised_mode;
-};
-template <class E>
-constexpr int states_of() {
-  if constexpr (HasStates<E>)
-    return E::states;
-  else
-    return 0;
-}
-template <class E>
-concept Timed = requires(const E& e) {
-  e.next_edge(0.0);
+// What a connection is; the members that belong to each are told above.
+struct ConnectionTraits {
+  bool slips = false;
+  bool springless = false;
+  bool commanded = false;
+  bool uses_angle = false;
+  bool uses_speeds = false;
+  bool turns_unevenly = false;
+  bool spring_takes_motion = false;
+  bool tells_loss = false;
+  int guards = 0;
+  std::optional<int> regularised_mode = {};
+  int states = 0;
+  bool described = false;
+  bool other_forms = false;
+
+  constexpr bool has_spring() const { return !slips && !springless; }
 };
 
-// What a torque depends on, as the element says; one that does not say counts as depending on everything.
+// What a shaft element is.
+struct ShaftTraits {
+  std::optional<Account> account = {};
+  bool directional = false;
+  bool commanded = false;
+  bool reversible = false;
+  bool uses_angle = false;
+  bool timed = false;
+  bool periodic = false;
+  bool settles = false;
+  int guards = 0;
+  std::optional<int> regularised_mode = {};
+  int states = 0;
+  bool stores = false;
+  bool feels_switching = false;
+  bool described = false;
+  bool other_forms = false;
+};
+
 template <class E>
-bool depends_on_time(const E& element) {
-  if constexpr (requires { element.uses_time(); })
-    return element.uses_time();
-  else
-    return true;
-}
+concept UsesAngle = bool(E::is.uses_angle);
 template <class E>
-bool depends_on_speed(const E& element) {
-  if constexpr (requires { element.uses_speed(); })
-    return element.uses_speed();
-  else
-    return true;
-}
+concept Directional = bool(E::is.directional);
+template <class E>
+concept Guarded = (E::is.guards > 0);
+template <class E>
+concept Slipping = bool(E::is.slips);
+template <class E>
+concept Springless = bool(E::is.springless);
+template <class E>
+concept UsesSpeeds = bool(E::is.uses_speeds);
+template <class E>
+concept HasStates = (E::is.states > 0);
+template <class E>
+concept Commanded = bool(E::is.commanded);
+template <class E>
+concept Timed = bool(E::is.timed);
+
+// An element of any type, as a network holds it (engine/model).
+class AnyConnection;
+class AnyShaftElement;
+using ConnectionForm = std::shared_ptr<const AnyConnection>;
+using ShaftForm = std::shared_ptr<const AnyShaftElement>;
+struct Effects;
 
 }  // namespace kurbel

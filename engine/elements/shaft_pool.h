@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/elements/element_pool.h"
+#include "engine/elements/sound.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -42,8 +43,8 @@ struct ShaftElementLabel {
 
 template <class E>
 class ShaftPool final : public ElementPool {
-  static constexpr int own_states = states_of<E>();
-  static constexpr bool stores = requires(const E& e) { e.stored(static_cast<const double*>(nullptr)); };
+  static_assert(demand_sound_shaft_element<E>());
+  static constexpr int own_states = E::is.states;
   // Columns of its derivatives: ω, own states, the angle.
   static constexpr std::size_t inputs = 1 + own_states + (UsesAngle<E> ? 1 : 0);
 
@@ -67,7 +68,7 @@ class ShaftPool final : public ElementPool {
       sums.torque[p.at.shaft] += p.at.gain * torque;
       if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.at.own);
       if (sums.work_rate) {
-        if constexpr (stores)
+        if constexpr (E::is.stores)
           sums.work_rate[p.at.account] -= now.active[p.at.id] ? p.element.loss_power(x) : 0;
         else
           sums.work_rate[p.at.account] += torque * x.rate;
@@ -112,13 +113,13 @@ class ShaftPool final : public ElementPool {
   }
 
   int guard_count() const override {
-    if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::guards;
+    if constexpr (Guarded<E>) return static_cast<int>(placed_.size()) * E::is.guards;
     return 0;
   }
   bool guards_are_of_angle() const override {
     if constexpr (Guarded<E>)
       return UsesAngle<E> && std::none_of(placed_.begin(), placed_.end(), [](const Placed& p) {
-               return depends_on_speed(p.element) || depends_on_time(p.element);
+               return p.element.uses_speed() || p.element.uses_time();
              });
     return true;
   }
@@ -128,21 +129,22 @@ class ShaftPool final : public ElementPool {
         if (now.active[p.at.id] && !is_regularised(now.mode[p.at.mode])) {
           p.element.guard(state(p, now), g);
         } else {
-          for (int i = 0; i < E::guards; ++i) g[i] = 1;
+          for (int i = 0; i < E::is.guards; ++i) g[i] = 1;
         }
-        g += E::guards;
+        g += E::is.guards;
       }
   }
   void fire(const Instant& now, int guard, int* mode) const override {
     if constexpr (Guarded<E>) {
-      const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      mode[p.at.mode] = p.element.next_mode(state(p, now), guard % E::guards);
+      const Placed& p = placed_[static_cast<std::size_t>(guard / E::is.guards)];
+      mode[p.at.mode] = p.element.next_mode(state(p, now), guard % E::is.guards);
     }
   }
   GuardLabel label(int guard, const Instant& now) const override {
     if constexpr (Guarded<E>) {
-      const Placed& p = placed_[static_cast<std::size_t>(guard / E::guards)];
-      return {label_[static_cast<std::size_t>(guard / E::guards)].component, p.element.mode_name(now.mode[p.at.mode])};
+      const Placed& p = placed_[static_cast<std::size_t>(guard / E::is.guards)];
+      return {label_[static_cast<std::size_t>(guard / E::is.guards)].component,
+              p.element.mode_name(now.mode[p.at.mode])};
     }
     return {};
   }
@@ -155,8 +157,8 @@ class ShaftPool final : public ElementPool {
     if constexpr (Directional<E>) first_modes(now, mode);
   }
   bool regularise(int guard, int* mode) const override {
-    if constexpr (Guarded<E> && Regularisable<E>) {
-      mode[placed_[static_cast<std::size_t>(guard / E::guards)].at.mode] = E::regularised_mode;
+    if constexpr (E::is.regularised_mode.has_value()) {
+      mode[placed_[static_cast<std::size_t>(guard / E::is.guards)].at.mode] = *E::is.regularised_mode;
       return true;
     }
     return false;
@@ -166,7 +168,7 @@ class ShaftPool final : public ElementPool {
       for (const Placed& p : placed_) p.element.first_states(state(p, now), own + p.at.own);
   }
   void switched(const Instant& now, const char* before, double* own) const override {
-    if constexpr (requires(const E& e, const ShaftState<double>& x) { e.switched(x, own); })
+    if constexpr (E::is.feels_switching)
       for (const Placed& p : placed_)
         if (now.active[p.at.id] != before[p.at.id]) p.element.switched(state(p, now), own + p.at.own);
   }
@@ -198,14 +200,14 @@ class ShaftPool final : public ElementPool {
 
   double energy(const Instant& now) const override {
     double sum = 0;
-    if constexpr (stores)
+    if constexpr (E::is.stores)
       for (const Placed& p : placed_) sum += p.element.stored(now.own + p.at.own);
     return sum;
   }
 
  private:
   static bool is_regularised(int mode) {
-    if constexpr (Regularisable<E>) return mode == E::regularised_mode;
+    if constexpr (E::is.regularised_mode.has_value()) return mode == *E::is.regularised_mode;
     return false;
   }
   ShaftState<double> state(const Placed& p, const Instant& now) const {

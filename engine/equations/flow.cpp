@@ -19,7 +19,7 @@ namespace {
 // than it is rounded.
 double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance) {
   const Network::Joint& joint = m.network.joints[at(elastic.joint)];
-  if (!joint.element || !joint.element->uses_angle()) return elastic.twist_scale;
+  if (!joint.element || !joint.element->is.uses_angle) return elastic.twist_scale;
   constexpr int positions = 16;
   double swing = 0;
   for (int k = 0; k < positions; ++k)

@@ -178,7 +178,7 @@ void Ties::publish_contact(std::size_t c, const Instant& now, Sums& sums) const 
   } else if (contact.kind == Contact::Kind::frame && creeps && sums.work_rate) {
     // The work of a regularised standstill goes to the first element that holds there.
     for (const Network::ShaftElement& e : m.network.elements) {
-      if (m.shaft_of_node[at(e.node)] != contact.index || !e.element->directional()) continue;
+      if (m.shaft_of_node[at(e.node)] != contact.index || !e.element->is.directional) continue;
       sums.work_rate[e.account] -= contact_torque_[c] * sum_over(contact.motion, now.speed);
       break;
     }

@@ -344,7 +344,7 @@ int Contacts::account_of_friction(const Contact& contact) const {
   if (contact.kind == Contact::Kind::loss) return m.relations[at(contact.index)].loss_account;
   int account = -1;
   for (const Network::ShaftElement& e : m.network.elements) {
-    if (m.shaft_of_node[at(e.node)] != contact.index || !e.element->directional()) continue;
+    if (m.shaft_of_node[at(e.node)] != contact.index || !e.element->is.directional) continue;
     for (std::size_t k = 0; k < m.accounts.size(); ++k)
       if (m.accounts[k].name == e.component + ".joints") return static_cast<int>(k);
     if (account < 0) account = e.account;

@@ -223,7 +223,7 @@ void Start::balance_twists(std::span<double> y, double t) {
   const std::size_t first = flow_.twists_begin();
   std::vector<double> rest(m.elastic.size(), 0.0);
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
-    if (m.network.joints[index(m.elastic[i].joint)].element->uses_angle()) rest[i] = y[first + i];
+    if (m.network.joints[index(m.elastic[i].joint)].element->is.uses_angle) rest[i] = y[first + i];
     y[first + i] = 0;
   }
   flow_.evaluate(t, y);

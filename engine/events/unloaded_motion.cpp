@@ -13,7 +13,7 @@ namespace {
 constexpr double fits = 1e-12;  // of its terms: the usual motion obeys a relation
 
 // x of an input with x − rest_twist(x) = output: the left side is monotone, its slope the joint's ratio.
-double input_at(const ConnectionMaker& joint, double output) {
+double input_at(const AnyConnection& joint, double output) {
   double low = output - std::numbers::pi, high = output + std::numbers::pi, x = output;
   for (int pass = 0; pass < 200; ++pass) {
     const double off = x - joint.rest_twist(x) - output;
@@ -82,15 +82,15 @@ class Walk {
     if (reached_[at(e.shaft_a)] && reached_[at(e.shaft_b)]) return;
     const bool forward = reached_[at(e.shaft_a)];
     const int from = forward ? e.shaft_a : e.shaft_b, to = forward ? e.shaft_b : e.shaft_a;
-    const ConnectionMaker& element = *m_.network.joints[at(e.joint)].element;
+    const AnyConnection& element = *m_.network.joints[at(e.joint)].element;
     const std::optional<double> own = given_twist(j);
-    if (!element.uses_angle() && !own && is_usual(from)) return reach(to, usual(to) * usual_turn_, usual(to));
+    if (!element.is.uses_angle && !own && is_usual(from)) return reach(to, usual(to) * usual_turn_, usual(to));
     const double known = (forward ? e.gain_a : e.gain_b) * motion_.angle[at(from)];
     double input = known;  // angle of a at the joint
     if (!given_.angles.empty())
       input = e.gain_a * motion_.angle[at(e.shaft_a)];
     else if (!forward)
-      input = own ? known + *own : element.uses_angle() ? input_at(element, known) : known;
+      input = own ? known + *own : element.is.uses_angle ? input_at(element, known) : known;
     const double twist = own ? *own : element.rest_twist(input), ratio = element.rest_ratio(input);
     if (forward)
       reach(to, (input - twist) / e.gain_b, ratio * e.gain_a * motion_.speed[at(from)] / e.gain_b);
@@ -167,14 +167,14 @@ class Walk {
   }
   void set_twist(std::size_t j) {
     const ElasticJoint& e = m_.elastic[j];
-    const ConnectionMaker& element = *m_.network.joints[at(e.joint)].element;
+    const AnyConnection& element = *m_.network.joints[at(e.joint)].element;
     const double a = e.gain_a * motion_.angle[at(e.shaft_a)];
     if (const auto own = given_twist(j))
       motion_.twist[j] = *own;
     else if (!given_.angles.empty())
       motion_.twist[j] = a - e.gain_b * motion_.angle[at(e.shaft_b)];
     else
-      motion_.twist[j] = element.uses_angle() ? element.rest_twist(a) : 0;
+      motion_.twist[j] = element.is.uses_angle ? element.rest_twist(a) : 0;
   }
 
   const Model& m_;

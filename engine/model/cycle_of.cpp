@@ -20,7 +20,7 @@ constexpr int most_turns = 24;  // of a cycle
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period;  // on the link
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->uses_angle()) period.push_back(e.element->angle_period() / m.scale_ratio[at(e.node)]);
+    if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
   const auto repeats = [&](double cycle) {
     return std::all_of(period.begin(), period.end(),
                        [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });

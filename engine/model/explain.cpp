@@ -30,13 +30,12 @@ std::string connection_line(const Model& m, const ElasticJoint& e) {
   std::string text;
   if (e.slips) {
     text = fmt::format("  slip of {}: carries {} before it slips\n", joint.component,
-                       with_unit(joint.element->capacity(), "N*m"));
+                       with_unit(joint.element->capacity, "N*m"));
   } else if (e.springless) {
     text = fmt::format("  slip of {}\n", joint.component);
   } else {
-    text =
-        fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
-                    with_unit(joint.element->stiffness(), "N*m/rad"), with_unit(joint.element->damping(), "N*m*s/rad"));
+    text = fmt::format("  twist of {}: k = {}, c = {}\n", joint.component,
+                       with_unit(joint.element->stiffness, "N*m/rad"), with_unit(joint.element->damping, "N*m*s/rad"));
   }
   if (const std::string words = joint.element->describe(); !words.empty()) text += "    " + words + "\n";
   return text;

@@ -129,9 +129,9 @@ void check_tree(Compilation& c) {
 void choose_reduction_link(Compilation& c) {
   Model& m = c.model;
   for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-    if (m.network.elements[e].element->cycle() > 0) {
+    if (m.network.elements[e].element->cycle > 0) {
       m.reduction_node = m.network.elements[e].node;
-      m.cycle = m.network.elements[e].element->cycle();
+      m.cycle = m.network.elements[e].element->cycle;
       m.reduction_element = static_cast<int>(e);
       return;
     }

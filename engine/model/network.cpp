@@ -7,14 +7,6 @@
 
 namespace kurbel {
 
-std::vector<std::unique_ptr<ElementPool>> PoolSet::release() {
-  std::vector<std::unique_ptr<ElementPool>> result;
-  for (auto& pool : pools_) result.push_back(std::move(*pool));
-  pools_.clear();
-  by_type_.clear();
-  return result;
-}
-
 int Network::add_node(const std::string& component, const std::string& label, double inertia) {
   nodes.push_back({component, label, inertia, -1});
   return static_cast<int>(nodes.size()) - 1;
@@ -24,9 +16,8 @@ void Network::join(int a, int b, double ratio, const std::string& component) {
   joints.push_back({.a = a, .b = b, .ratio = ratio, .component = component});
 }
 
-void Network::put_made(int node, const std::string& component, std::shared_ptr<ShaftElementMaker> maker, Window window,
-                       double phase) {
-  elements.push_back({node, component, std::move(maker), window, phase, -1});
+void Network::put(int node, const std::string& component, ShaftForm element, Window window, double phase) {
+  elements.push_back({node, component, std::move(element), window, phase, -1});
 }
 
 void Network::prescribe(int node, PrescribedSpeed speed) {

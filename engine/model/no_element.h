@@ -1,12 +1,10 @@
-// no_element.h — what `with` returns for a shaft element that is gone without its effect: compile leaves it out.
+// no_element.h — what a shaft element becomes that is gone without its effect: compile leaves it out.
 #pragma once
 
-#include <memory>
-
-#include "engine/model/network.h"
+#include "engine/elements/element.h"
 
 namespace kurbel {
 
-std::shared_ptr<ShaftElementMaker> no_element();
+ShaftForm no_element();
 
 }  // namespace kurbel

@@ -57,11 +57,11 @@ void place_connections(Model& m, PoolSet& pools) {
     if (joint.component != last || loss < 0) loss = account(m, joint.component, Account::harmful);
     last = joint.component;
     e.loss_account = loss;
-    ConnectionExtras extras{.own = own_places(m, joint.component, joint.element->own_states()),
+    ConnectionExtras extras{.own = own_places(m, joint.component, joint.element->own_states),
                             .component = joint.component};
-    if (joint.element->has_modes()) extras.mode = static_cast<int>(m.mode_slots++);
-    if (joint.element->commanded()) extras.command = command_of(m, joint.component);
-    if (joint.element->uses_angle()) extras.angle = tracked(m, joint.a);
+    if (joint.element->is.guards > 0) extras.mode = static_cast<int>(m.mode_slots++);
+    if (joint.element->is.commanded) extras.command = command_of(m, joint.component);
+    if (joint.element->is.uses_angle) extras.angle = tracked(m, joint.a);
     joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss}, extras);
   }
 }
@@ -78,20 +78,20 @@ void place_on_shafts(Model& m, PoolSet& pools) {
     Network::ShaftElement& e = m.network.elements[i];
     ShaftPorts ports{
         .id = static_cast<int>(i), .shaft = m.shaft_of_node[at(e.node)], .gain = m.gain_of_node[at(e.node)]};
-    if (e.element->uses_angle()) {
+    if (e.element->is.uses_angle) {
       ports.angle = tracked(m, e.node);
       ports.phase = e.phase;
     }
     ports.mode = static_cast<int>(m.mode_slots);
-    m.mode_slots += at(e.element->mode_count());
-    ports.own = own_places(m, e.component, e.element->own_states());
+    m.mode_slots += at(e.element->modes);
+    ports.own = own_places(m, e.component, e.element->own_states);
     ports.command = command_of(m, e.component);
-    if (ports.command >= 0 && !e.element->commanded())
+    if (ports.command >= 0 && !e.element->is.commanded)
       m.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
-    if (ports.command >= 0 && e.element->opens_at_zero())
+    if (ports.command >= 0 && e.element->opens_at_zero)
       m.commands[at(ports.command)].opened.push_back(static_cast<int>(i));
-    ports.account = e.account = account(m, e.component, e.element->account());
-    for (const auto& [name, kind] : e.element->further_accounts()) account(m, name, kind);
+    ports.account = e.account = account(m, e.component, e.element->account);
+    for (const auto& [name, kind] : e.element->further_accounts) account(m, name, kind);
     e.element->place(pools, ports, {e.window, e.component});
   }
 }
@@ -102,9 +102,10 @@ void check_sequence(Compilation& c) {
     for (const std::string& component : step.set) {
       bool any = false, reversible = true;
       for (const Network::ShaftElement& e : c.net().elements)
-        if (e.component == component) any = true, reversible = reversible && e.element->reversible();
+        if (e.component == component) any = true, reversible = reversible && e.element->is.reversible;
       for (const Network::Joint& joint : c.net().joints)
-        if (joint.component == component && joint.element && joint.element->commanded()) any = true, reversible = false;
+        if (joint.component == component && joint.element && joint.element->is.commanded)
+          any = true, reversible = false;
       if (!any)
         c.messages.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
                                             "clutch or a brake",

@@ -28,11 +28,11 @@ Size rated_size(const Model& m) {
     size.inertia += m.network.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
   for (const Network::ShaftElement& e : m.network.elements) {
     const double ratio = m.scale_ratio[at(e.node)];
-    const Rated rated = e.element->rated();
+    const Rated rated = e.element->rated;
     size.speed = std::max(size.speed, std::abs(rated.speed) / ratio);
-    double& sum = e.element->account() == Account::driving ? size.torque : size.resisting;
+    double& sum = e.element->account == Account::driving ? size.torque : size.resisting;
     sum = std::max(sum, std::abs(rated.torque) * ratio);
-    size.inertia += e.element->mean_inertia() * ratio * ratio;
+    size.inertia += e.element->mean_inertia * ratio * ratio;
   }
   return size;
 }
@@ -60,7 +60,7 @@ double torque_of_a_small_twist(const Model& m) {
   double torque = 0;
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
-    torque = std::max(torque, joint.element->stiffness() * small * m.scale_ratio[at(joint.a)]);
+    torque = std::max(torque, joint.element->stiffness * small * m.scale_ratio[at(joint.a)]);
   }
   return torque;
 }
@@ -72,7 +72,7 @@ void check_scales(Compilation& c, double speed, double torque) {
   std::string largest = c.net().components.front();
   double most = -1;
   for (const Network::ShaftElement& e : c.net().elements) {
-    const Rated rated = e.element->rated();
+    const Rated rated = e.element->rated;
     const double size = std::max(std::abs(rated.torque), std::abs(rated.speed));
     if (size > most) most = size, largest = e.component;
   }
@@ -107,7 +107,7 @@ void find_scales(Compilation& c) {
   }
   for (ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
-    const double stiffness = joint.element->stiffness();
+    const double stiffness = joint.element->stiffness;
     if (e.slips || e.springless) e.twist_scale = 1;
     if (stiffness > 0) e.twist_scale = torque / m.scale_ratio[at(joint.a)] / stiffness;
   }

@@ -31,11 +31,11 @@ std::vector<Shaft> gather_shafts(Compilation& c, const Merging& merging) {
   }
   for (const Network::ShaftElement& e : net.elements) {
     Shaft& shaft = groups[at(merging.group[at(e.node)])];
-    if (e.element->cycle() > 0 && !shaft.variable) {
+    if (e.element->cycle > 0 && !shaft.variable) {
       shaft.variable = true;
       if (shaft.prescribed < 0) shaft.reference = e.node;
     }
-    shaft.directional = shaft.directional || e.element->directional();
+    shaft.directional = shaft.directional || e.element->is.directional;
   }
   return groups;
 }
@@ -89,17 +89,17 @@ void check_dead_centres(Compilation& c, const Shaft& shaft) {
   const Network::ShaftElement* mechanism = nullptr;
   double least = shaft.inertia;
   for (const Network::ShaftElement& e : c.net().elements) {
-    if (!std::count(shaft.nodes.begin(), shaft.nodes.end(), e.node) || e.element->cycle() == 0) continue;
+    if (!std::count(shaft.nodes.begin(), shaft.nodes.end(), e.node) || e.element->cycle == 0) continue;
     if (mechanism) return;  // several mechanisms stand at different angles
     mechanism = &e;
     const double gain = c.model.gain_of_node[at(e.node)];
-    least += e.element->least_inertia() * gain * gain;
+    least += e.element->least_inertia * gain * gain;
   }
   if (mechanism && least < 1e-9 * shaft.mean_inertia)
     c.refuse(mechanism->component,
              fmt::format("\"{}\" has no inertia {}, so the crank's motion is undefined; give it a crank_inertia",
                          mechanism->component,
-                         mechanism->element->own_states().empty()
+                         mechanism->element->own_states.empty()
                              ? "at a dead centre (its output stands still there)"
                              : "while its rod flies free of the crank or stands at a dead centre"));
 }
@@ -115,7 +115,7 @@ void make_shafts(Compilation& c) {
   for (Shaft& shaft : m.shafts) shaft.mean_inertia = shaft.inertia;
   for (const Network::ShaftElement& e : m.network.elements) {
     const double gain = m.gain_of_node[at(e.node)];
-    m.shafts[at(m.shaft_of_node[at(e.node)])].mean_inertia += e.element->mean_inertia() * gain * gain;
+    m.shafts[at(m.shaft_of_node[at(e.node)])].mean_inertia += e.element->mean_inertia * gain * gain;
   }
 }
 
@@ -126,7 +126,7 @@ void make_elastic_joints(Compilation& c) {
     if (!joint.elastic) continue;
     m.elastic.push_back({static_cast<int>(j), m.shaft_of_node[at(joint.a)], m.shaft_of_node[at(joint.b)],
                          m.gain_of_node[at(joint.a)], joint.ratio * m.gain_of_node[at(joint.b)], 1e-4,
-                         joint.element->slips(), joint.element->springless()});
+                         joint.element->is.slips, joint.element->is.springless});
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 void switch_joints(Model& m) {
   const std::set<std::string> elastic(m.effects.elastic.begin(), m.effects.elastic.end());
   for (Network::Joint& joint : m.network.joints) {
-    if (joint.element && (joint.element->slips() || joint.element->springless())) {
+    if (joint.element && (joint.element->is.slips || joint.element->is.springless)) {
       joint.elastic = !m.effects.locked;
       if (!joint.elastic)
         m.merged.push_back(fmt::format("\"{}\" counts as locked; the shafts on either side are one", joint.component));
@@ -36,7 +36,7 @@ void release_brakes(Model& m) {
   for (const SequenceStep& step : m.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
   m.scene.sequence.steps.clear();
   std::erase_if(m.network.elements, [&](const Network::ShaftElement& e) {
-    const bool brake = told.count(e.component) && e.element->directional() && e.element->commanded();
+    const bool brake = told.count(e.component) && e.element->is.directional && e.element->is.commanded;
     if (brake) m.merged.push_back(fmt::format("\"{}\" counts as released", e.component));
     return brake;
   });
@@ -57,7 +57,7 @@ void leave_out_what_is_gone(Model& m) {
 void switch_connections(Compilation& c) {
   for (Network::Joint& joint : c.net().joints)
     if (joint.element)
-      if (auto changed = joint.element->with(c.model.effects)) joint.element = std::move(changed);
+      if (auto changed = joint.element->form_under(c.model.effects)) joint.element = std::move(changed);
 }
 
 // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
@@ -72,14 +72,15 @@ void settle_relative_damping(Compilation& c) {
         net.nodes[n].prescribed >= 0 ? HUGE_VAL : net.nodes[n].inertia * finest.gain[n] * finest.gain[n];
   for (const Network::ShaftElement& e : net.elements)
     inertia[at(finest.group[at(e.node)])] +=
-        e.element->mean_inertia() * finest.gain[at(e.node)] * finest.gain[at(e.node)];
+        e.element->mean_inertia * finest.gain[at(e.node)] * finest.gain[at(e.node)];
   for (Network::Joint& joint : net.joints) {
     if (!joint.element) continue;
     const auto own = [&](int node) {
       return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]);
     };
     const double compliance = 1 / own(joint.a) + joint.ratio * joint.ratio / own(joint.b);
-    joint.element->settle(compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0);
+    const double reduced = compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0;
+    if (auto settled = joint.element->settled(reduced)) joint.element = std::move(settled);
   }
 }
 
@@ -89,8 +90,8 @@ void switch_effects(Compilation& c) {
   if (m.effects.locked) release_brakes(m);
   bool any = false;
   for (Network::ShaftElement& e : m.network.elements) try {
-      if (auto changed = e.element->with(m.effects)) {
-        any = any || e.element->cycle() > 0;
+      if (auto changed = e.element->form_under(m.effects)) {
+        any = any || e.element->cycle > 0;
         e.element = std::move(changed);
       }
     } catch (const std::invalid_argument& cannot) {  // effects that it cannot have together

@@ -63,8 +63,7 @@ RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rig
 RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
-    if (e.element->cycle() > 0)
-      mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
+    if (e.element->cycle > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
   const auto [cycle, periodic] = cycle_of(*model_);
   cycle_ = cycle;
   periodic_ = periodic;
@@ -78,14 +77,14 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
 bool RigidMachine::uses_time() const {
   const auto& elements = model_->network.elements;
   return std::any_of(elements.begin(), elements.end(), [](const Network::ShaftElement& e) {
-    return e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop;
+    return e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop;
   });
 }
 
 bool RigidMachine::uses_speed() const {
   const auto& elements = model_->network.elements;
   return std::any_of(elements.begin(), elements.end(),
-                     [](const Network::ShaftElement& e) { return e.element->uses_speed(); });
+                     [](const Network::ShaftElement& e) { return e.element->uses_speed; });
 }
 
 bool RigidMachine::edges_are_of_angle() const {

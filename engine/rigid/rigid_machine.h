@@ -66,8 +66,8 @@ class RigidMachine {
 
  private:
   struct Mechanism {
-    const ShaftElementMaker* maker;  // belongs to the model
-    double ratio, phase;             // own angle = ratio · φ + phase
+    const AnyShaftElement* maker;  // belongs to the model
+    double ratio, phase;           // own angle = ratio · φ + phase
   };
   class EdgeSearch;
   void look_ahead(double phi, double omega, double distance);

@@ -29,7 +29,7 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
            "another method";
   const RigidMachine machine(model);
   for (const Network::ShaftElement& e : model->network.elements)
-    if (e.element->uses_time() || e.window.start > Window{}.start || e.window.stop < Window{}.stop)
+    if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)
       return fmt::format(
           "the torque of \"{}\" depends on time, and over the angle nobody knows the time of an edge; choose "
           "another method",

@@ -78,7 +78,7 @@ std::string MethodChoice::rates_of_time_alone() const {
   const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
   if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->uses_time()) return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
+    if (e.element->uses_time) return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);
   return {};
 }
 

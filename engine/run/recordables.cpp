@@ -85,7 +85,7 @@ class ChannelList {
   void add_elements(const std::string& component) {
     std::vector<std::size_t> own;
     for (std::size_t e = 0; e < model_.network.elements.size(); ++e)
-      if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle() == 0)
+      if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle == 0)
         own.push_back(e);
     if (own.empty()) return;
     add("torque." + component, "N*m", [own](const Snapshot& s) {
@@ -132,8 +132,8 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
   spring.name = "peak_spring_torque." + joint.component;
   if (e >= 0) {
     const ElasticJoint elastic = model.elastic[at(e)];
-    const ConnectionMaker* element = model.network.joints[at(j)].element.get();
-    const bool known = element->knows_torque_rate();
+    const AnyConnection* element = model.network.joints[at(j)].element.get();
+    const bool known = element->knows_torque_rate;
     if (known)
       transmitted.rate = [element, elastic, e](const Snapshot& s) {
         const double acceleration =
@@ -142,7 +142,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
       };
     spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
     // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
-    if (known && element->stiffness() > 0 && !element->has_modes()) {
+    if (known && element->stiffness > 0 && element->is.guards == 0) {
       transmitted.slope = transmitted.rate;
       spring.slope = [element, e](const Snapshot& s) {
         return element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], 0);

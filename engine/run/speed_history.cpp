@@ -140,7 +140,7 @@ void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equati
   angle_ = static_cast<std::size_t>(m.reduction_angle);
   free_ = shaft_ < m.free_shafts;
   for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-    if (m.network.elements[e].element->account() == Account::driving) driving_.push_back(e);
+    if (m.network.elements[e].element->account == Account::driving) driving_.push_back(e);
   for (const Network::Node& n : m.network.nodes)
     if (n.prescribed >= 0 && !m.network.prescribed[static_cast<std::size_t>(n.prescribed)].is_nothing())
       prescribed_somewhere_ = true;

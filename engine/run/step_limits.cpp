@@ -73,7 +73,7 @@ class Blame {
     const Shaft& s = m_.shafts[shaft];
     if (s.variable)
       for (const Network::ShaftElement& e : m_.network.elements)
-        if (m_.shaft_of_node[at(e.node)] == static_cast<int>(shaft) && e.element->uses_angle()) return e.component;
+        if (m_.shaft_of_node[at(e.node)] == static_cast<int>(shaft) && e.element->is.uses_angle) return e.component;
     return m_.network.nodes[at(s.reference)].component;
   }
   std::string between(std::size_t a, std::size_t b) const {

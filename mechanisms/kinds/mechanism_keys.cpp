@@ -123,7 +123,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
   mechanism->flexibility = deformation.flexibility;
   read_loads(s, *mechanism, messages);
   const double phase = mechanism->phase;
-  net.put_made(node, s.name, std::make_shared<MechanismMaker>(std::move(*mechanism)), {}, phase);
+  net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, phase);
 }
 
 }  // namespace kurbel

@@ -24,6 +24,7 @@
 namespace kurbel {
 
 struct CompressorForce {
+  static constexpr LoadTraits is{.holds = true, .in_pieces = true, .turns_back = true};
   WorkingEnd end;
   double stroke = 0;                 // s [m], > 0
   double area = 0;                   // A [m²], > 0

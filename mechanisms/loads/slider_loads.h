@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"
 #include "engine/elements/piece_guard.h"
+#include "engine/elements/sound.h"
 #include "engine/numerics/curve.h"
 #include "engine/numerics/dual.h"
 #include "mechanisms/loads/compressor_force.h"
@@ -25,6 +27,7 @@ namespace kurbel {
 
 // F = F₀
 struct ConstantForce {
+  static constexpr LoadTraits is{};
   double force = 0;  // [N]
   template <class T>
   T value(const SliderState<T>&) const {
@@ -35,7 +38,7 @@ struct ConstantForce {
 
 // F = −F₀ sgn v; holds the slider at standstill with up to F₀.
 struct OpposingForce {
-  static constexpr bool directional = true;
+  static constexpr LoadTraits is{.opposes = true, .holds = true};
   double force = 0;  // [N], ≥ 0
   template <class T>
   T value(const SliderState<T>& s) const {
@@ -47,6 +50,7 @@ struct OpposingForce {
 
 // F = −(c v + q v |v|): resistance of the medium.
 struct MediumResistance {
+  static constexpr LoadTraits is{};
   double viscous = 0;    // c [N·s/m], ≥ 0
   double quadratic = 0;  // q [N·s²/m²], ≥ 0
   template <class T>
@@ -99,7 +103,8 @@ int piece_kept(const Law& law, const SliderState<double>& s, int pieces) {
 // Press force over travel: the nominal force within the last millimetres before the working end, on the working stroke
 // only; then break-through. It resists and never drives, and holds the slider against motion towards the end.
 struct PressForce {
-  static constexpr bool directional = true;
+  static constexpr LoadTraits is{
+      .opposes = true, .holds = true, .in_pieces = true, .turns_back = true, .kind = EventKind::load_edge};
   WorkingEnd end;
   Profile profile;  // over the distance to the working end
   double stroke = 1;
@@ -148,7 +153,6 @@ struct PressForce {
   int next_mode(const SliderState<double>& s, int which) const {
     return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
   }
-  static constexpr EventKind event_kind = EventKind::load_edge;
   std::string mode_name(const SliderState<double>& s) const {
     const double middle = 0.5 * (profile.piece_begin(s.mode) + profile.piece_end(s.mode));
     if (!std::isfinite(middle) || profile.value_in(s.mode, middle) == 0) return "load ends";
@@ -164,6 +168,7 @@ struct PressForce {
 // the value of that branch, and holds what the approaching one resists more, as gas between its valves does: the true
 // force then lies anywhere between the branches.
 struct TravelForce {
+  static constexpr LoadTraits is{.holds = true, .in_pieces = true, .turns_back = true};
   WorkingEnd end;
   Curve approach, retreat;  // over the distance to the working end; retreat may be empty
   double stroke = 1;
@@ -198,6 +203,7 @@ struct TravelForce {
 
 // Force over the crank angle: indicator diagram of a two-stroke (period 360°) or four-stroke (720°) machine.
 struct AngleForce {
+  static constexpr LoadTraits is{.in_pieces = true};
   WorkingEnd end;
   Curve curve;  // periodic [rad] → [N]
   template <class T>
@@ -216,7 +222,7 @@ struct AngleForce {
 
 // PressForce with its edges rounded: the effect load_edges is off.
 struct RoundedPressForce {
-  static constexpr bool directional = true;
+  static constexpr LoadTraits is{.opposes = true, .holds = true};
   WorkingEnd end;
   RoundedProfile profile;
 
@@ -234,6 +240,7 @@ struct RoundedPressForce {
 
 // TravelForce or AngleForce with its edges rounded.
 struct RoundedTableForce {
+  static constexpr LoadTraits is{.holds = true};
   WorkingEnd end;
   RoundedProfile approach, retreat;  // retreat may be empty
   double period = 0;                 // > 0: over the crank angle
@@ -252,10 +259,57 @@ struct RoundedTableForce {
   }
 };
 
+// Whether a load has the members that its traits promise, and no others that a trait gives a meaning to (sound.h).
+namespace sound {
+template <class L>
+concept Value = requires(const L& l, const SliderState<double>& s, const SliderState<Dual<1>>& dual) {
+  { l.value(s) } -> std::same_as<double>;
+  { l.value(dual) } -> std::same_as<Dual<1>>;
+  { l.uses_speed() } -> std::same_as<bool>;
+};
+template <class L>
+concept Holds = (L::is.holds &&
+                 requires(const L& l, const SliderState<double>& s) {
+                   { l.hold(s) } -> std::same_as<Hold>;
+                 }) ||
+                (!L::is.holds && !L::is.opposes && requires { &Free<L>::hold; });
+template <class L>
+concept InPieces = (L::is.in_pieces &&
+                    requires(const L& l, const SliderState<double>& s, double* g) {
+                      { l.guard(s, g) } -> std::same_as<void>;
+                      { l.first_mode(s) } -> std::same_as<int>;
+                      { l.next_mode(s, 0) } -> std::same_as<int>;
+                      { l.mode_name(s) } -> std::same_as<std::string>;
+                    }) ||
+                   (!L::is.in_pieces && requires {
+                     &Free<L>::guard;
+                     &Free<L>::first_mode;
+                     &Free<L>::next_mode;
+                     &Free<L>::mode_name;
+                   });
+template <class L>
+concept TurnsBack = (L::is.turns_back && L::is.in_pieces &&
+                     requires(const L& l, const SliderState<double>& s) {
+                       { l.turned_mode(s) } -> std::same_as<int>;
+                     }) ||
+                    (!L::is.turns_back && requires { &Free<L>::turned_mode; });
+}  // namespace sound
+template <class L>
+concept SoundLoad = sound::Value<L> && sound::Holds<L> && sound::InPieces<L> && sound::TurnsBack<L>;
+
+template <class... L>
+struct LoadLaws {
+  static_assert(
+      (SoundLoad<L> && ...),
+      "a load has value(s) and uses_speed(); with .holds (always with .opposes) Hold hold(s); with .in_pieces "
+      "guard(s, double*), first_mode(s), next_mode(s, int) and mode_name(s); with .turns_back, of a law in "
+      "pieces, int turned_mode(s); and none of them without its trait");
+  using Any = std::variant<L...>;
+};
+
 struct SliderLoad {
-  std::variant<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
-               RoundedPressForce, RoundedTableForce>
-      law;
+  LoadLaws<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
+           RoundedPressForce, RoundedTableForce>::Any law;
   std::string name;  // "press.load"
   Account account = Account::useful;
   double rounding = 0;  // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
@@ -270,15 +324,15 @@ struct SliderLoad {
           if constexpr (std::is_same_v<L, TravelForce> || std::is_same_v<L, RoundedTableForce>)
             return !l.retreat.empty();
           if constexpr (std::is_same_v<L, CompressorForce>) return true;
-          return Directional<L>;
+          return L::is.opposes;
         },
         law);
   }
   bool directional() const {
-    return std::visit([](const auto& l) { return Directional<std::decay_t<decltype(l)>>; }, law);
+    return std::visit([](const auto& l) { return l.is.opposes; }, law);
   }
   bool uses_speed() const {
-    return std::visit([](const auto& l) { return depends_on_speed(l); }, law);
+    return std::visit([](const auto& l) { return l.uses_speed(); }, law);
   }
   double period() const {
     if (const auto* over_angle = std::get_if<AngleForce>(&law)) return over_angle->curve.period();
@@ -295,7 +349,7 @@ struct SliderLoad {
 
   // Events: where the law has pieces, each lies between two guards, and the mode is the piece that is in force.
   bool has_pieces() const {
-    return std::visit([](const auto& l) { return in_pieces<std::decay_t<decltype(l)>>; }, law);
+    return std::visit([](const auto& l) { return l.is.in_pieces; }, law);
   }
   void guard(const SliderState<double>& s, double* g) const;             // both ends of the piece
   int next_piece(const SliderState<double>& s, int which) const;         // behind that end
@@ -305,21 +359,12 @@ struct SliderLoad {
   // The other branch, when the slider turns back within its stroke.
   bool follows_travel() const;
   void follow_travel(const SliderState<double>& s, int& mode) const;
-
-  template <class L>
-  static constexpr bool in_pieces = requires(const L& l, SliderState<double> s) {
-    l.first_mode(s);
-  };
-  template <class L>
-  static constexpr bool turns_back = requires(const L& l, SliderState<double> s) {
-    l.turned_mode(s);
-  };
 };
 
 inline Hold SliderLoad::hold(const SliderState<double>& s) const {
   return std::visit(
       [&](const auto& l) {
-        if constexpr (requires { l.hold(s); }) return l.hold(s);
+        if constexpr (std::decay_t<decltype(l)>::is.holds) return l.hold(s);
         return Hold{};
       },
       law);
@@ -328,7 +373,7 @@ inline Hold SliderLoad::hold(const SliderState<double>& s) const {
 inline void SliderLoad::guard(const SliderState<double>& s, double* g) const {
   std::visit(
       [&](const auto& l) {
-        if constexpr (in_pieces<std::decay_t<decltype(l)>>) l.guard(s, g);
+        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) l.guard(s, g);
       },
       law);
 }
@@ -336,27 +381,20 @@ inline void SliderLoad::guard(const SliderState<double>& s, double* g) const {
 inline int SliderLoad::next_piece(const SliderState<double>& s, int which) const {
   return std::visit(
       [&](const auto& l) {
-        if constexpr (in_pieces<std::decay_t<decltype(l)>>) return l.next_mode(s, which);
+        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.next_mode(s, which);
         return s.mode;
       },
       law);
 }
 
 inline EventKind SliderLoad::piece_kind() const {
-  return std::visit(
-      [](const auto& l) {
-        if constexpr (requires { l.event_kind; })
-          return l.event_kind;
-        else
-          return EventKind::law;
-      },
-      law);
+  return std::visit([](const auto& l) { return l.is.kind; }, law);
 }
 
 inline std::string SliderLoad::piece_name(const SliderState<double>& s) const {
   return std::visit(
       [&](const auto& l) {
-        if constexpr (in_pieces<std::decay_t<decltype(l)>>) return l.mode_name(s);
+        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.mode_name(s);
         return std::string{};
       },
       law);
@@ -365,19 +403,19 @@ inline std::string SliderLoad::piece_name(const SliderState<double>& s) const {
 inline void SliderLoad::take_first_piece(const SliderState<double>& s, int& mode) const {
   std::visit(
       [&](const auto& l) {
-        if constexpr (in_pieces<std::decay_t<decltype(l)>>) mode = l.first_mode(s);
+        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) mode = l.first_mode(s);
       },
       law);
 }
 
 inline bool SliderLoad::follows_travel() const {
-  return std::visit([](const auto& l) { return turns_back<std::decay_t<decltype(l)>>; }, law);
+  return std::visit([](const auto& l) { return l.is.turns_back; }, law);
 }
 
 inline void SliderLoad::follow_travel(const SliderState<double>& s, int& mode) const {
   std::visit(
       [&](const auto& l) {
-        if constexpr (turns_back<std::decay_t<decltype(l)>>) mode = l.turned_mode(s);
+        if constexpr (std::decay_t<decltype(l)>::is.turns_back) mode = l.turned_mode(s);
       },
       law);
 }

@@ -39,46 +39,9 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   return felt < -1e-9 * mass(0, 0) ? -1 : std::max(felt, 0.0);
 }
 
-}  // namespace
-
-std::string joint_word(const JointClearance& joint) {
-  std::string word = joint.name();
-  std::replace(word.begin(), word.end(), ' ', '_');
-  return word;
-}
-
-DeformingMechanismMaker::DeformingMechanismMaker(Mechanism given) : MechanismMaker(std::move(given)) {
-  const Mechanism& m = mechanism();
-  const std::string what = m.clearances.empty() ? "a flexible rod"
-                           : m.flexibility      ? "joint clearance and a flexible rod"
-                                                : "joint clearance";
-  if (m.joint_friction)
-    throw std::invalid_argument(what +
-                                " and joint_friction cannot both be on: reactions with friction are those of ideal "
-                                "joints; give the clearance a friction and switch joint_friction off");
-  for (const SliderLoad& load : m.loads)
-    if (std::holds_alternative<OpposingForce>(load.law))
-      throw std::invalid_argument(fmt::format(
-          "{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; take kind "
-          "\"medium\", or switch the effect off",
-          what, load.name));
-  dynamics_ = std::make_shared<const SliderCrankDynamics>(std::get<SliderCrankData>(m.data), m.clearances,
-                                                          m.flexibility, m.weightless);
-  constexpr int n = 64;
-  least_inertia_ = HUGE_VAL;
-  for (int i = 0; i < n; ++i)
-    least_inertia_ = std::min(least_inertia_, inertia_felt(*dynamics_, 2 * std::numbers::pi * i / n));
-  if (least_inertia_ < 0)
-    throw std::invalid_argument(
-        what +
-        " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
-        "rod_mass · rod²/12) and slider_mass");
-}
-
 // Scales: gaps, a ten thousandth of the length for bending, and a hundredth of that for stretching; rates by what an
 // impact of that depth or a vibration of that amplitude has.
-std::vector<OwnState> DeformingMechanismMaker::own_states() const {
-  const Mechanism& m = mechanism();
+std::vector<OwnState> own_states_of(const Mechanism& m, const RodModes& rod) {
   const auto& data = std::get<SliderCrankData>(m.data);
   struct Name {
     std::string name, unit;
@@ -99,7 +62,6 @@ std::vector<OwnState> DeformingMechanismMaker::own_states() const {
       names.push_back({word + "_shift_y", "m", gap, rate, false});
     }
   }
-  const RodModes& rod = dynamics_->rod();
   for (int i = 0; i < rod.bending; ++i) {
     const double scale = 1e-4 * rod.length;
     names.push_back({fmt::format("bending_{}", i + 1), "m", scale, scale * rod.frequency(i + 1), true});
@@ -116,9 +78,51 @@ std::vector<OwnState> DeformingMechanismMaker::own_states() const {
   return states;
 }
 
-std::string DeformingMechanismMaker::describe() const {
+}  // namespace
+
+std::string joint_word(const JointClearance& joint) {
+  std::string word = joint.name();
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+}
+
+DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : MechanismElement(std::move(given)) {
   const Mechanism& m = mechanism();
-  std::string text = MechanismMaker::describe();
+  const std::string what = m.clearances.empty() ? "a flexible rod"
+                           : m.flexibility      ? "joint clearance and a flexible rod"
+                                                : "joint clearance";
+  if (m.joint_friction)
+    throw std::invalid_argument(what +
+                                " and joint_friction cannot both be on: reactions with friction are those of ideal "
+                                "joints; give the clearance a friction and switch joint_friction off");
+  for (const SliderLoad& load : m.loads)
+    if (std::holds_alternative<OpposingForce>(load.law))
+      throw std::invalid_argument(fmt::format(
+          "{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; take kind "
+          "\"medium\", or switch the effect off",
+          what, load.name));
+  dynamics_ = std::make_shared<const SliderCrankDynamics>(std::get<SliderCrankData>(m.data), m.clearances,
+                                                          m.flexibility, m.weightless);
+  constexpr int n = 64;
+  least_inertia = HUGE_VAL;
+  for (int i = 0; i < n; ++i)
+    least_inertia = std::min(least_inertia, inertia_felt(*dynamics_, 2 * std::numbers::pi * i / n));
+  if (least_inertia < 0)
+    throw std::invalid_argument(
+        what +
+        " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
+        "rod_mass · rod²/12) and slider_mass");
+  is.directional = false;
+  uses_speed = true;
+  own_states = own_states_of(m, dynamics_->rod());
+  modes += static_cast<int>(dynamics_->contacts().size());
+  if (!m.clearances.empty()) further_accounts.emplace_back(m.name + ".contact", Account::harmful);
+  if (dynamics_->rod().count() > 0) further_accounts.emplace_back(m.name + ".rod", Account::harmful);
+}
+
+std::string DeformingMechanismElement::describe() const {
+  const Mechanism& m = mechanism();
+  std::string text = MechanismElement::describe();
   for (const JointClearance& c : m.clearances)
     text += fmt::format(
         "; {} of {}: gap {:.6g} m, contact after Hunt and Crossley with {:.6g} N/m at the depth of the gap, exponent "
@@ -135,26 +139,15 @@ std::string DeformingMechanismMaker::describe() const {
   return text;
 }
 
-int DeformingMechanismMaker::mode_count() const {
-  return 1 + static_cast<int>(mechanism().loads.size() + dynamics_->contacts().size());
-}
-
-std::vector<std::pair<std::string, Account>> DeformingMechanismMaker::further_accounts() const {
-  auto accounts = MechanismMaker::further_accounts();
-  if (!mechanism().clearances.empty()) accounts.emplace_back(mechanism().name + ".contact", Account::harmful);
-  if (dynamics_->rod().count() > 0) accounts.emplace_back(mechanism().name + ".rod", Account::harmful);
-  return accounts;
-}
-
 std::size_t further_coordinates(const Model& model) {
   std::size_t sum = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get()))
+    if (const auto* maker = dynamic_cast<const DeformingMechanismElement*>(e.element.get()))
       sum += maker->dynamics().free().size() - 1;
   return sum;
 }
 
-void DeformingMechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
+void DeformingMechanismElement::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
   pools.of<DeformingMechanismPool>().place(mechanism(), dynamics_, ports);
 }
 

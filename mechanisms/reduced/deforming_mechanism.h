@@ -14,26 +14,19 @@
 
 namespace kurbel {
 
-class DeformingMechanismMaker final : public MechanismMaker {
+class DeformingMechanismElement final : public MechanismElement {
  public:
   // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
-  explicit DeformingMechanismMaker(Mechanism mechanism);
+  explicit DeformingMechanismElement(Mechanism mechanism);
 
   const SliderCrankDynamics& dynamics() const { return *dynamics_; }
 
-  bool directional() const override { return false; }
-  double least_inertia() const override { return least_inertia_; }
-  bool uses_speed() const override { return true; }
-  std::vector<OwnState> own_states() const override;
-  std::shared_ptr<ShaftElementMaker> with(const Effects&) const override { return nullptr; }
   std::string describe() const override;
-  int mode_count() const override;
-  std::vector<std::pair<std::string, Account>> further_accounts() const override;
+  ShaftForm form_under(const Effects&) const override { return nullptr; }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
 
  private:
   std::shared_ptr<const SliderCrankDynamics> dynamics_;
-  double least_inertia_ = 0;
 };
 
 // Degrees of freedom of a model that mechanisms have besides their cranks.

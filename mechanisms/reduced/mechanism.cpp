@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/model/network.h"
 #include "engine/scene/scene.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 
@@ -77,15 +78,15 @@ Mechanism Mechanism::extracted_from(Extraction from) const {
 }
 
 namespace {
-const MechanismMaker* mechanism_of(const Network::ShaftElement& element) {
-  return dynamic_cast<const MechanismMaker*>(element.element.get());
+const MechanismElement* mechanism_of(const Network::ShaftElement& element) {
+  return dynamic_cast<const MechanismElement*>(element.element.get());
 }
 }  // namespace
 
 Network extracted_from(Network network, Extraction from) {
   for (Network::ShaftElement& e : network.elements)
-    if (const MechanismMaker* maker = mechanism_of(e))
-      e.element = std::make_shared<MechanismMaker>(maker->mechanism().extracted_from(from));
+    if (const MechanismElement* maker = mechanism_of(e))
+      e.element = std::make_shared<MechanismElement>(maker->mechanism().extracted_from(from));
   return network;
 }
 
@@ -97,31 +98,31 @@ bool Mechanism::has_weight() const {
   return !weightless && std::visit([](const auto& d) { return d.gravity != 0; }, data);
 }
 
-bool MechanismMaker::directional() const {
-  return mechanism_.joint_friction || std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
-                                                  [](const SliderLoad& l) { return l.depends_on_travel(); });
-}
-
-// Weight and forces over travel depend on the angle alone; so does I_r.
-bool MechanismMaker::uses_speed() const {
-  return mechanism_.joint_friction || std::any_of(mechanism_.loads.begin(), mechanism_.loads.end(),
-                                                  [](const SliderLoad& l) { return l.uses_speed(); });
-}
-
-// Loads give a scale of torque: greatest force times half the stroke.
-Rated MechanismMaker::rated() const {
+MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(mechanism)) {
+  const auto& loads = mechanism_.loads;
+  const auto any = [&](auto what) { return std::any_of(loads.begin(), loads.end(), what); };
+  is = {.directional = mechanism_.joint_friction || any([](const SliderLoad& l) { return l.depends_on_travel(); }),
+        .uses_angle = true};
+  account = Account::weight;
+  // Weight and forces over travel depend on the angle alone; so does I_r.
+  uses_time = false;
+  uses_speed = mechanism_.joint_friction || any([](const SliderLoad& l) { return l.uses_speed(); });
+  mean_inertia = mechanism_.travel.mean_inertia;
+  least_inertia = mechanism_.travel.least_inertia;
+  cycle = 2 * std::numbers::pi;
   double force = 0;
-  for (const SliderLoad& load : mechanism_.loads) force = std::max(force, load.greatest_force());
-  return {force * mechanism_.output_scale(), 0};
+  for (const SliderLoad& load : loads) {
+    force = std::max(force, load.greatest_force());
+    cycle = std::max(cycle, load.period());
+    further_accounts.emplace_back(load.name, load.account);
+  }
+  if (mechanism_.joint_friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
+  angle_period = cycle;
+  rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
+  modes = 1 + static_cast<int>(loads.size());
 }
 
-double MechanismMaker::cycle() const {
-  double cycle = 2 * std::numbers::pi;
-  for (const SliderLoad& load : mechanism_.loads) cycle = std::max(cycle, load.period());
-  return cycle;
-}
-
-std::string MechanismMaker::describe() const {
+std::string MechanismElement::describe() const {
   const TableReport& report = mechanism_.reduced->report();
   std::string text =
       fmt::format("table of {}: {} pieces from {} samples of {}, errors", mechanism_.name, report.pieces,
@@ -132,15 +133,8 @@ std::string MechanismMaker::describe() const {
   return text + (report.converged ? "(relative)" : " the tolerance was not reached");
 }
 
-std::vector<std::pair<std::string, Account>> MechanismMaker::further_accounts() const {
-  std::vector<std::pair<std::string, Account>> accounts;
-  for (const SliderLoad& load : mechanism_.loads) accounts.emplace_back(load.name, load.account);
-  if (mechanism_.joint_friction) accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
-  return accounts;
-}
-
 // A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.
-std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) const {
+ShaftForm MechanismElement::form_under(const Effects& effects) const {
   Mechanism changed = mechanism_;
   changed.joint_friction = effects.joint_friction && mechanism_.joints;
   changed.weightless = !effects.gravity;
@@ -153,13 +147,13 @@ std::shared_ptr<ShaftElementMaker> MechanismMaker::with(const Effects& effects) 
   if (!effects.joint_clearance) changed.clearances.clear();
   if (!effects.flexible_rod) changed.flexibility.reset();
   if ((!changed.clearances.empty() || changed.flexibility) && !changed.mean_inertia)
-    return std::make_shared<DeformingMechanismMaker>(std::move(changed));
+    return std::make_shared<DeformingMechanismElement>(std::move(changed));
   if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
     return nullptr;
-  return std::make_shared<MechanismMaker>(std::move(changed));
+  return std::make_shared<MechanismElement>(std::move(changed));
 }
 
-void MechanismMaker::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
+void MechanismElement::place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel&) const {
   pools.of<MechanismPool>().place(mechanism_, ports);
 }
 

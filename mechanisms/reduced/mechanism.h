@@ -9,13 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/network.h"
+#include "engine/elements/any_shaft_element.h"
 #include "mechanisms/loads/slider_loads.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
 #include "mechanisms/slider_crank/slider_crank_dynamics.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
+
+class Network;
 
 // What a turn of the crank does, read off the tables.
 struct TravelOfTurn {
@@ -63,30 +65,18 @@ Network extracted_from(Network network, Extraction from);
 // Some mechanism works from tables; without, a second extraction would confirm nothing.
 bool has_tables(const Network& network);
 
-class MechanismMaker : public ShaftElementMaker {
+class MechanismElement : public AnyShaftElement {
  public:
-  explicit MechanismMaker(Mechanism mechanism) : mechanism_(std::move(mechanism)) {}
+  explicit MechanismElement(Mechanism mechanism);
   const Mechanism& mechanism() const { return mechanism_; }
 
-  bool uses_angle() const override { return true; }
-  bool directional() const override;
-  Rated rated() const override;
-  Account account() const override { return Account::weight; }
-  double mean_inertia() const override { return mechanism_.travel.mean_inertia; }
-  double least_inertia() const override { return mechanism_.travel.least_inertia; }
-  double cycle() const override;
   InertiaAt inertia_at(double angle) const override {
     if (mechanism_.mean_inertia) return {mechanism_.travel.mean_inertia, 0};
     const auto [value, slope] = mechanism_.reduced->inertia(angle);
     return {value, slope};
   }
-  double angle_period() const override { return cycle(); }
-  bool uses_time() const override { return false; }
-  bool uses_speed() const override;
-  std::shared_ptr<ShaftElementMaker> with(const Effects& effects) const override;
   std::string describe() const override;
-  int mode_count() const override { return 1 + static_cast<int>(mechanism_.loads.size()); }
-  std::vector<std::pair<std::string, Account>> further_accounts() const override;
+  ShaftForm form_under(const Effects& effects) const override;
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override;
 
  private:

@@ -219,7 +219,7 @@ class Screening {
         fastest = std::max(fastest, std::abs(f.value));
     std::vector<Screen> screens;
     for (const Network::ShaftElement& e : full_.model->network.elements) {
-      const auto* maker = dynamic_cast<const DeformingMechanismMaker*>(e.element.get());
+      const auto* maker = dynamic_cast<const DeformingMechanismElement*>(e.element.get());
       if (!maker || maker->dynamics().rod().bending == 0) continue;
       const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
       const double ratio = maker->dynamics().rod().frequency(1) / std::max(crank, 1e-300);

@@ -29,7 +29,7 @@ std::shared_ptr<const Model> alone(const Scene& scene, const std::string& compon
   const int node = network.add_node(component, "", 1);  // kg·m²; forces do not see it
   network.ports[component] = {node, node};
   network.components = {component};
-  network.put_made(node, component, slider_crank_element(whole, component).element, {}, 0);
+  network.put(node, component, slider_crank_element(whole, component).element, {}, 0);
   Scene bare;
   bare.file = scene.file;
   return compile_network(std::move(network), bare, rigid_effects());
@@ -41,7 +41,7 @@ std::shared_ptr<const Model> alone(const Scene& scene, const std::string& compon
 
 const Network::ShaftElement& slider_crank_element(const Network& network, const std::string& component) {
   for (const Network::ShaftElement& e : network.elements)
-    if (e.component == component && e.element->cycle() > 0) return e;
+    if (e.component == component && e.element->cycle > 0) return e;
   throw std::logic_error("slider-crank without an element");
 }
 

@@ -72,7 +72,7 @@ void find_orders(const LinearDrive& drive, double fastest, double highest_order,
   found.harmonics = static_cast<std::size_t>(std::max(1.0, std::floor(highest_order / found.fundamental + 1e-9)));
   std::vector<std::size_t> elements;
   for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-    if (m.network.elements[e].element->uses_angle()) elements.push_back(e);
+    if (m.network.elements[e].element->is.uses_angle) elements.push_back(e);
   if (elements.empty()) return;
   if (!cycle.periodic)
     found.notes.push_back(
@@ -205,7 +205,7 @@ std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::Vec
   std::vector<double> modal(samples, 0.0);
   for (const Network::ShaftElement& e : m.network.elements) {
     const Place place = place_of(drive, e.node);
-    if (e.element->cycle() == 0 || place.coordinate < 0) continue;
+    if (e.element->cycle == 0 || place.coordinate < 0) continue;
     const double weight = std::pow(place.gain * shape[place.coordinate], 2), ratio = m.node_ratio[at(e.node)];
     for (std::size_t k = 0; k < samples; ++k) {
       const double phi = cycle.angle * static_cast<double>(k) / static_cast<double>(samples);

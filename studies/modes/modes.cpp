@@ -185,7 +185,7 @@ class Study {
       for (const int n : shaft.nodes) {  // the heaviest part gives the name
         double inertia = model_->network.nodes[at(n)].inertia;
         for (const Network::ShaftElement& e : model_->network.elements)
-          if (e.node == n) inertia += e.element->mean_inertia();
+          if (e.node == n) inertia += e.element->mean_inertia;
         inertia *= std::pow(model_->gain_of_node[at(n)], 2);
         if (inertia > largest) largest = inertia, name = model_->node_label(n);
       }
@@ -259,7 +259,7 @@ class Study {
   void find_zones() {
     const auto& elements = model_->network.elements;
     if (std::none_of(elements.begin(), elements.end(),
-                     [](const Network::ShaftElement& e) { return e.element->cycle() > 0; }))
+                     [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
       return;
     for (const Mode& mode : found_.modes) {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);

@@ -352,16 +352,16 @@ Chain elastic_chain(const Model& model, int node) {
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
     add(n, net.nodes[n].inertia, model.node_label(static_cast<int>(n)));
   for (const Network::ShaftElement& e : net.elements)
-    if (e.element->cycle() > 0) {
-      add(at(e.node), e.element->mean_inertia(), e.component);
+    if (e.element->cycle > 0) {
+      add(at(e.node), e.element->mean_inertia, e.component);
       chain.inertias[at(group[at(e.node)])].mechanism = true;
     }
   for (ChainInertia& i : chain.inertias)
     if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);
   for (const Network::Joint& joint : net.joints) {
     if (!joint.element) continue;
-    const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness(),
-                 c = joint.element->damping();
+    const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness,
+                 c = joint.element->damping;
     chain.springs.push_back({joint.component, at(group[at(joint.a)]), at(group[at(joint.b)]), k, c, ratio,
                              k * ratio * ratio, c * ratio * ratio});
   }

@@ -55,7 +55,7 @@ void add_parts(MachineView& view, const Model& model) {
     part.ratio_out = model.node_ratio[at(ports.out)];
     for (const Network::ShaftElement& element : model.network.elements)
       part.crank =
-          part.crank || (element.component == name && dynamic_cast<const MechanismMaker*>(element.element.get()));
+          part.crank || (element.component == name && dynamic_cast<const MechanismElement*>(element.element.get()));
     for (const ElasticJoint& joint : model.elastic)
       part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
     view.parts.push_back(std::move(part));
@@ -163,7 +163,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
     if (const auto* maker =
-            dynamic_cast<const MechanismMaker*>(model.network.elements[at(model.reduction_element)].element.get()))
+            dynamic_cast<const MechanismElement*>(model.network.elements[at(model.reduction_element)].element.get()))
       view.linkage = linkage_of(maker->mechanism());
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;

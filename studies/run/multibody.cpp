@@ -19,11 +19,11 @@ namespace {
 // Simbody's closed loop gains nothing below this.
 constexpr double tightest_accuracy = 1e-11;
 
-const MechanismMaker* only_mechanism(const Model& model) {
-  const MechanismMaker* found = nullptr;
+const MechanismElement* only_mechanism(const Model& model) {
+  const MechanismElement* found = nullptr;
   int count = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const MechanismMaker*>(e.element.get())) {
+    if (const auto* maker = dynamic_cast<const MechanismElement*>(e.element.get())) {
       found = maker;
       ++count;
     }
@@ -89,14 +89,14 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
                           const SimulateOptions& options) {
   const Model& model = *shared;
   const RunSettings& settings = model.scene.run;
-  const MechanismMaker* mechanism = only_mechanism(model);
+  const MechanismElement* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
     throw SceneError({{model.scene.file, settings.model_at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
   if (!mechanism || !std::holds_alternative<SliderCrankData>(mechanism->mechanism().data))
     refuse("needs exactly one slider-crank, and no other mechanism");
-  if (dynamic_cast<const DeformingMechanismMaker*>(mechanism))
+  if (dynamic_cast<const DeformingMechanismElement*>(mechanism))
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");

@@ -361,7 +361,7 @@ class Simulation {
     if (s.now.speed[shaft] != 0) return;  // creeps, by a law without events
     double drive = 0;                     // on the reduction link
     for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-      if (m.network.elements[e].element->account() == Account::driving)
+      if (m.network.elements[e].element->account == Account::driving)
         drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];
     const auto stop = std::find_if(outcome.events.rbegin(), outcome.events.rend(),
                                    [](const Event& e) { return e.kind == EventKind::rest; });

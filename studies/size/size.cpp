@@ -113,7 +113,7 @@ class Sizer {
     s_.flywheel_ratio = m.node_ratio[at(node)];
     std::vector<std::string> motors;
     for (const Network::ShaftElement& e : m.network.elements)
-      if (e.element->account() == Account::driving && !(e.element->cycle() > 0)) motors.push_back(e.component);
+      if (e.element->account == Account::driving && !(e.element->cycle > 0)) motors.push_back(e.component);
     if (!motors.empty()) s_.motor = motors.front();
     for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
       const std::string& name = m.network.nodes[n].component;

@@ -26,7 +26,7 @@ constexpr double far_beyond = 30;        // rated speeds: that is no cycle but f
 
 // A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
 struct AddedTorque {
-  static constexpr Account account = Account::driving;
+  static constexpr ShaftTraits is{.account = Account::driving};
   double value = 0;  // [N·m]
   template <class T>
   T torque(const ShaftState<T>&) const {
@@ -141,7 +141,7 @@ class Search {
     added_node_ = compile_network(net, scene_, effects_)->reduction_node;
     added_to_ = net.nodes[at(added_node_)].component;
     for (const Network::ShaftElement& e : net.elements)
-      if (e.element->account() == Account::driving && e.element->cycle() == 0) {
+      if (e.element->account == Account::driving && e.element->cycle == 0) {
         added_node_ = e.node;
         added_to_ = e.component;
         return;

@@ -28,7 +28,7 @@ std::vector<Drive> drives_of(const Model& model) {
   std::vector<Drive> drives;
   for (std::size_t e = 0; e < model.network.elements.size(); ++e) {
     const Network::ShaftElement& element = model.network.elements[e];
-    if (element.element->account() != Account::driving) continue;
+    if (element.element->account != Account::driving) continue;
     const auto known =
         std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.component == element.component; });
     if (known != drives.end()) {

@@ -125,7 +125,7 @@ std::string refusal_by_method(const Scene& scene, const std::string& method) {
   if (method == "work") return WorkTables::refusal(model);
   if (model->free_shafts < model->shafts.size()) return "a speed is prescribed over time";
   for (const Network::ShaftElement& e : model->network.elements)
-    if (e.element->uses_time()) return "a torque depends on time";
+    if (e.element->uses_time) return "a torque depends on time";
   return {};
 }
 
@@ -186,9 +186,9 @@ std::optional<Scene> started_a_cycle_on(const Model& model) {
   for (const SequenceStep& step : model.scene.sequence.steps)
     if (step.when == SequenceStep::When::angle) return {};
   for (const Network::ShaftElement& e : model.network.elements)
-    if (e.element->uses_angle() && !whole_turns(e.node)) return {};
+    if (e.element->is.uses_angle && !whole_turns(e.node)) return {};
   for (const Network::Joint& joint : model.network.joints)
-    if (joint.element && joint.element->uses_angle() && !whole_turns(joint.a)) return {};
+    if (joint.element && joint.element->is.uses_angle && !whole_turns(joint.a)) return {};
   Scene shifted = model.scene;
   StartSettings& start = shifted.run.start;
   const auto ratio_of = [&](const std::string& component) {

@@ -144,7 +144,7 @@ TEST(ElasticBelt, StiffnessComesFromTheStrands) {
                  "wrap_angle = \"160 deg\"\n", "");
   const Scene scene = test::scene_from(strands);
   const auto model = compile(scene, scene.effects);
-  EXPECT_NEAR(model->network.joints[0].element->stiffness(),
+  EXPECT_NEAR(model->network.joints[0].element->stiffness,
               2 * 20e3 * radius * radius / std::sqrt(0.25 - 0.25 * 0.24 * 0.24), 1e-9);
   EXPECT_NE(model->explain().find("elastic creep there"), std::string::npos);
 }

@@ -154,7 +154,7 @@ TEST(Damping, DoesNotDependOnTheOtherEffects) {
   one.elastic = {"main_coupling"};
   const auto damping = [](const Model& m) {
     for (const Network::Joint& j : m.network.joints)
-      if (j.component == "main_coupling" && j.element) return j.element->damping();
+      if (j.component == "main_coupling" && j.element) return j.element->damping;
     return 0.0;
   };
   EXPECT_GT(damping(*compile(scene, all)), 0);
@@ -181,7 +181,7 @@ elasticity = true
                              Effects{true, {}});
   const double polar = M_PI / 32 * std::pow(0.05, 4);
   ASSERT_EQ(model->elastic.size(), 1u);
-  EXPECT_NEAR(model->network.joints[static_cast<std::size_t>(model->elastic[0].joint)].element->stiffness(),
+  EXPECT_NEAR(model->network.joints[static_cast<std::size_t>(model->elastic[0].joint)].element->stiffness,
               79.3e9 * polar, 1e-6);
   EXPECT_NEAR(model->shafts[0].inertia + model->shafts[1].inertia, 2 + 7850 * polar, 1e-12);
   EXPECT_NEAR(79.3e9 * polar, 48658, 1);

@@ -111,7 +111,7 @@ TEST(GearMesh, TakesItsNumbersFromTheTeeth) {
   const Scene scene = test::scene_from(pair_of_wheels(
       free_drive, "module = \"3 mm\"\nbacklash = \"0.3 mm\"\nmesh_stiffness = \"2e8 N/m\"", "", "until = \"1 s\""));
   const auto model = compile(scene, scene.effects);
-  const ConnectionMaker& mesh = *model->network.joints[0].element;
+  const AnyConnection& mesh = *model->network.joints[0].element;
   EXPECT_NEAR(mesh.stiffness(), 2e8 * base * base, 1e-6);
   EXPECT_NEAR(mesh.twist_at(30), 0.5 * 0.3e-3 / base + 30 / (2e8 * base * base), 1e-12);
   EXPECT_EQ(model->elastic[0].gain_b, 2);
@@ -121,7 +121,7 @@ TEST(GearMesh, TakesItsNumbersFromTheTeeth) {
   data.width = {0.03, 0.03};
   const Scene estimated =
       test::scene_from(pair_of_wheels(free_drive, "module = \"3 mm\"\nwidth = \"30 mm\"", "", "until = \"1 s\""));
-  EXPECT_NEAR(compile(estimated, estimated.effects)->network.joints[0].element->stiffness(),
+  EXPECT_NEAR(compile(estimated, estimated.effects)->network.joints[0].element->stiffness,
               mesh_stiffness(solve_gear_pair(data)).torsional, 1e-6);
 }
 

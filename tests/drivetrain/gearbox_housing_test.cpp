@@ -150,7 +150,7 @@ run = {{ until = "0.01 s" }}
   ASSERT_EQ(model->elastic.size(), 1u);
   const Network::Joint& joint = model->network.joints[static_cast<std::size_t>(model->elastic[0].joint)];
   EXPECT_DOUBLE_EQ(joint.ratio, 3);
-  EXPECT_DOUBLE_EQ(joint.element->stiffness(), mesh_stiffness(pair).torsional);
+  EXPECT_DOUBLE_EQ(joint.element->stiffness, mesh_stiffness(pair).torsional);
   // The gap: twist at a torque is half of it and the torque over the stiffness.
   EXPECT_NEAR(joint.element->twist_at(100), 0.5 * pair.backlash_angle(0) + 100 / mesh_stiffness(pair).torsional, 1e-15);
   EXPECT_GT(pair.backlash_angle(0), 1e-3);

@@ -63,7 +63,7 @@ void expect_ties_kept(const Scene& scene, const StartSettings& start) {
     EXPECT_LE(std::abs(turn), 1e-14 * (turns + 1));
   }
   for (const ElasticJoint& e : model->elastic) {
-    const ConnectionMaker& element = *model->network.joints[at(e.joint)].element;
+    const AnyConnection& element = *model->network.joints[at(e.joint)].element;
     const double a = e.gain_a * angle(e.shaft_a), b = e.gain_b * angle(e.shaft_b);
     EXPECT_NEAR(a - b, element.rest_twist(a), 1e-14 * (1 + std::abs(a)));
     const double in = e.gain_a * now.now.speed[e.shaft_a], out = e.gain_b * now.now.speed[e.shaft_b];

@@ -165,7 +165,7 @@ TEST(SecondExtraction, TwoRunsDifferByTheTrueErrorNearTheChangePoint) {
     for (const Extraction from : {Extraction::first, Extraction::second}) {
       const auto model = compiled(scene, from);
       data = std::get<SliderCrankData>(
-          dynamic_cast<const MechanismMaker&>(*model->network.elements.front().element).mechanism().data);
+          dynamic_cast<const MechanismElement&>(*model->network.elements.front().element).mechanism().data);
       SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .progress = {}};
       options.first_tolerance = 1e-14;
       const Result r = simulate(model, "free", options);

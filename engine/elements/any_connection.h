@@ -1,0 +1,154 @@
+// any_connection.h — a connection of any type, as a network holds it: what a model needs to know of it, as data computed
+// once from its traits, and the few laws that it is asked for outside of its pool.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/elements/connection_pool.h"
+#include "engine/elements/pool_set.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+// Never changes after it is made: networks that are compiled several times share it.
+class AnyConnection {
+ public:
+  virtual ~AnyConnection() = default;
+
+  // --- facts; of a specification only `is`, the others once it is settled ---
+  ConnectionTraits is;
+  double stiffness = 0;            // at rest [N·m/rad]; 0 without a spring
+  double damping = 0;              // dτ/dθ̇ at rest [N·m·s/rad]; 0 where it slips or has states
+  double capacity = 0;             // of one that slips [N·m]
+  bool knows_torque_rate = false;  // the torque hangs on the twist and its mode alone
+  std::vector<OwnState> own_states = {};
+
+  // --- laws ---
+  virtual double twist_at(double torque) const = 0;                                      // 0 without a spring
+  virtual double torque_rate(double twist, double rate, double acceleration) const = 0;  // dτ/dt from θ̇ and θ̈
+  virtual double rest_twist(double turn) const = 0;                                      // unloaded at φ_a,
+  virtual double rest_ratio(double turn) const = 0;                                      // and i ω_b/ω_a
+  virtual std::string describe() const = 0;                                              // empty: nothing to say
+  virtual ConnectionForm settled(double inertia) const = 0;                              // J_red [kg·m²]
+  virtual ConnectionForm form_under(const Effects&) const = 0;                           // null: this one
+  virtual void place(PoolSet&, const ConnectionPorts&, const ConnectionExtras&) const = 0;
+};
+
+// Lists what an element says about its own states.
+template <class E>
+std::vector<OwnState> own_states_of(const E& element) {
+  std::vector<OwnState> states;
+  if constexpr (E::is.states > 0)
+    for (int k = 0; k < E::is.states; ++k) states.push_back(element.state(k));
+  return states;
+}
+
+// Of an element that is final, or of a specification that becomes one when the inertias are known.
+template <class E, class Given = E>
+class ConnectionOf final : public AnyConnection {
+  static_assert(demand_sound_connection<E>());
+
+ public:
+  explicit ConnectionOf(Given given) : given_(std::move(given)) {
+    is = E::is;
+    if constexpr (is_given) take(given_);
+  }
+  ConnectionOf(Given given, E settled) : given_(std::move(given)) {
+    is = E::is;
+    take(std::move(settled));
+  }
+
+  double twist_at([[maybe_unused]] double torque) const override {
+    if constexpr (E::is.has_spring())
+      return element_.twist_at(torque);
+    else
+      return 0;
+  }
+  double torque_rate([[maybe_unused]] double twist, [[maybe_unused]] double rate,
+                     [[maybe_unused]] double acceleration) const override {
+    if constexpr (Slipping<E> || HasStates<E>) {
+      return 0;
+    } else {
+      Dual<1> angle(twist), speed(rate);
+      angle.d[0] = rate;
+      speed.d[0] = acceleration;
+      return element_.torque(moving(Twist<double>{twist, rate}, angle, speed)).d[0];
+    }
+  }
+  double rest_twist([[maybe_unused]] double turn) const override {
+    if constexpr (E::is.turns_unevenly)
+      return element_.rest_twist(turn);
+    else
+      return 0;
+  }
+  double rest_ratio([[maybe_unused]] double turn) const override {
+    if constexpr (E::is.turns_unevenly)
+      return element_.rest_ratio(turn);
+    else
+      return 1;
+  }
+  std::string describe() const override {
+    if constexpr (E::is.described)
+      return element_.describe();
+    else
+      return {};
+  }
+  ConnectionForm settled([[maybe_unused]] double inertia) const override {
+    if constexpr (is_given)
+      return nullptr;
+    else
+      return std::make_shared<ConnectionOf>(given_, given_.settled(inertia));
+  }
+  ConnectionForm form_under([[maybe_unused]] const Effects& effects) const override {
+    if constexpr (has_other_forms)
+      return under(given_, effects);
+    else
+      return nullptr;
+  }
+  void place(PoolSet& pools, const ConnectionPorts& ports, const ConnectionExtras& extras) const override {
+    pools.of<ConnectionPool<E>>().place(element_, ports, extras);
+  }
+
+ private:
+  static constexpr bool is_given = std::is_same_v<E, Given>;
+  static constexpr bool has_other_forms = [] {
+    if constexpr (is_given)
+      return E::is.other_forms;
+    else
+      return demand_sound_specification<Given>() && requires { requires Given::other_forms; };
+  }();
+
+  void take(E element) {
+    element_ = std::move(element);
+    if constexpr (E::is.has_spring()) stiffness = element_.stiffness_at_rest();
+    if constexpr (!E::is.slips && E::is.states == 0)
+      damping = element_.torque(moving(Twist<double>{}, Dual<1>(0.0), Dual<1>::input(0.0, 0))).d[0];
+    if constexpr (E::is.slips) capacity = element_.capacity();
+    knows_torque_rate =
+        !E::is.slips && E::is.states == 0 && !E::is.uses_angle && !E::is.uses_speeds && !E::is.commanded;
+    own_states = own_states_of(element_);
+  }
+  Twist<Dual<1>> moving([[maybe_unused]] const Twist<double>& x, Dual<1> angle, Dual<1> rate) const {
+    Twist<Dual<1>> y{angle, rate};
+    if constexpr (Guarded<E>) y.mode = element_.first_mode(x);
+    return y;
+  }
+
+  Given given_;
+  E element_;
+};
+
+// From an element, or from a specification.
+template <class G>
+ConnectionForm connection_form(G given) {
+  if constexpr (requires { typename G::Element; })
+    return std::make_shared<ConnectionOf<typename G::Element, G>>(std::move(given));
+  else
+    return std::make_shared<ConnectionOf<G>>(std::move(given));
+}
+
+}  // namespace kurbel

@@ -1,0 +1,95 @@
+// any_shaft_element.h — a shaft element of any type, as a network holds it: what a model needs to know of it, as data
+// computed once from its traits.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/elements/any_connection.h"
+#include "engine/elements/pool_set.h"
+#include "engine/elements/shaft_pool.h"
+
+namespace kurbel {
+
+// Never changes after it is made. Mechanisms have forms of their own (mechanisms/reduced).
+class AnyShaftElement {
+ public:
+  virtual ~AnyShaftElement() = default;
+
+  // --- facts ---
+  ShaftTraits is;
+  Account account = Account::harmful;  // of its own work
+  Rated rated = {};
+  bool uses_time = true, uses_speed = true;    // its torque does
+  double angle_period = 2 * std::numbers::pi;  // its torque repeats after this angle of its own shaft [rad]
+  double time_period = 0;                      // its law over time repeats after this [s]; 0: it does not
+  double settled_from = -HUGE_VAL;             // a law over time without a period holds still from here on [s]
+  bool opens_at_zero = false;                  // told 0 it is off
+  std::vector<OwnState> own_states = {};
+  int modes = 1;                               // slots for them
+  double mean_inertia = 0, least_inertia = 0;  // of a mechanism over a turn, on its own shaft [kg·m²]
+  double cycle = 0;                            // angle of one cycle of a mechanism [rad]; 0: it is none
+  // Work accounts beyond its own ("press.load"); the pool uses the indices that follow.
+  std::vector<std::pair<std::string, Account>> further_accounts = {};
+
+  // --- laws ---
+  // I_r and I_r′ of a mechanism at an angle of its own (phase added) [rad], on its own shaft [kg·m²], [kg·m²/rad].
+  struct InertiaAt {
+    double value = 0, slope = 0;
+  };
+  virtual InertiaAt inertia_at(double /*angle*/) const { return {}; }
+  virtual std::string describe() const = 0;                // empty: nothing to say
+  virtual ShaftForm form_under(const Effects&) const = 0;  // null: this one
+  virtual void place(PoolSet&, const ShaftPorts&, const ShaftElementLabel&) const = 0;
+};
+
+template <class E>
+class ShaftElementOf final : public AnyShaftElement {
+  static_assert(demand_sound_shaft_element<E>());
+
+ public:
+  explicit ShaftElementOf(E element) : element_(std::move(element)) {
+    is = E::is;
+    if constexpr (E::is.account.has_value())
+      account = *E::is.account;
+    else
+      account = element_.work_account;
+    rated = element_.rated();
+    uses_time = element_.uses_time();
+    uses_speed = element_.uses_speed();
+    if constexpr (E::is.uses_angle) angle_period = element_.angle_period();
+    if constexpr (E::is.periodic) time_period = element_.time_period();
+    if constexpr (E::is.settles) settled_from = element_.settled_from();
+    if constexpr (E::is.commanded) opens_at_zero = element_.opens_at_zero();
+    own_states = own_states_of(element_);
+  }
+  std::string describe() const override {
+    if constexpr (E::is.described)
+      return element_.describe();
+    else
+      return {};
+  }
+  ShaftForm form_under([[maybe_unused]] const Effects& effects) const override {
+    if constexpr (E::is.other_forms)
+      return under(element_, effects);
+    else
+      return nullptr;
+  }
+  void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
+    pools.of<ShaftPool<E>>().place(element_, ports, label);
+  }
+
+ private:
+  E element_;
+};
+
+template <class E>
+ShaftForm shaft_form(E element) {
+  return std::make_shared<ShaftElementOf<E>>(std::move(element));
+}
+
+}  // namespace kurbel

@@ -1,0 +1,361 @@
+// sound.h — whether an element has the members that its traits promise, in their forms, and no others that a trait gives
+// a meaning to.
+//
+// So a member that is misspelt is missing, one whose trait was forgotten is found, and a misspelt trait is no member of
+// ConnectionTraits or ShaftTraits. What no trait knows (an element's own helpers) is free: C++20 cannot list members.
+// Where an element comes into a pool its type is checked; -fconcepts-diagnostics-depth=3 shows what is missing.
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "engine/elements/element.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+namespace sound {
+
+// Every name that belongs to a trait. A member of E with that name, whatever it is (function, overload, template, data,
+// private), makes &Free<E>::name ambiguous.
+struct Names {
+  int hold, capacity, spring_torque, energy, twist_at, stiffness_at_rest, turning_torque, rest_twist, rest_ratio;
+  int loss_power, guard, first_mode, next_mode, mode_name, rates, first_states, state, describe;
+  int work_account, angle_period, next_edge, mode_at, time_period, settled_from, stored, switched, opens_at_zero;
+  int turned_mode;  // of a load on a mechanism's output
+  // Traits are said in `is`; a member of that name says nothing.
+  int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, tells_loss;
+  int guards, regularised_mode, states, described, other_forms;
+  int account, directional, reversible, timed, periodic, settles, stores, feels_switching;
+};
+template <class E>
+struct Free : E, Names {};
+
+template <class E>
+concept SaysTraitsInIs = requires {
+  &Free<E>::slips;
+  &Free<E>::springless;
+  &Free<E>::commanded;
+  &Free<E>::uses_angle;
+  &Free<E>::uses_speeds;
+  &Free<E>::turns_unevenly;
+  &Free<E>::spring_takes_motion;
+  &Free<E>::tells_loss;
+  &Free<E>::guards;
+  &Free<E>::regularised_mode;
+  &Free<E>::states;
+  &Free<E>::described;
+  &Free<E>::other_forms;
+  &Free<E>::account;
+  &Free<E>::directional;
+  &Free<E>::reversible;
+  &Free<E>::timed;
+  &Free<E>::periodic;
+  &Free<E>::settles;
+  &Free<E>::stores;
+  &Free<E>::feels_switching;
+};
+
+// --- of either; X: its local motion, D: the same in dual numbers ---
+template <class E, class X, class D>
+concept Torque = requires(const E& e, const X& x, const D& dual) {
+  { e.torque(x) } -> std::same_as<double>;
+  { e.torque(dual) } -> std::same_as<Dual<1>>;
+};
+template <class E, class X>
+concept Guards = (E::is.guards > 0 &&
+                  requires(const E& e, const X& x, double* g) {
+                    { e.guard(x, g) } -> std::same_as<void>;
+                    { e.first_mode(x) } -> std::same_as<int>;
+                    { e.next_mode(x, 0) } -> std::same_as<int>;
+                    { e.mode_name(0) } -> std::same_as<std::string>;
+                  }) ||
+                 (E::is.guards == 0 && !E::is.regularised_mode && requires {
+                   &Free<E>::guard;
+                   &Free<E>::first_mode;
+                   &Free<E>::next_mode;
+                   &Free<E>::mode_name;
+                 });
+template <class E, class X, class D>
+concept States = (E::is.states > 0 &&
+                  requires(const E& e, const X& x, const D& dual, double* own, Dual<1>* rate) {
+                    { e.rates(x, own) } -> std::same_as<void>;
+                    { e.rates(dual, rate) } -> std::same_as<void>;
+                    { e.first_states(x, own) } -> std::same_as<void>;
+                    { e.state(0) } -> std::same_as<OwnState>;
+                  }) ||
+                 (E::is.states == 0 && requires {
+                   &Free<E>::rates;
+                   &Free<E>::first_states;
+                   &Free<E>::state;
+                 });
+template <class E>
+concept Described = (E::is.described &&
+                     requires(const E& e) {
+                       { e.describe() } -> std::convertible_to<std::string>;
+                     }) ||
+                    (!E::is.described && requires { &Free<E>::describe; });
+template <class E, class Form>
+concept FindsForms = requires(const E& e, const Effects& effects) {
+  { under(e, effects) } -> std::same_as<Form>;
+};
+template <class E, class Form>
+concept OtherForms = E::is.other_forms == FindsForms<E, Form>;
+
+// --- of a connection ---
+template <class E>
+concept Slips = (E::is.slips && !E::is.springless &&
+                 requires(const E& e, const Twist<double>& x) {
+                   { e.hold(x) } -> std::same_as<Hold>;
+                   { e.capacity() } -> std::same_as<double>;
+                 }) ||
+                (!E::is.slips && requires {
+                  &Free<E>::hold;
+                  &Free<E>::capacity;
+                });
+template <class E>
+concept Spring = (E::is.has_spring() &&
+                  requires(const E& e) {
+                    { e.twist_at(1.0) } -> std::same_as<double>;
+                    { e.stiffness_at_rest() } -> std::same_as<double>;
+                  }) ||
+                 (!E::is.has_spring() && requires {
+                   &Free<E>::twist_at;
+                   &Free<E>::stiffness_at_rest;
+                   &Free<E>::spring_torque;
+                   &Free<E>::energy;
+                 });
+template <class E>
+concept SpringOfMotion = E::is.spring_takes_motion&& E::is.has_spring() &&
+                         requires(const E& e, const Twist<double>& x) {
+  { e.spring_torque(x) } -> std::same_as<double>;
+  { e.energy(x) } -> std::same_as<double>;
+};
+template <class E>
+concept SpringOfTwist = !E::is.spring_takes_motion && E::is.states == 0 && !E::is.uses_angle && requires(const E& e) {
+  { e.spring_torque(1.0) } -> std::same_as<double>;
+  { e.energy(1.0) } -> std::same_as<double>;
+};
+template <class E>
+concept SpringTakes = SpringOfMotion<E> || SpringOfTwist<E> ||(!E::is.has_spring() && !E::is.spring_takes_motion);
+template <class E>
+concept TellsLoss = (E::is.tells_loss && E::is.has_spring() &&
+                     requires(const E& e, const Twist<double>& x) {
+                       { e.loss_power(x) } -> std::same_as<double>;
+                     }) ||
+                    (!E::is.tells_loss && E::is.states == 0 && requires { &Free<E>::loss_power; });
+template <class E>
+concept UsesAngle = (E::is.uses_angle &&
+                     requires(const E& e, const Twist<double>& x, const Twist<Dual<1>>& dual) {
+                       { e.turning_torque(x) } -> std::same_as<double>;
+                       { e.turning_torque(dual) } -> std::same_as<Dual<1>>;
+                     }) ||
+                    (!E::is.uses_angle && requires { &Free<E>::turning_torque; });
+template <class E>
+concept TurnsUnevenly = (E::is.turns_unevenly && E::is.uses_angle &&
+                         requires(const E& e) {
+                           { e.rest_twist(1.0) } -> std::same_as<double>;
+                           { e.rest_ratio(1.0) } -> std::same_as<double>;
+                         }) ||
+                        (!E::is.turns_unevenly && requires {
+                          &Free<E>::rest_twist;
+                          &Free<E>::rest_ratio;
+                        });
+template <class E>
+concept OfNoShaftElement = requires {
+  &Free<E>::work_account;
+  &Free<E>::angle_period;
+  &Free<E>::next_edge;
+  &Free<E>::mode_at;
+  &Free<E>::time_period;
+  &Free<E>::settled_from;
+  &Free<E>::stored;
+  &Free<E>::switched;
+  &Free<E>::opens_at_zero;
+};
+
+// --- of a shaft element ---
+template <class E>
+concept Always = requires(const E& e) {
+  { e.rated() } -> std::same_as<Rated>;
+  { e.uses_time() } -> std::same_as<bool>;
+  { e.uses_speed() } -> std::same_as<bool>;
+};
+template <class E>
+concept HasAccount = (E::is.account.has_value() && requires { &Free<E>::work_account; }) ||
+                     (!E::is.account.has_value() && requires(const E& e) {
+                       { (e.work_account) } -> std::same_as<const Account&>;
+                     });
+template <class E>
+concept Directional = (E::is.directional &&
+                       requires(const E& e, const ShaftState<double>& x) {
+                         { e.hold(x) } -> std::same_as<Hold>;
+                       }) ||
+                      (!E::is.directional && requires { &Free<E>::hold; });
+template <class E>
+concept Commanded = (E::is.commanded &&
+                     requires(const E& e) {
+                       { e.opens_at_zero() } -> std::same_as<bool>;
+                     }) ||
+                    (!E::is.commanded && !E::is.reversible && requires { &Free<E>::opens_at_zero; });
+template <class E>
+concept HasPeriodOfAngle = (E::is.uses_angle &&
+                            requires(const E& e) {
+                              { e.angle_period() } -> std::same_as<double>;
+                            }) ||
+                           (!E::is.uses_angle && requires { &Free<E>::angle_period; });
+template <class E>
+concept Timed = (E::is.timed &&
+                 requires(const E& e) {
+                   { e.next_edge(0.0) } -> std::same_as<double>;
+                   { e.mode_at(0.0) } -> std::same_as<int>;
+                 }) ||
+                (!E::is.timed && requires {
+                  &Free<E>::next_edge;
+                  &Free<E>::mode_at;
+                });
+template <class E>
+concept Periodic = (E::is.periodic &&
+                    requires(const E& e) {
+                      { e.time_period() } -> std::same_as<double>;
+                    }) ||
+                   (!E::is.periodic && requires { &Free<E>::time_period; });
+template <class E>
+concept Settles = (E::is.settles &&
+                   requires(const E& e) {
+                     { e.settled_from() } -> std::same_as<double>;
+                   }) ||
+                  (!E::is.settles && requires { &Free<E>::settled_from; });
+template <class E>
+concept Stores = (E::is.stores && E::is.states > 0 &&
+                  requires(const E& e, const ShaftState<double>& x, const double* own) {
+                    { e.stored(own) } -> std::same_as<double>;
+                    { e.loss_power(x) } -> std::same_as<double>;
+                  }) ||
+                 (!E::is.stores && requires {
+                   &Free<E>::stored;
+                   &Free<E>::loss_power;
+                 });
+template <class E>
+concept FeelsSwitching = (E::is.feels_switching && E::is.states > 0 &&
+                          requires(const E& e, const ShaftState<double>& x, double* own) {
+                            { e.switched(x, own) } -> std::same_as<void>;
+                          }) ||
+                         (!E::is.feels_switching && requires { &Free<E>::switched; });
+template <class E>
+concept OfNoConnection = requires {
+  &Free<E>::capacity;
+  &Free<E>::spring_torque;
+  &Free<E>::energy;
+  &Free<E>::twist_at;
+  &Free<E>::stiffness_at_rest;
+  &Free<E>::turning_torque;
+  &Free<E>::rest_twist;
+  &Free<E>::rest_ratio;
+};
+
+template <class E, class Traits>
+concept SaysWhatItIs = std::same_as<std::remove_cvref_t<decltype(E::is)>, Traits>;
+
+}  // namespace sound
+
+template <class E>
+concept SoundConnection = sound::SaysWhatItIs<E, ConnectionTraits> && sound::SaysTraitsInIs<E> &&
+    sound::Torque<E, Twist<double>, Twist<Dual<1>>> && sound::Slips<E> && sound::Spring<E> && sound::SpringTakes<E> &&
+    sound::TellsLoss<E> && sound::UsesAngle<E> && sound::TurnsUnevenly<E> && sound::Guards<E, Twist<double>> &&
+    sound::States<E, Twist<double>, Twist<Dual<1>>> && sound::Described<E> && sound::OtherForms<E, ConnectionForm> &&
+    sound::OfNoShaftElement<E>;
+
+template <class E>
+concept SoundShaftElement = sound::SaysWhatItIs<E, ShaftTraits> && sound::SaysTraitsInIs<E> &&
+    sound::Torque<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Always<E> && sound::HasAccount<E> &&
+    sound::Directional<E> && sound::Commanded<E> && sound::HasPeriodOfAngle<E> && sound::Timed<E> &&
+    sound::Periodic<E> && sound::Settles<E> && sound::Guards<E, ShaftState<double>> &&
+    sound::States<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Stores<E> && sound::FeelsSwitching<E> &&
+    sound::Described<E> && sound::OtherForms<E, ShaftForm> && sound::OfNoConnection<E>;
+
+// What settles into a connection.
+template <class S>
+concept SoundSpecification = requires(const S& given) {
+  typename S::Element;
+  { given.settled(1.0) } -> std::same_as<typename S::Element>;
+}
+&&sound::FindsForms<S, ConnectionForm> == requires { requires S::other_forms; };
+
+// What both kinds are told, in words.
+template <class E, class X, class D>
+consteval void demand_common() {
+  static_assert(sound::SaysTraitsInIs<E>, "a trait stands beside `is`: say it in `is`, as .slips = true");
+  static_assert(sound::Torque<E, X, D>,
+                "an element has template <class T> T torque(const Twist<T>&) const, of a shaft "
+                "element const ShaftState<T>&");
+  static_assert(sound::Guards<E, X>,
+                ".guards = n goes with guard(x, double*), first_mode(x), next_mode(x, int) and "
+                "mode_name(int), all const; and .regularised_mode with .guards");
+  static_assert(sound::States<E, X, D>,
+                ".states = n goes with template rates(x, T*), first_states(x, double*) and "
+                "state(int), all const");
+  static_assert(sound::Described<E>, ".described goes with std::string describe() const");
+}
+
+template <class E>
+consteval bool demand_sound_connection() {
+  static_assert(sound::SaysWhatItIs<E, ConnectionTraits>,
+                "a connection says what it is: static constexpr ConnectionTraits is{…}");
+  demand_common<E, Twist<double>, Twist<Dual<1>>>();
+  static_assert(sound::Slips<E>,
+                ".slips goes with Hold hold(const Twist<double>&) const and double capacity() const, "
+                "and not with .springless");
+  static_assert(sound::Spring<E>,
+                "a connection has double twist_at(double) const, double stiffness_at_rest() const, "
+                "spring_torque and energy, unless it .slips or is .springless");
+  static_assert(sound::SpringTakes<E>,
+                "double spring_torque(x) const and double energy(x) const take the twist, or "
+                "with .spring_takes_motion, always with .states or .uses_angle, the motion");
+  static_assert(sound::TellsLoss<E>, ".tells_loss, always with .states, goes with double loss_power(x) const");
+  static_assert(sound::UsesAngle<E>,
+                ".uses_angle goes with template <class T> T turning_torque(const Twist<T>&) const");
+  static_assert(sound::TurnsUnevenly<E>,
+                ".turns_unevenly, with .uses_angle, goes with double rest_twist(double) const "
+                "and double rest_ratio(double) const");
+  static_assert(sound::OtherForms<E, ConnectionForm>,
+                ".other_forms goes with ConnectionForm under(const E&, const Effects&)");
+  static_assert(sound::OfNoShaftElement<E>, "this member belongs to a trait of shaft elements");
+  return true;
+}
+
+template <class E>
+consteval bool demand_sound_shaft_element() {
+  static_assert(sound::SaysWhatItIs<E, ShaftTraits>,
+                "a shaft element says what it is: static constexpr ShaftTraits is{…}");
+  demand_common<E, ShaftState<double>, ShaftState<Dual<1>>>();
+  static_assert(sound::Always<E>,
+                "a shaft element has Rated rated() const, bool uses_time() const and bool uses_speed() "
+                "const");
+  static_assert(sound::HasAccount<E>, "a shaft element has either .account = … or a member Account work_account");
+  static_assert(sound::Directional<E>, ".directional goes with Hold hold(const ShaftState<double>&) const");
+  static_assert(sound::Commanded<E>,
+                ".commanded goes with bool opens_at_zero() const, and .reversible with .commanded");
+  static_assert(sound::HasPeriodOfAngle<E>, ".uses_angle goes with double angle_period() const");
+  static_assert(sound::Timed<E>, ".timed goes with double next_edge(double) const and int mode_at(double) const");
+  static_assert(sound::Periodic<E>, ".periodic goes with double time_period() const");
+  static_assert(sound::Settles<E>, ".settles goes with double settled_from() const");
+  static_assert(sound::Stores<E>,
+                ".stores, with .states, goes with double stored(const double*) const and double "
+                "loss_power(x) const");
+  static_assert(sound::FeelsSwitching<E>, ".feels_switching, with .states, goes with void switched(x, double*) const");
+  static_assert(sound::OtherForms<E, ShaftForm>, ".other_forms goes with ShaftForm under(const E&, const Effects&)");
+  static_assert(sound::OfNoConnection<E>, "this member belongs to a trait of connections");
+  return true;
+}
+
+template <class S>
+consteval bool demand_sound_specification() {
+  static_assert(SoundSpecification<S>,
+                "a specification has using Element = E, E settled(double) const, and with "
+                "other_forms = true ConnectionForm under(const S&, const Effects&)");
+  return true;
+}
+
+}  // namespace kurbel
