@@ -37,6 +37,10 @@ std::vector<double> values_of(const FourBarData& d) {
   return values;
 }
 
+LinkageDrawing drawing_of(const FourBarData& d) {
+  return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3, true};
+}
+
 std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& d) {
   throw_if_any("four-bar", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("four-bar");

@@ -28,6 +28,7 @@ struct FourBarData {
 
 DataFaults faults_of(const FourBarData& data);
 std::vector<double> values_of(const FourBarData& data);  // all of them
+LinkageDrawing drawing_of(const FourBarData& data);
 
 // Bodies: crank, coupler, rocker. Joints: O, A, B, D. Throws std::invalid_argument with the first fault.
 std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& data);

@@ -102,6 +102,15 @@ std::vector<double> values_of(const KnucklePressData& d) {
   return values;
 }
 
+LinkageDrawing drawing_of(const KnucklePressData& d) {
+  return {"Knuckle press",
+          d.stroke_angle,
+          {{"link", {1, 2}}, {"link", {3, 2}}, {"link", {2, 4}}, {"slider", {4}}, {"crank", {0, 1}}},
+          {0, 3},
+          4,
+          false};
+}
+
 std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) {
   throw_if_any("knuckle press", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("knuckle press");

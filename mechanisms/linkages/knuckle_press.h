@@ -34,6 +34,7 @@ struct KnucklePressData {
 
 DataFaults faults_of(const KnucklePressData& data);
 std::vector<double> values_of(const KnucklePressData& data);  // all of them
+LinkageDrawing drawing_of(const KnucklePressData& data);
 
 // Bodies: crank, rod, upper link, lower link with the ram's mass at its end. Joints: O, A, K, G, ram's pin. Throws
 // std::invalid_argument with the first fault.

@@ -31,6 +31,20 @@ struct PlanePoint {
   double x, y;  // [m]
 };
 
+// How a mechanism is drawn by its joints (MechanismBodies::joints), and whether its output slides or rocks.
+struct LinkageDrawing {
+  struct Link {
+    std::string shape;  // "crank", "link", "slot": a line; "slider" on a joint; "block" on a joint, along the next
+    std::vector<int> joints;  // that it goes through
+  };
+  std::string name;
+  double direction = 0;     // of +x above the horizontal [rad]
+  std::vector<Link> links;  // in the order of drawing
+  std::vector<int> fixed;   // joints that are bearings in the frame
+  int output = 0;           // joint that the load is shown at
+  bool rocks = false;       // the output is an angle
+};
+
 // Simbody's model of a mechanism, sampled one configuration at a time. Costs some 20 µs a sample; not thread-safe.
 // Every member throws std::runtime_error with the numbers if a loop does not close or closes on the wrong branch.
 class MechanismBodies {

@@ -77,6 +77,15 @@ std::vector<double> values_of(const QuickReturnData& d) {
   return values;
 }
 
+LinkageDrawing drawing_of(const QuickReturnData& d) {
+  return {"Quick-return",
+          d.stroke_angle,
+          {{"slot", {2, 1}}, {"link", {2, 3}}, {"link", {3, 4}}, {"slider", {4}}, {"crank", {0, 1}}, {"block", {1, 2}}},
+          {0, 2},
+          4,
+          false};
+}
+
 std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& d) {
   throw_if_any("quick-return", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("quick-return");

@@ -41,6 +41,7 @@ struct QuickReturnData {
 
 DataFaults faults_of(const QuickReturnData& data);
 std::vector<double> values_of(const QuickReturnData& data);  // all of them
+LinkageDrawing drawing_of(const QuickReturnData& data);
 
 // Bodies: crank, lever, block, link with the ram's mass at its end. Joints: O, A, P, E, ram's pin. Throws
 // std::invalid_argument with the first fault.

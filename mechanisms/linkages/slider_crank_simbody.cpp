@@ -50,6 +50,10 @@ std::vector<double> values_of(const SliderCrankData& d) {
           d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
 }
 
+LinkageDrawing drawing_of(const SliderCrankData& d) {
+  return {"Slider-crank", d.stroke_angle, {{"link", {1, 2}}, {"slider", {2}}, {"crank", {0, 1}}}, {0}, 2, false};
+}
+
 std::unique_ptr<MechanismBodies> make_bodies(const SliderCrankData& data) {
   return sampled(std::make_unique<SliderCrankSystem>(data));
 }

@@ -10,6 +10,7 @@
 namespace kurbel {
 
 std::vector<double> values_of(const SliderCrankData& data);  // all of them
+LinkageDrawing drawing_of(const SliderCrankData& data);
 
 // Bodies: crank, rod. Joints: crank axis, crank pin, slider pin. Throws std::invalid_argument for data outside its
 // domain.

@@ -2,8 +2,8 @@
 #include "mechanisms/reduced/closed_forms.h"
 
 #include <cmath>
-#include <variant>
 
+#include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/reduced/taylor.h"
 
 namespace kurbel {
@@ -164,7 +164,7 @@ ClosedForm closed_form(const KnucklePressData& m, long double phi) {
 }
 
 ReducedSample closed_sample(const MechanismData& data, double phi) {
-  const ClosedForm f = std::visit([&](const auto& d) { return closed_form(d, phi); }, data);
+  const ClosedForm f = data.closed_form(phi);
   const auto rounded = [](long double value) { return static_cast<double>(value); };
   return {rounded(f.inertia),
           rounded(f.inertia_slope),

@@ -5,8 +5,11 @@
 // Derivatives by Taylor series, I_r and M_g by theory 2.1 and 2.2 over all links.
 #pragma once
 
+#include "mechanisms/linkages/four_bar.h"
+#include "mechanisms/linkages/knuckle_press.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
-#include "mechanisms/reduced/mechanism_data.h"
+#include "mechanisms/linkages/quick_return.h"
+#include "mechanisms/linkages/slider_crank_simbody.h"
 
 namespace kurbel {
 
@@ -23,8 +26,5 @@ ClosedForm closed_form(const SliderCrankData& data, long double phi);
 ClosedForm closed_form(const FourBarData& data, long double phi);
 ClosedForm closed_form(const QuickReturnData& data, long double phi);
 ClosedForm closed_form(const KnucklePressData& data, long double phi);
-
-// Rounded to double; costs 1 … 3 µs. The branch is right by construction: closure_determinant is 1.
-ReducedSample closed_sample(const MechanismData& data, double phi);
 
 }  // namespace kurbel

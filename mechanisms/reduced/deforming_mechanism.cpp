@@ -42,7 +42,7 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
 // Scales: gaps, a ten thousandth of the length for bending, and a hundredth of that for stretching; rates by what an
 // impact of that depth or a vibration of that amplitude has.
 std::vector<OwnState> own_states_of(const Mechanism& m, const RodModes& rod) {
-  const auto& data = std::get<SliderCrankData>(m.data);
+  const SliderCrankData& data = *m.data.as<SliderCrankData>();
   struct Name {
     std::string name, unit;
     double scale, rate_scale;
@@ -101,8 +101,8 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
           "{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; take kind "
           "\"medium\", or switch the effect off",
           what, load.name));
-  dynamics_ = std::make_shared<const SliderCrankDynamics>(std::get<SliderCrankData>(m.data), m.clearances,
-                                                          m.flexibility, m.weightless);
+  dynamics_ = std::make_shared<const SliderCrankDynamics>(*m.data.as<SliderCrankData>(), m.clearances, m.flexibility,
+                                                          m.weightless);
   constexpr int n = 64;
   least_inertia = HUGE_VAL;
   for (int i = 0; i < n; ++i)
@@ -142,8 +142,8 @@ std::string DeformingMechanismElement::describe() const {
 std::size_t further_coordinates(const Model& model) {
   std::size_t sum = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const DeformingMechanismElement*>(e.element.get()))
-      sum += maker->dynamics().free().size() - 1;
+    if (const MechanismElement* element = mechanism_of(e); element && element->dynamics())
+      sum += element->dynamics()->free().size() - 1;
   return sum;
 }
 

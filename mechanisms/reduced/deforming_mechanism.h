@@ -19,7 +19,7 @@ class DeformingMechanismElement final : public MechanismElement {
   // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
   explicit DeformingMechanismElement(Mechanism mechanism);
 
-  const SliderCrankDynamics& dynamics() const { return *dynamics_; }
+  const SliderCrankDynamics* dynamics() const override { return dynamics_.get(); }
 
   std::string describe() const override;
   ShaftForm form_under(const Effects&) const override { return nullptr; }

@@ -58,7 +58,7 @@ Mechanism::Mechanism(std::string component, const MechanismData& what, Extractio
       data(what),
       extraction(from),
       reduced(reduce_mechanism(what, table_tolerance, table_max_pieces, from)),
-      bodies(make_bodies(what)),
+      bodies(what.make_bodies()),
       travel(travel_of_turn(*reduced)) {}
 
 Mechanism Mechanism::extracted_from(Extraction from) const {
@@ -77,11 +77,9 @@ Mechanism Mechanism::extracted_from(Extraction from) const {
   return other;
 }
 
-namespace {
 const MechanismElement* mechanism_of(const Network::ShaftElement& element) {
   return dynamic_cast<const MechanismElement*>(element.element.get());
 }
-}  // namespace
 
 Network extracted_from(Network network, Extraction from) {
   for (Network::ShaftElement& e : network.elements)
@@ -94,9 +92,7 @@ bool has_tables(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(), mechanism_of);
 }
 
-bool Mechanism::has_weight() const {
-  return !weightless && std::visit([](const auto& d) { return d.gravity != 0; }, data);
-}
+bool Mechanism::has_weight() const { return !weightless && data.gravity() != 0; }
 
 MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(mechanism)) {
   const auto& loads = mechanism_.loads;

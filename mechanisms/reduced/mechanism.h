@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "engine/elements/any_shaft_element.h"
+#include "engine/model/network.h"
 #include "mechanisms/loads/slider_loads.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
 #include "mechanisms/slider_crank/slider_crank_dynamics.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
-
-class Network;
 
 // What a turn of the crank does, read off the tables.
 struct TravelOfTurn {
@@ -47,7 +46,7 @@ struct Mechanism {
   std::vector<JointClearance> clearances = {};       // of a slider-crank, as the scene gives them
   std::optional<RodFlexibility> flexibility = {};    // of its rod
 
-  bool rocks() const { return std::holds_alternative<FourBarData>(data); }  // the output is an angle
+  bool rocks() const { return data.rocks(); }  // the output is an angle
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
   double output_scale() const { return 0.5 * stroke(); }  // of x′
@@ -69,6 +68,8 @@ class MechanismElement : public AnyShaftElement {
  public:
   explicit MechanismElement(Mechanism mechanism);
   const Mechanism& mechanism() const { return mechanism_; }
+  // Of one whose joints have clearance or whose rod bends; else null.
+  virtual const SliderCrankDynamics* dynamics() const { return nullptr; }
 
   InertiaAt inertia_at(double angle) const override {
     if (mechanism_.mean_inertia) return {mechanism_.travel.mean_inertia, 0};
@@ -82,6 +83,9 @@ class MechanismElement : public AnyShaftElement {
  private:
   Mechanism mechanism_;
 };
+
+// Null for elements of other kinds.
+const MechanismElement* mechanism_of(const Network::ShaftElement& element);
 
 // Modes of a placed mechanism: the sign of x′ first, then the piece of each load.
 class MechanismPool final : public ElementPool {

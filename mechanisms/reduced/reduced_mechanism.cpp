@@ -58,13 +58,12 @@ ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(dou
   return noise;
 }
 
-using CacheKey = std::vector<double>;
+using CacheKey = std::pair<std::type_index, std::vector<double>>;
 
 CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_pieces, Extraction extraction) {
-  CacheKey key = std::visit([](const auto& d) { return values_of(d); }, data);
-  key.insert(key.end(), {static_cast<double>(data.index()), tolerance, static_cast<double>(max_pieces),
-                         static_cast<double>(extraction)});
-  return key;
+  std::vector<double> values = data.values();
+  values.insert(values.end(), {tolerance, static_cast<double>(max_pieces), static_cast<double>(extraction)});
+  return {data.kind(), std::move(values)};
 }
 
 // Tables that were asked for lately. Each is made once, without a lock: who asks for another one does not wait.
@@ -133,7 +132,7 @@ ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
-  const std::unique_ptr<MechanismBodies> bodies = make_bodies(data);  // finds the data's faults in either case
+  const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();  // finds the data's faults in either case
   const bool first = extraction == Extraction::first;
   const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
   return ReducedMechanism(sampler, noise_scales(sampler), first ? tolerance : second_tolerance * tolerance, max_pieces,
@@ -144,7 +143,7 @@ std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& da
                                                          std::size_t max_pieces, Extraction extraction) {
   if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::second;
   const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
-  for (const double value : key)
+  for (const double value : key.second)
     if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key
   static TableCache cache;
   return cache.get(key, [&] {

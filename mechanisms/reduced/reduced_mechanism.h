@@ -79,11 +79,6 @@ class ReducedMechanism {
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 
-// Simbody's model of any mechanism. Throws std::invalid_argument for data outside its domain.
-inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) {
-  return std::visit([](const auto& d) { return make_bodies(d); }, data);
-}
-
 // The second extraction: no seam is one of the first's, the polynomials are of another degree, and its errors so far
 // below the first's that the difference of two runs is the first's.
 inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};

@@ -54,8 +54,7 @@ void add_parts(MachineView& view, const Model& model) {
     part.ratio_in = model.node_ratio[at(ports.in)];
     part.ratio_out = model.node_ratio[at(ports.out)];
     for (const Network::ShaftElement& element : model.network.elements)
-      part.crank =
-          part.crank || (element.component == name && dynamic_cast<const MechanismElement*>(element.element.get()));
+      part.crank = part.crank || (element.component == name && mechanism_of(element));
     for (const ElasticJoint& joint : model.elastic)
       part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
     view.parts.push_back(std::move(part));
@@ -72,44 +71,16 @@ void add_parts(MachineView& view, const Model& model) {
   }
 }
 
-// How the joints of each mechanism are joined up; see its make_bodies for their order.
-struct Joined {
-  std::string name;
-  double direction;
-  std::vector<MachineView::Linkage::Link> links;
-  std::vector<int> fixed;
-  int output;
-};
-Joined joined(const SliderCrankData& d) {
-  return {"Slider-crank", d.stroke_angle, {{"link", {1, 2}}, {"slider", {2}}, {"crank", {0, 1}}}, {0}, 2};
-}
-Joined joined(const FourBarData& d) {
-  return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3};
-}
-Joined joined(const QuickReturnData& d) {
-  return {"Quick-return",
-          d.stroke_angle,
-          {{"slot", {2, 1}}, {"link", {2, 3}}, {"link", {3, 4}}, {"slider", {4}}, {"crank", {0, 1}}, {"block", {1, 2}}},
-          {0, 2},
-          4};
-}
-Joined joined(const KnucklePressData& d) {
-  return {"Knuckle press",
-          d.stroke_angle,
-          {{"link", {1, 2}}, {"link", {3, 2}}, {"link", {2, 4}}, {"slider", {4}}, {"crank", {0, 1}}},
-          {0, 3},
-          4};
-}
-
 MachineView::Linkage linkage_of(const Mechanism& mechanism) {
-  Joined how = std::visit([](const auto& d) { return joined(d); }, mechanism.data);
-  MachineView::Linkage linkage{.name = how.name,
-                               .direction = how.direction,
+  const LinkageDrawing drawing = mechanism.data.drawing();
+  MachineView::Linkage linkage{.name = drawing.name,
+                               .direction = drawing.direction,
                                .x = {},
                                .y = {},
-                               .links = std::move(how.links),
-                               .fixed = std::move(how.fixed),
-                               .output = how.output};
+                               .links = {},
+                               .fixed = drawing.fixed,
+                               .output = drawing.output};
+  for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
   for (int i = 0; i <= places_of_turn; ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
     const std::vector<PlanePoint> joints = mechanism.bodies->joints(angle + mechanism.phase);
@@ -162,9 +133,8 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
-    if (const auto* maker =
-            dynamic_cast<const MechanismElement*>(model.network.elements[at(model.reduction_element)].element.get()))
-      view.linkage = linkage_of(maker->mechanism());
+    if (const auto* element = mechanism_of(model.network.elements[at(model.reduction_element)]))
+      view.linkage = linkage_of(element->mechanism());
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());

@@ -23,7 +23,7 @@ const MechanismElement* only_mechanism(const Model& model) {
   const MechanismElement* found = nullptr;
   int count = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const MechanismElement*>(e.element.get())) {
+    if (const MechanismElement* maker = mechanism_of(e)) {
       found = maker;
       ++count;
     }
@@ -94,9 +94,9 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     throw SceneError({{model.scene.file, settings.model_at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
-  if (!mechanism || !std::holds_alternative<SliderCrankData>(mechanism->mechanism().data))
+  if (!mechanism || !mechanism->mechanism().data.as<SliderCrankData>())
     refuse("needs exactly one slider-crank, and no other mechanism");
-  if (dynamic_cast<const DeformingMechanismElement*>(mechanism))
+  if (mechanism->dynamics())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");
@@ -106,7 +106,7 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   const std::vector<double> start = equations.start(0);
 
   MultibodyProblem problem;
-  problem.mechanism = std::get<SliderCrankData>(crank.data);
+  problem.mechanism = *crank.data.as<SliderCrankData>();
   problem.shaft_inertia = model.shafts.front().inertia;
   const auto phi_now = std::make_shared<double>(0);
   problem.shaft_torque = [torque, phi_now, phase = crank.phase, &options](double t, double phi, double omega) {

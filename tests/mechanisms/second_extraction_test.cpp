@@ -164,8 +164,7 @@ TEST(SecondExtraction, TwoRunsDifferByTheTrueErrorNearTheChangePoint) {
     SliderCrankData data;
     for (const Extraction from : {Extraction::first, Extraction::second}) {
       const auto model = compiled(scene, from);
-      data = std::get<SliderCrankData>(
-          dynamic_cast<const MechanismElement&>(*model->network.elements.front().element).mechanism().data);
+      data = *mechanism_of(model->network.elements.front())->mechanism().data.as<SliderCrankData>();
       SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .progress = {}};
       options.first_tolerance = 1e-14;
       const Result r = simulate(model, "free", options);
