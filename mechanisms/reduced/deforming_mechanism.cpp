@@ -142,8 +142,8 @@ std::string DeformingMechanismElement::describe() const {
 std::size_t further_coordinates(const Model& model) {
   std::size_t sum = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const DeformingMechanismElement*>(e.element.get()))
-      sum += maker->dynamics().free().size() - 1;
+    if (const auto* element = dynamic_cast<const DeformingMechanismElement*>(e.element.get()))
+      sum += element->dynamics().free().size() - 1;
   return sum;
 }
 

@@ -219,10 +219,10 @@ class Screening {
         fastest = std::max(fastest, std::abs(f.value));
     std::vector<Screen> screens;
     for (const Network::ShaftElement& e : full_.model->network.elements) {
-      const auto* maker = dynamic_cast<const DeformingMechanismElement*>(e.element.get());
-      if (!maker || maker->dynamics().rod().bending == 0) continue;
+      const auto* element = dynamic_cast<const DeformingMechanismElement*>(e.element.get());
+      if (!element || element->dynamics().rod().bending == 0) continue;
       const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
-      const double ratio = maker->dynamics().rod().frequency(1) / std::max(crank, 1e-300);
+      const double ratio = element->dynamics().rod().frequency(1) / std::max(crank, 1e-300);
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
       screens.push_back(
           {"rod frequency", ratio,

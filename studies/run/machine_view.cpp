@@ -162,9 +162,9 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
-    if (const auto* maker =
+    if (const auto* element =
             dynamic_cast<const MechanismElement*>(model.network.elements[at(model.reduction_element)].element.get()))
-      view.linkage = linkage_of(maker->mechanism());
+      view.linkage = linkage_of(element->mechanism());
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());

@@ -23,8 +23,8 @@ const MechanismElement* only_mechanism(const Model& model) {
   const MechanismElement* found = nullptr;
   int count = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const auto* maker = dynamic_cast<const MechanismElement*>(e.element.get())) {
-      found = maker;
+    if (const auto* element = dynamic_cast<const MechanismElement*>(e.element.get())) {
+      found = element;
       ++count;
     }
   return count == 1 ? found : nullptr;
