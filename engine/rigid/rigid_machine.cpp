@@ -97,8 +97,8 @@ double RigidMachine::constant_inertia() const { return model_->shafts[0].inertia
 // I = Σ i² I_own(i φ + ψ),  I′ = Σ i³ I′_own with i = ω_own/ω
 RigidMachine::Inertia RigidMachine::mechanism_inertia(double phi) const {
   Inertia sum;
-  for (const auto& [maker, ratio, phase] : mechanisms_) {
-    const auto own = maker->inertia_at(ratio * phi + phase);
+  for (const auto& [element, ratio, phase] : mechanisms_) {
+    const auto own = element->inertia_at(ratio * phi + phase);
     sum.value += ratio * ratio * own.value;
     sum.slope += ratio * ratio * ratio * own.slope;
   }

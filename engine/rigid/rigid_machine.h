@@ -66,7 +66,7 @@ class RigidMachine {
 
  private:
   struct Mechanism {
-    const AnyShaftElement* maker;  // belongs to the model
+    const AnyShaftElement* element;  // belongs to the model
     double ratio, phase;           // own angle = ratio · φ + phase
   };
   class EdgeSearch;

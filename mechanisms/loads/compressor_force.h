@@ -19,6 +19,7 @@
 
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
+#include "mechanisms/loads/load_traits.h"
 #include "mechanisms/loads/slider_state.h"
 
 namespace kurbel {

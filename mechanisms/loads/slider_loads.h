@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,10 +15,10 @@
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"
 #include "engine/elements/piece_guard.h"
-#include "engine/elements/sound.h"
 #include "engine/numerics/curve.h"
 #include "engine/numerics/dual.h"
 #include "mechanisms/loads/compressor_force.h"
+#include "mechanisms/loads/load_traits.h"
 #include "mechanisms/loads/rounded_profile.h"
 #include "mechanisms/loads/slider_state.h"
 
@@ -257,54 +256,6 @@ struct RoundedTableForce {
     if (more <= 0) return {};
     return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
   }
-};
-
-// Whether a load has the members that its traits promise, and no others that a trait gives a meaning to (sound.h).
-namespace sound {
-template <class L>
-concept Value = requires(const L& l, const SliderState<double>& s, const SliderState<Dual<1>>& dual) {
-  { l.value(s) } -> std::same_as<double>;
-  { l.value(dual) } -> std::same_as<Dual<1>>;
-  { l.uses_speed() } -> std::same_as<bool>;
-};
-template <class L>
-concept Holds = (L::is.holds &&
-                 requires(const L& l, const SliderState<double>& s) {
-                   { l.hold(s) } -> std::same_as<Hold>;
-                 }) ||
-                (!L::is.holds && !L::is.opposes && requires { &Free<L>::hold; });
-template <class L>
-concept InPieces = (L::is.in_pieces &&
-                    requires(const L& l, const SliderState<double>& s, double* g) {
-                      { l.guard(s, g) } -> std::same_as<void>;
-                      { l.first_mode(s) } -> std::same_as<int>;
-                      { l.next_mode(s, 0) } -> std::same_as<int>;
-                      { l.mode_name(s) } -> std::same_as<std::string>;
-                    }) ||
-                   (!L::is.in_pieces && requires {
-                     &Free<L>::guard;
-                     &Free<L>::first_mode;
-                     &Free<L>::next_mode;
-                     &Free<L>::mode_name;
-                   });
-template <class L>
-concept TurnsBack = (L::is.turns_back && L::is.in_pieces &&
-                     requires(const L& l, const SliderState<double>& s) {
-                       { l.turned_mode(s) } -> std::same_as<int>;
-                     }) ||
-                    (!L::is.turns_back && requires { &Free<L>::turned_mode; });
-}  // namespace sound
-template <class L>
-concept SoundLoad = sound::Value<L> && sound::Holds<L> && sound::InPieces<L> && sound::TurnsBack<L>;
-
-template <class... L>
-struct LoadLaws {
-  static_assert(
-      (SoundLoad<L> && ...),
-      "a load has value(s) and uses_speed(); with .holds (always with .opposes) Hold hold(s); with .in_pieces "
-      "guard(s, double*), first_mode(s), next_mode(s, int) and mode_name(s); with .turns_back, of a law in "
-      "pieces, int turned_mode(s); and none of them without its trait");
-  using Any = std::variant<L...>;
 };
 
 struct SliderLoad {

@@ -83,8 +83,8 @@ const MechanismElement* mechanism_of(const Network::ShaftElement& element) {
 
 Network extracted_from(Network network, Extraction from) {
   for (Network::ShaftElement& e : network.elements)
-    if (const MechanismElement* maker = mechanism_of(e))
-      e.element = std::make_shared<MechanismElement>(maker->mechanism().extracted_from(from));
+    if (const MechanismElement* element = mechanism_of(e))
+      e.element = std::make_shared<MechanismElement>(element->mechanism().extracted_from(from));
   return network;
 }
 

@@ -23,8 +23,8 @@ const MechanismElement* only_mechanism(const Model& model) {
   const MechanismElement* found = nullptr;
   int count = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const MechanismElement* maker = mechanism_of(e)) {
-      found = maker;
+    if (const MechanismElement* element = mechanism_of(e)) {
+      found = element;
       ++count;
     }
   return count == 1 ? found : nullptr;

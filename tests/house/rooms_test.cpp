@@ -197,6 +197,27 @@ TEST(House, FilesAreAtMost450Lines) {
   }
 }
 
+// A header that describes physics knows what an element is, and nothing of networks and models: what an element becomes
+// under effects is a free function, declared beside it and defined where networks are built.
+TEST(House, PhysicsKnowsNoNetwork) {
+  int headers = 0;
+  for (const std::string& room : rooms_in_order()) {
+    if (!room.starts_with("drivetrain")) continue;
+    for (const std::string& file : sources_of(room)) {
+      if (!file.ends_with(".h")) continue;
+      ++headers;
+      for (const Include& i : includes_of(file)) {
+        const std::string from = room_of(i.of);
+        EXPECT_TRUE(from.starts_with("drivetrain") || from == "engine/elements" || from == "engine/numerics" ||
+                    from == "engine/scene")
+            << file << " includes " << i.of;
+        EXPECT_FALSE(i.of.starts_with("engine/elements/any_")) << file << " includes " << i.of;
+      }
+    }
+  }
+  EXPECT_GT(headers, 25);
+}
+
 // Its headers do not compile as C++20.
 TEST(House, OnlyLinkagesSpeakSimbody) {
   int within = 0;

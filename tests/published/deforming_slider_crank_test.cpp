@@ -37,8 +37,8 @@ until = "0.1 s"
 std::shared_ptr<const Model> with_stretching_masses(const Scene& scene, double factor) {
   Network net = build_network(scene);
   for (Network::ShaftElement& e : net.elements)
-    if (const MechanismElement* maker = mechanism_of(e)) {
-      Mechanism changed = maker->mechanism();
+    if (const MechanismElement* element = mechanism_of(e)) {
+      Mechanism changed = element->mechanism();
       changed.flexibility->stretching_mass_factor = factor;
       e.element = std::make_shared<MechanismElement>(std::move(changed));
     }
