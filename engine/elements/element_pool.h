@@ -10,6 +10,7 @@
 
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"
+#include "engine/elements/quantity.h"
 
 namespace kurbel {
 
@@ -67,7 +68,7 @@ struct Snapshot {
 
 // One quantity that a run can record.
 struct Channel {
-  std::string name;  // "torque.main_coupling"
+  Name name;         // torque.main_coupling
   std::string unit;  // SI
   std::function<double(const Snapshot&)> value;
 };

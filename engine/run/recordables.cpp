@@ -13,9 +13,7 @@ bool is_wanted(const std::vector<std::string>& wanted, const std::string& compon
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), component) != wanted.end();
 }
 // "crank" of "crank.pin"
-std::string owner_of(const std::string& dotted) { return dotted.substr(0, dotted.find('.')); }
-// "pin" of "force.pin"
-std::string behind_dot(const std::string& dotted) { return dotted.substr(dotted.find('.') + 1); }
+std::string component_of(const std::string& part) { return part.substr(0, part.find('.')); }
 
 // Both ends of a long machine stand for the rest.
 std::vector<std::string> default_components(const Model& model) {
@@ -46,31 +44,32 @@ class ChannelList {
         add_elements(component);
       }
     for (const TorqueJoint& joint : model_.torque_joints)
-      if (is_wanted(wanted_, owner_of(joint.component))) add_joint(joint);
+      if (is_wanted(wanted_, component_of(joint.component))) add_joint(joint);
     for (const GearTorque& torque : model_.gear_torques)
-      if (is_wanted(wanted_, owner_of(torque.name)))
-        add("torque." + torque.name, "N*m",
+      if (is_wanted(wanted_, component_of(torque.name)))
+        add(Name::make(QuantityKind::torque, torque.name), "N*m",
             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); });
     for (std::size_t k = 0; k < model_.own_states.size(); ++k) {
       const auto& [component, state] = model_.own_states[k];
       if (is_wanted(wanted_, component))
-        add(state.name + "." + component, state.unit, [k](const Snapshot& s) { return s.now.own[k]; });
+        add(Name::own(state.name, component), state.unit, [k](const Snapshot& s) { return s.now.own[k]; });
     }
     for (const Channel& channel : model_.pool_channels)
-      if (is_wanted(wanted_, behind_dot(channel.name))) channels_.push_back(channel);
+      if (is_wanted(wanted_, channel.name.of)) channels_.push_back(channel);
     return std::move(channels_);
   }
 
  private:
-  void add(std::string name, std::string unit, std::function<double(const Snapshot&)> value) {
+  void add(Name name, std::string unit, std::function<double(const Snapshot&)> value) {
     channels_.push_back({std::move(name), std::move(unit), std::move(value)});
   }
 
   void add_motion(const std::string& name, int node) {
     const int shaft = model_.shaft_of_node[at(node)];
     const double gain = model_.gain_of_node[at(node)];
-    add("angle." + name, "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
-    add("speed." + name, "rad/s", [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; });
+    add(Name::make(QuantityKind::angle, name), "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
+    add(Name::make(QuantityKind::speed, name), "rad/s",
+        [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; });
   }
   void add_motions(const std::string& component) {
     const Network::Ports& ports = model_.network.ports.at(component);
@@ -88,7 +87,7 @@ class ChannelList {
       if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle == 0)
         own.push_back(e);
     if (own.empty()) return;
-    add("torque." + component, "N*m", [own](const Snapshot& s) {
+    add(Name::make(QuantityKind::torque, component), "N*m", [own](const Snapshot& s) {
       double sum = 0;
       for (const std::size_t e : own) sum += s.sums.element_torque[e];
       return sum;
@@ -97,18 +96,19 @@ class ChannelList {
 
   void add_joint(const TorqueJoint& joint) {
     const int j = joint.joint, e = joint.elastic;
-    add("torque." + joint.component, "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
+    add(Name::make(QuantityKind::torque, joint.component), "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
     if (e < 0) return;
     const ElasticJoint& elastic = model_.elastic[at(e)];
     if (elastic.slips || elastic.springless) {
       const int a = elastic.shaft_a, b = elastic.shaft_b;
       const double ga = elastic.gain_a, gb = elastic.gain_b;
-      add("slip." + joint.component, "rad/s",
+      add(Name::make(QuantityKind::slip, joint.component), "rad/s",
           [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; });
       return;
     }
-    add("spring_torque." + joint.component, "N*m", [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
-    add("twist." + joint.component, "rad", [e](const Snapshot& s) { return s.now.twist[e]; });
+    add(Name::make(QuantityKind::spring_torque, joint.component), "N*m",
+        [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
+    add(Name::make(QuantityKind::twist, joint.component), "rad", [e](const Snapshot& s) { return s.now.twist[e]; });
   }
 
   const Model& model_;
@@ -119,7 +119,7 @@ class ChannelList {
 // What a joint transmits and what its spring does of that; no spring: the torque alone. The model outlives the run.
 void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<ExtremeOf>& wanted) {
   const int j = joint.joint, e = joint.elastic;
-  ExtremeOf transmitted{.name = "peak_torque." + joint.component,
+  ExtremeOf transmitted{.name = Name::make(QuantityKind::peak_torque, joint.component),
                         .unit = "N*m",
                         .scale = joint.torque_scale,
                         .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
@@ -129,7 +129,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
     return;
   }
   ExtremeOf spring = transmitted;
-  spring.name = "peak_spring_torque." + joint.component;
+  spring.name = Name::make(QuantityKind::peak_spring_torque, joint.component);
   if (e >= 0) {
     const ElasticJoint elastic = model.elastic[at(e)];
     const AnyConnection* element = model.network.joints[at(j)].element.get();
@@ -159,7 +159,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;
-  ExtremeOf speed{.name = "max_speed." + link,
+  ExtremeOf speed{.name = Name::make(QuantityKind::max_speed, link),
                   .unit = "rad/s",
                   .scale = model.speed_scale,
                   .which = ExtremeOf::Which::maximum,
@@ -167,7 +167,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
   speed.slope = speed.rate;
   wanted.push_back(speed);
-  speed.name = "min_speed." + link;
+  speed.name = Name::make(QuantityKind::min_speed, link);
   speed.which = ExtremeOf::Which::minimum;
   wanted.push_back(std::move(speed));
 }
@@ -185,7 +185,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   for (const TorqueJoint& joint : model.torque_joints) add_peaks(model, joint, wanted);
   for (const GearTorque& torque : model.gear_torques)
     wanted.push_back(
-        {.name = "peak_torque." + torque.name,
+        {.name = Name::make(QuantityKind::peak_torque, torque.name),
          .unit = "N*m",
          .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
          .value =
@@ -195,15 +195,15 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   for (std::size_t k = 0; k < model.own_states.size(); ++k) {
     const auto& [component, state] = model.own_states[k];
     if (state.peak)
-      wanted.push_back({.name = fmt::format("peak_{}.{}", state.name, component),
+      wanted.push_back({.name = Name::own(state.name, component).peak(),
                         .unit = state.unit,
                         .scale = state.scale,
                         .value = [k](const Snapshot& s) { return s.now.own[k]; },
                         .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
   }
   for (const Channel& channel : model.pool_channels)
-    if (owner_of(channel.name) != "position")
-      wanted.push_back({.name = "peak_" + channel.name, .unit = channel.unit, .value = channel.value, .rate = {}});
+    if (channel.name.what != QuantityKind::position)
+      wanted.push_back({.name = channel.name.peak(), .unit = channel.unit, .value = channel.value, .rate = {}});
   return wanted;
 }
 

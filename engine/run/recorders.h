@@ -40,7 +40,8 @@ class TrajectoryRecorder final : public Observer {
 // A quantity whose extreme is wanted, located on the continuous solution by a root of its rate.
 struct ExtremeOf {
   enum class Which { largest_magnitude, maximum, minimum };
-  std::string name, unit;
+  Name name;
+  std::string unit;
   double scale = 0;  // for its error
   Which which = Which::largest_magnitude;
   std::function<double(const Snapshot&)> value;

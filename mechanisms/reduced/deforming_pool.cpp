@@ -294,20 +294,25 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     const Placed& placed = placed_[i];
     const std::string& name = placed.mechanism.name;
-    const auto add = [&](const std::string& quantity, const char* unit, std::function<double(const Snapshot&)> value) {
-      channels.push_back({quantity + "." + name, unit, std::move(value)});
+    using Value = std::function<double(const Snapshot&)>;
+    const auto add = [&](QuantityKind quantity, const char* unit, Value value) {
+      channels.push_back({Name::make(quantity, name), unit, std::move(value)});
+    };
+    const auto add_own = [&](const std::string& words, const char* unit, Value value) {
+      channels.push_back({Name::own(words, name), unit, std::move(value)});
     };
     const auto here = [this, i](const Snapshot& s) { return motion(placed_[i], s.now); };
-    add("position", "m", [here](const Snapshot& s) { return here(s).x; });
-    add("velocity", "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
-    add("acceleration", "m/s2", [this, i, here](const Snapshot& s) {
+    add(QuantityKind::position, "m", [here](const Snapshot& s) { return here(s).x; });
+    add(QuantityKind::velocity, "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
+    add(QuantityKind::acceleration, "m/s2", [this, i, here](const Snapshot& s) {
       return placed_[i].dynamics->acceleration_x(here(s), acceleration(placed_[i], s));
     });
     if (!placed.mechanism.loads.empty())
-      add("force", "N", [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
+      add(QuantityKind::force, "N",
+          [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
     const auto& free = placed.dynamics->free();
     if (std::find(free.begin(), free.end(), std::size_t{C::y}) == free.end())
-      add("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });
+      add_own("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });
     for (std::size_t k = 0; k < placed.mechanism.clearances.size(); ++k) {
       const auto greatest = [this, i, k](const Snapshot& s, bool force) {
         const Placed& p = placed_[i];
@@ -321,15 +326,15 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
         return found;
       };
       const std::string word = joint_word(placed.mechanism.clearances[k]);
-      add(word + "_force", "N", [greatest](const Snapshot& s) { return greatest(s, true); });
-      add(word + "_penetration", "m", [greatest](const Snapshot& s) { return greatest(s, false); });
+      add_own(word + "_force", "N", [greatest](const Snapshot& s) { return greatest(s, true); });
+      add_own(word + "_penetration", "m", [greatest](const Snapshot& s) { return greatest(s, false); });
     }
     if (placed.dynamics->rod().bending == 0) continue;
-    add("rod_deflection", "m",
-        [this, i, here](const Snapshot& s) { return placed_[i].dynamics->deflection(here(s), 0.5); });
+    add_own("rod_deflection", "m",
+            [this, i, here](const Snapshot& s) { return placed_[i].dynamics->deflection(here(s), 0.5); });
     const RodFlexibility& rod = *placed.mechanism.flexibility;
     if (rod.edge > 0)
-      add("rod_bending_stress", "Pa", [this, i, here, rod](const Snapshot& s) {
+      add_own("rod_bending_stress", "Pa", [this, i, here, rod](const Snapshot& s) {
         return rod.modulus * rod.edge * placed_[i].dynamics->greatest_bending(here(s));
       });
   }

@@ -21,7 +21,7 @@ std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& eff
   const Result r = simulate(work.scene, effects, "", work.simulate_options("auto", 1e-6));
   if (!r.complete) return found;
   for (const Figure& f : r.figures)
-    if (f.name.starts_with("peak_torque.") || f.name.starts_with("delta.")) found[f.name] = f.value;
+    if (f.what == QuantityKind::peak_torque || f.what == QuantityKind::delta) found[f.name] = f.value;
   return found;
 }
 
@@ -108,8 +108,8 @@ void make_reference(AccuracyWork& work, LevelAtWork& level) {
   }
   level.reference = std::move(found[0]);
   const std::string link = link_of(*level.model);
-  if (const Figure* f = level.reference.find("final_angle." + link)) level.end_angle = f->value;
-  if (const Figure* f = level.reference.find("final_speed." + link)) level.end_speed = f->value;
+  if (const Figure* f = level.reference.find(QuantityKind::final_angle, link)) level.end_angle = f->value;
+  if (const Figure* f = level.reference.find(QuantityKind::final_speed, link)) level.end_speed = f->value;
   work.log(fmt::format("{}: {} and {} agree to {:.1e}", told.name, told.first, told.second, told.agreement));
 }
 

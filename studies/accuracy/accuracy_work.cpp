@@ -45,7 +45,8 @@ namespace {
 
 // Angles count in rad, whatever was turned; speeds and twists over the largest that they reach.
 bool is_state(const Channel& channel) {
-  return channel.name.starts_with("angle.") || channel.name.starts_with("speed.") || channel.name.starts_with("twist.");
+  const QuantityKind what = channel.name.what;
+  return what == QuantityKind::angle || what == QuantityKind::speed || what == QuantityKind::twist;
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
       scale = std::max(scale, std::abs(reference.value(row, k)));
       difference = std::max(difference, std::abs(a.value(row, k) - reference.value(row, k)));
     }
-    if (a.channels()[k].name.starts_with("angle.")) scale = 1;
+    if (a.channels()[k].name.what == QuantityKind::angle) scale = 1;
     if (scale > 0) largest = std::max(largest, difference / scale);
   }
   return largest;

@@ -10,10 +10,6 @@
 namespace kurbel {
 namespace {
 
-bool is_of_link(const std::string& name, const Model& model) {
-  return name.substr(name.find('.') + 1) == link_of(model);
-}
-
 // Peaks first, the largest one before all; then what else is asked of a machine, in this order.
 std::vector<const Figure*> worth_following(const Result& full, const Model& model, const std::string& wanted) {
   std::vector<const Figure*> peaks, others;
@@ -21,10 +17,11 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
     return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
   };
   for (const Figure& f : full.figures)
-    if (sound(f) && f.name.starts_with("peak_torque.")) peaks.push_back(&f);
-  for (const char* prefix : {"delta.", "run_up_time", "final_angle.", "final_speed.", "max_speed.", "peak_force."})
+    if (sound(f) && f.what == QuantityKind::peak_torque) peaks.push_back(&f);
+  using enum QuantityKind;
+  for (const QuantityKind what : {delta, run_up_time, final_angle, final_speed, max_speed, peak_force})
     for (const Figure& f : full.figures)
-      if (sound(f) && f.name.starts_with(prefix) && (!f.name.starts_with("final_") || is_of_link(f.name, model)))
+      if (sound(f) && f.what == what && ((what != final_angle && what != final_speed) || f.of == link_of(model)))
         others.push_back(&f);
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });

@@ -22,7 +22,7 @@ constexpr double near_a_mode = 0.3;    // of the mode's frequency: an order as n
 constexpr double part_of_mode = 0.05;  // of its potential energy: a joint with more takes part in it
 constexpr double audible = 0.01;       // of the strongest order: weaker ones excite nothing
 
-std::optional<std::size_t> channel_of(const Result& r, const std::string& name) {
+std::optional<std::size_t> channel_of(const Result& r, const Name& name) {
   if (!r.trajectory) return {};
   const auto& channels = r.trajectory->channels();
   for (std::size_t k = 0; k < channels.size(); ++k)
@@ -83,7 +83,8 @@ class Screening {
  private:
   std::vector<Screen> of_elasticity(const std::string& component) const {
     std::vector<Screen> screens;
-    const auto twist = channel_of(full_, "twist." + component), torque = channel_of(full_, "torque." + component);
+    const auto twist = channel_of(full_, Name::make(QuantityKind::twist, component)),
+               torque = channel_of(full_, Name::make(QuantityKind::torque, component));
     if (twist && torque) {
       const auto [share, swing] = activity_and_swing(*twist, *torque);
       const bool about_zero = !std::isfinite(swing);
@@ -180,7 +181,7 @@ class Screening {
     std::string where;
     for (std::size_t k = 0; full_.trajectory && k < full_.trajectory->channels().size(); ++k) {
       const Channel& channel = full_.trajectory->channels()[k];
-      if (!channel.name.starts_with("spring_torque.")) continue;
+      if (channel.name.what != QuantityKind::spring_torque) continue;
       int own = 0;
       double last = 0;
       for (std::size_t i = 0; i < full_.trajectory->time().size(); ++i) {
@@ -189,7 +190,7 @@ class Screening {
         if (m * last < 0) ++own;
         last = m;
       }
-      if (own > 0) where = channel.name.substr(14);
+      if (own > 0) where = channel.name.of;
       count += own;
     }
     return {"torque reversals", static_cast<double>(count),
@@ -205,7 +206,7 @@ class Screening {
   Screen impacts() const {
     double count = 0;
     for (const Figure& f : full_.figures)
-      if (f.name.starts_with("impacts.")) count += f.value;
+      if (f.what == QuantityKind::impacts) count += f.value;
     return {"impacts", count,
             count > 0 ? fmt::format("the joints are hit {:.0f} times after flight", count)
                       : std::string("no joint is hit after flight: they stay in touch"),
@@ -215,7 +216,7 @@ class Screening {
   std::vector<Screen> rods() const {
     double fastest = 0;  // of the link
     for (const Figure& f : full_.figures)
-      if (f.name.starts_with("max_speed.") || f.name.starts_with("min_speed."))
+      if (f.what == QuantityKind::max_speed || f.what == QuantityKind::min_speed)
         fastest = std::max(fastest, std::abs(f.value));
     std::vector<Screen> screens;
     for (const Network::ShaftElement& e : full_.model->network.elements) {

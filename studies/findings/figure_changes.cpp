@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace kurbel {
 
 bool is_telling(const Figure& figure) {
-  static const std::vector<std::string> telling = {
-      "peak_torque.", "max_speed.",  "min_speed.", "delta.",     "run_up_time", "run_down_time", "steady_speed.",
-      "mean_speed.",  "rms_torque.", "work.",      "slip_heat.", "stopping_",   "final_speed.",  "cycle_time."};
-  return figure.scale > 0 && std::any_of(telling.begin(), telling.end(),
-                                         [&](const std::string& begin) { return figure.name.starts_with(begin); });
+  using enum QuantityKind;
+  static const std::set<QuantityKind> telling = {peak_torque,   max_speed,     min_speed,      delta,       run_up_time,
+                                                 run_down_time, steady_speed,  mean_speed,     rms_torque,  work,
+                                                 slip_heat,     stopping_time, stopping_angle, final_speed, cycle_time};
+  return figure.scale > 0 && telling.count(figure.what) > 0;
 }
 
 double floor_of(const Figure& figure, const Result& run) {
@@ -32,7 +33,7 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
     const double nothing = floor_of(figure, full);
     if (std::abs(figure.value) <= nothing && std::abs(same->value) <= floor_of(*same, other)) continue;  // both zero
     // Of two equal peaks of opposite sign either may be the larger one.
-    const bool magnitude = figure.name.starts_with("peak_");
+    const bool magnitude = is_peak(figure.what);
     const double difference =
         magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
     const double size = std::max({std::abs(figure.value), nothing, 1e-300});

@@ -23,12 +23,12 @@ void push(Trace& trace, double x, double y) {
 TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
   for (Channel& channel : channels_of(
            model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
-    const std::string quantity = channel.name.substr(0, channel.name.find('.'));
-    if (quantity == "spring_torque" || quantity == "angle") continue;
+    if (channel.name.what == QuantityKind::spring_torque || channel.name.what == QuantityKind::angle) continue;
     channels_.push_back(std::move(channel));
   }
   const int link = model.reduction_node;
-  channels_.push_back({"angle", "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
+  channels_.push_back(
+      {Name::make(QuantityKind::angle), "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
   if (model.network.components.size() <= 60)
     for (const std::string& component : model.network.components) {
       const Network::Ports& ports = model.network.ports.at(component);
@@ -36,17 +36,18 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
         const double ratio = model.node_ratio[static_cast<std::size_t>(node)];
         if (ratio == 0 || node == link || (node == ports.out && ports.in == ports.out && node != ports.in)) continue;
         bool known = false;
-        for (const Channel& c : channels_) known = known || c.name == Traces::node_key(node);
+        for (const Channel& c : channels_) known = known || c.name.text == Traces::node_key(node);
         if (!known)
-          channels_.push_back({Traces::node_key(node), "rad",
+          channels_.push_back({Name{QuantityKind::other, "", Traces::node_key(node)}, "rad",
                                [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
       }
     }
   for (const Channel& channel : channels_) {
-    if (channel.name.starts_with("torque.") || channel.name.starts_with("force.") ||
-        channel.name.starts_with("load_torque.") || channel.name.starts_with("speed."))
+    const QuantityKind what = channel.name.what;
+    if (what == QuantityKind::torque || what == QuantityKind::force || what == QuantityKind::load_torque ||
+        what == QuantityKind::speed)
       over_angle_.push_back(traces_->over_time.size());
-    traces_->over_time.push_back({channel.name, channel.unit, {}, {}});
+    traces_->over_time.push_back({channel.name.text, channel.unit, {}, {}});
   }
   for (const char* name :
        {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})

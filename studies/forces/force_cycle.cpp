@@ -47,7 +47,8 @@ const Network::ShaftElement& slider_crank_element(const Network& network, const 
 
 SliderLoads::SliderLoads(const Scene& scene, const std::string& component) : SliderLoads(alone(scene, component)) {
   for (std::size_t k = 0; k < model().pool_channels.size(); ++k)
-    if (model().pool_channels[k].name == "force." + component) channel_ = static_cast<int>(k);
+    if (model().pool_channels[k].name.what == QuantityKind::force && model().pool_channels[k].name.of == component)
+      channel_ = static_cast<int>(k);
 }
 
 double SliderLoads::force(double phi, double omega) {

@@ -101,7 +101,7 @@ void add_verdicts(std::size_t j, ModesStudy& found) {
                                                               "below it",
                                                               rpm(speed))
                                                 : "at the operating point"});
-    if (found.history && found.history->channel == "torque." + name)
+    if (found.history && found.history->component == name)
       found.verdicts.push_back({name, "maximum torque of the simulated run: |T| ≤ T_Kmax",
                                 std::max(found.history->greatest, -found.history->least), limits.maximum, "N*m",
                                 "of the samples"});

@@ -83,6 +83,7 @@ struct DriveLimits {
 };
 
 struct TorqueHistory {
+  std::string component;  // whose torque it is
   std::string channel;
   std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
   AmplitudeSpectrum spectrum, orders;

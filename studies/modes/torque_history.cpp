@@ -35,9 +35,8 @@ Scene recorded(Scene scene, double highest, const std::string& component, const 
 }
 
 // Samples of the first of these channels that is there.
-std::vector<double> column(const TrajectoryRecorder& t, const std::vector<std::string>& names,
-                           const std::string& asked) {
-  for (const std::string& name : names)
+std::vector<double> column(const TrajectoryRecorder& t, const std::vector<Name>& names, const std::string& asked) {
+  for (const Name& name : names)
     for (std::size_t k = 0; k < t.channels().size(); ++k)
       if (t.channels()[k].name == name) {
         std::vector<double> values;
@@ -75,15 +74,16 @@ TorqueHistory simulate_torque(const Model& model, const Effects& effects, double
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
   const Result result =
       simulate(recorded(model.scene, highest, component, link), effects, "elastic", simulate_options(options));
-  const auto samples = [&](const std::vector<std::string>& names) {
-    return column(*result.trajectory, names, options.torque);
+  const auto samples = [&](QuantityKind what, const std::string& of, const std::string& part) {
+    return column(*result.trajectory, {Name::make(what, of), Name::make(what, of + part)}, options.torque);
   };
   TorqueHistory history;
-  history.channel = "torque." + options.torque;
+  history.component = options.torque;
+  history.channel = Name::make(QuantityKind::torque, options.torque).text;
   history.time = result.trajectory->time();
-  history.value = samples({history.channel, history.channel + ".1"});
-  history.speed = samples({"speed." + link, "speed." + link + ".in"});
-  history.angle = samples({"angle." + link, "angle." + link + ".in"});
+  history.value = samples(QuantityKind::torque, options.torque, ".1");
+  history.speed = samples(QuantityKind::speed, link, ".in");
+  history.angle = samples(QuantityKind::angle, link, ".in");
   history.complete = result.complete;
   history.diagnosis = result.diagnosis;
   if (history.time.size() >= 64) take_apart(history);

@@ -26,11 +26,12 @@ class SliderRatio {
   SliderRatio(std::shared_ptr<const Model> model, const std::string& mechanism)
       : model_(std::move(model)), equations_(model_, false) {
     for (const Channel& channel : model_->pool_channels) {
-      if (channel.name == "velocity." + mechanism) {
+      if (channel.name.of != mechanism) continue;
+      if (channel.name.what == QuantityKind::velocity) {
         velocity_ = channel.value;
         rocks_ = channel.unit == "rad/s";
       }
-      if (channel.name == "acceleration." + mechanism) acceleration_ = channel.value;
+      if (channel.name.what == QuantityKind::acceleration) acceleration_ = channel.value;
     }
   }
   bool found() const { return velocity_ && acceleration_; }
@@ -55,8 +56,8 @@ class SliderRatio {
 std::vector<std::string> sliders_of(const Model& model) {
   std::vector<std::string> names;
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.starts_with("velocity."))
-      names.push_back(channel.name.substr(9) + (channel.unit == "rad/s" ? ".rocker" : ".slider"));
+    if (channel.name.what == QuantityKind::velocity)
+      names.push_back(channel.name.of + (channel.unit == "rad/s" ? ".rocker" : ".slider"));
   return names;
 }
 

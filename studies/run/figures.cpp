@@ -7,16 +7,19 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
 namespace {
 
+// Mechanisms whose joints have clearance.
 std::vector<std::string> components_with_impacts(const Model& model) {
-  constexpr std::string_view ending = ".contact";
   std::vector<std::string> names;
-  for (const WorkAccount& account : model.accounts)
-    if (account.name.ends_with(ending)) names.push_back(account.name.substr(0, account.name.size() - ending.size()));
+  for (const Network::ShaftElement& e : model.network.elements)
+    if (const MechanismElement* element = mechanism_of(e);
+        element && element->dynamics() && !element->mechanism().clearances.empty())
+      names.push_back(element->mechanism().name);
   return names;
 }
 
@@ -38,13 +41,17 @@ class Figures {
   }
 
  private:
-  void add(const std::string& name, double value, const std::string& unit, double scale,
+  void add(Name name, double value, const std::string& unit, double scale, std::optional<double> time = {}) {
+    run_.figures.push_back(Figure::of_name(std::move(name), value, unit, scale));
+    run_.figures.back().at = time;
+  }
+  void add(QuantityKind what, const std::string& of, double value, const std::string& unit, double scale,
            std::optional<double> time = {}) {
-    run_.figures.push_back({name, value, unit, {}, time, scale, 0});
+    add(Name::make(what, of), value, unit, scale, time);
   }
   // A duration up to a time; `resolution`: how sharply that time is located.
-  void add_located(const std::string& name, double begin, double end, double resolution) {
-    add(name, end - begin, "s", run_.outcome.t, end);
+  void add_located(QuantityKind what, double begin, double end, double resolution) {
+    add(what, "", end - begin, "s", run_.outcome.t, end);
     run_.figures.back().resolution = resolution;
   }
   std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
@@ -72,7 +79,7 @@ class Figures {
         const int elastic = model_.torque_joints[i].elastic;
         if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
         const double square = run_.outcome.state[equations_.square_index(i, spring)];
-        add((spring ? "rms_spring_torque." : "rms_torque.") + model_.torque_joints[i].component,
+        add(spring ? QuantityKind::rms_spring_torque : QuantityKind::rms_torque, model_.torque_joints[i].component,
             std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
       }
   }
@@ -83,9 +90,10 @@ class Figures {
       const Network::Ports& ports = model_.network.ports.at(component);
       const int node = ports.out;
       const double ratio = model_.scale_ratio[at(node)];
-      add("final_angle." + component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
-      add("final_speed." + component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
-          "rad/s", model_.speed_scale * ratio, run_.outcome.t);
+      add(QuantityKind::final_angle, component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
+      add(QuantityKind::final_speed, component,
+          model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]], "rad/s",
+          model_.speed_scale * ratio, run_.outcome.t);
       const std::size_t shaft = at(model_.shaft_of_node[at(node)]);
       run_.figures.back().exact = shaft >= model_.free_shafts || equations_.at_standstill(shaft);
     }
@@ -94,15 +102,15 @@ class Figures {
   void collect_heat() {
     for (const ElasticJoint& e : model_.elastic)
       if (e.slips && !run_.energy->work.empty())  // empty: failed before its first step
-        add("slip_heat." + model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)], "J",
-            energy_scale(), run_.outcome.t);
+        add(QuantityKind::slip_heat, model_.network.joints[at(e.joint)].component,
+            -run_.energy->work[at(e.loss_account)], "J", energy_scale(), run_.outcome.t);
   }
   // Joints with clearance: how often one is hit after flight.
   void collect_impacts() {
     for (const std::string& component : components_with_impacts(model_)) {
       int count = 0;
       for (const Event& e : run_.outcome.events) count += e.component == component && e.kind == EventKind::impact;
-      add("impacts." + component, count, "", std::max(1, count), run_.outcome.t);
+      add(QuantityKind::impacts, component, count, "", std::max(1, count), run_.outcome.t);
       run_.figures.back().exact = true;
     }
   }
@@ -124,8 +132,8 @@ class Figures {
                                                 events.begin() + static_cast<std::ptrdiff_t>(k), is_command) -
                                    events.begin());
       if (told == k) continue;
-      add("stopping_time." + link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
-      add("stopping_angle." + link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
+      add(QuantityKind::stopping_time, link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
+      add(QuantityKind::stopping_angle, link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
       return;
     }
   }
@@ -136,29 +144,29 @@ class Figures {
     for (const CycleRecord& c : run_.cycles.cycles())
       if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
     if (!last) return;
-    add("delta." + link(), last->delta(), "", 1, last->end);
-    add("mean_speed." + link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
-    add("cycle_time." + link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
+    add(QuantityKind::delta, link(), last->delta(), "", 1, last->end);
+    add(QuantityKind::mean_speed, link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
+    add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
     for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
       double sum = 0;
       for (std::size_t k = 0; k < last->work.size(); ++k)
         if (model_.accounts[k].kind == kind) sum += last->work[k];
-      add(fmt::format("{}_work_per_cycle", name_of(kind)), sum, "J", energy_scale(), last->end);
+      add(work_per_cycle_of(kind), "", sum, "J", energy_scale(), last->end);
     }
   }
   void collect_periods() {
     const Periods& p = run_.periods;
-    if (p.run_up_end) add_located("run_up_time", 0, *p.run_up_end, p.run_up_resolution);
-    if (p.steady) add("steady_speed." + link(), p.steady_speed, "rad/s", model_.speed_scale);
+    if (p.run_up_end) add_located(QuantityKind::run_up_time, 0, *p.run_up_end, p.run_up_resolution);
+    if (p.steady) add(QuantityKind::steady_speed, link(), p.steady_speed, "rad/s", model_.speed_scale);
     if (p.run_down_begin && p.standstill)
-      add_located("run_down_time", *p.run_down_begin, *p.standstill, p.standstill_resolution);
+      add_located(QuantityKind::run_down_time, *p.run_down_begin, *p.standstill, p.standstill_resolution);
   }
   void collect_work() {
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
       double sum = 0;
       for (std::size_t k = 0; k < run_.energy->work.size(); ++k)
         if (model_.accounts[k].kind == kind) sum += run_.energy->work[k];
-      add(fmt::format("work.{}", name_of(kind)), sum, "J", energy_scale());
+      add(QuantityKind::work, name_of(kind), sum, "J", energy_scale());
     }
   }
   double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
@@ -190,6 +198,20 @@ std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOu
 }
 
 }  // namespace
+
+QuantityKind work_per_cycle_of(Account account) {
+  switch (account) {
+    case Account::driving:
+      return QuantityKind::driving_work_per_cycle;
+    case Account::useful:
+      return QuantityKind::useful_work_per_cycle;
+    case Account::harmful:
+      return QuantityKind::harmful_work_per_cycle;
+    case Account::weight:
+      break;
+  }
+  return QuantityKind::weight_work_per_cycle;
+}
 
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run) {
   Figures(model, equations, run, tolerance).collect();
@@ -233,31 +255,32 @@ std::map<std::string, ComponentState> final_state(const Model& model, const std:
 
 std::vector<Figure> figure_list(const Model& model) {
   std::vector<Figure> list;
-  const auto add = [&](const std::string& name, const std::string& unit) {
-    list.push_back({name, 0, unit, {}, {}, 0, 0});
+  const auto add = [&](QuantityKind what, const std::string& of, const std::string& unit) {
+    list.push_back(Figure::of_name(Name::make(what, of), 0, unit));
   };
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
-  for (const ExtremeOf& e : extremes_of(model)) add(e.name, e.unit);
+  for (const ExtremeOf& e : extremes_of(model)) list.push_back(Figure::of_name(e.name, 0, e.unit));
   for (const TorqueJoint& joint : model.torque_joints) {
-    add("rms_torque." + joint.component, "N*m");
-    add("rms_spring_torque." + joint.component, "N*m");
+    add(QuantityKind::rms_torque, joint.component, "N*m");
+    add(QuantityKind::rms_spring_torque, joint.component, "N*m");
   }
   for (const std::string& component : model.network.components) {
     if (model.network.components.size() > 60 && component != link) continue;
-    add("final_angle." + component, "rad");
-    add("final_speed." + component, "rad/s");
+    add(QuantityKind::final_angle, component, "rad");
+    add(QuantityKind::final_speed, component, "rad/s");
   }
-  for (const std::string& component : components_with_impacts(model)) add("impacts." + component, "");
+  for (const std::string& component : components_with_impacts(model)) add(QuantityKind::impacts, component, "");
   if (model.cycle > 0) {
-    add("delta." + link, "");
-    add("mean_speed." + link, "rad/s");
-    add("cycle_time." + link, "s");
-    for (const char* kind : {"driving", "useful", "harmful"}) add(std::string(kind) + "_work_per_cycle", "J");
+    add(QuantityKind::delta, link, "");
+    add(QuantityKind::mean_speed, link, "rad/s");
+    add(QuantityKind::cycle_time, link, "s");
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful})
+      add(work_per_cycle_of(kind), "", "J");
   }
-  add("run_up_time", "s");
-  add("steady_speed." + link, "rad/s");
-  add("run_down_time", "s");
-  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(std::string("work.") + kind, "J");
+  add(QuantityKind::run_up_time, "", "s");
+  add(QuantityKind::steady_speed, link, "rad/s");
+  add(QuantityKind::run_down_time, "", "s");
+  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(QuantityKind::work, kind, "J");
   return list;
 }
 

@@ -18,7 +18,7 @@ const Figure* find(const std::vector<Figure>& figures, const Figure& like, std::
 }
 
 double difference(const Figure& a, const Figure& b) {
-  const bool magnitude = a.name.starts_with("peak_");
+  const bool magnitude = is_peak(a.what);
   return magnitude ? std::abs(std::abs(a.value) - std::abs(b.value)) : std::abs(a.value - b.value);
 }
 

@@ -166,16 +166,17 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     result.statistics.stepper.rejected = fine.rejected;
     result.statistics.stepper.flow_calls = fine.evaluations;
     const MultibodySample &a = coarse.samples.back(), &b = fine.samples.back();
-    const auto add = [&](const std::string& name, double value, double other, const std::string& unit, double scale) {
-      Figure figure{name, value, unit, {}, b.t, scale, 0};
+    const auto add = [&](QuantityKind what, double value, double other, const std::string& unit, double scale) {
+      Figure figure = Figure::of_name(Name::make(what, crank.name), value, unit, scale);
+      figure.at = b.t;
       if (options.measure_error) {
         figure.error = std::abs(value - other);
         result.measured_accuracy = std::max(result.measured_accuracy, *figure.error / scale);
       }
       result.figures.push_back(figure);
     };
-    add("final_angle." + crank.name, b.phi - crank.phase, a.phi - crank.phase, "rad", 1);
-    add("final_speed." + crank.name, b.omega, a.omega, "rad/s", model.speed_scale);
+    add(QuantityKind::final_angle, b.phi - crank.phase, a.phi - crank.phase, "rad", 1);
+    add(QuantityKind::final_speed, b.omega, a.omega, "rad/s", model.speed_scale);
     result.errors_measured = result.confirmation_asked = options.measure_error;
     result.accuracy_confirmed = options.measure_error && result.measured_accuracy <= result.accuracy;
     result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};

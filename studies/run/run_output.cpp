@@ -219,7 +219,7 @@ std::string csv_of(const Result& r) {
   const TrajectoryRecorder& t = *r.trajectory;
   std::string text = r.complete ? "" : "# incomplete: " + r.diagnosis + "\n";
   text += "time [s]";
-  for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name, channel.unit);
+  for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name.text, channel.unit);
   text += "\n";
   for (std::size_t row = 0; row < t.time().size(); ++row) {
     text += fmt::format("{}", t.time()[row]);

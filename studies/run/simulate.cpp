@@ -395,6 +395,12 @@ const Figure* Result::find(const std::string& name) const {
   return found == figures.end() ? nullptr : &*found;
 }
 
+const Figure* Result::find(QuantityKind what, const std::string& of) const {
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.what == what && f.of == of; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
 std::string Result::accuracy_in_words() const {
   return fmt::format(
       "accuracy {:.1e} was asked for, {}", accuracy,

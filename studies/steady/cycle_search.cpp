@@ -48,7 +48,8 @@ class LinkSpeed {
   static std::vector<ExtremeOf> wanted(const Model& m) {
     std::vector<ExtremeOf> both;
     for (ExtremeOf& e : extremes_of(m))
-      if (e.name.starts_with("max_speed.") || e.name.starts_with("min_speed.")) both.push_back(std::move(e));
+      if (e.name.what == QuantityKind::max_speed || e.name.what == QuantityKind::min_speed)
+        both.push_back(std::move(e));
     return both;
   }
   ExtremeRecorder recorder_;

@@ -9,6 +9,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/findings/report.h"
+#include "studies/run/figures.h"
 
 namespace kurbel {
 namespace {
@@ -119,21 +120,22 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
   for (const NamedShaft& shaft : shafts_of(m)) {
     const int s = m.shaft_of_node[at(shaft.node)];
     const double gain = m.gain_of_node[at(shaft.node)];
-    ExtremeOf speed{.name = "max_speed." + shaft.name,
+    ExtremeOf speed{.name = Name::make(QuantityKind::max_speed, shaft.name),
                     .unit = "rad/s",
                     .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
                     .which = ExtremeOf::Which::maximum,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
     wanted.push_back(speed);
-    speed.name = "min_speed." + shaft.name;
+    speed.name = Name::make(QuantityKind::min_speed, shaft.name);
     speed.which = ExtremeOf::Which::minimum;
     wanted.push_back(std::move(speed));
   }
   for (ExtremeOf& e : extremes_of(m))
-    if (!e.name.starts_with("max_speed.") && !e.name.starts_with("min_speed.")) wanted.push_back(std::move(e));
+    if (e.name.what != QuantityKind::max_speed && e.name.what != QuantityKind::min_speed)
+      wanted.push_back(std::move(e));
   for (Drive& drive : drives_of(m))
-    wanted.push_back({.name = "peak_drive_torque." + drive.component,
+    wanted.push_back({.name = Name::make(QuantityKind::peak_drive_torque, drive.component),
                       .unit = "N*m",
                       .scale = m.torque_scale,
                       .value = [drive = std::move(drive)](const Snapshot& s) { return drive.torque(s); },
@@ -173,22 +175,22 @@ class RoundFigures {
   }
 
  private:
-  void add(const std::string& name, double value, const std::string& unit, double scale) {
-    round_.figures.push_back({name, value, unit, {}, {}, scale, 0});
+  void add(Name name, double value, const std::string& unit, double scale) {
+    round_.figures.push_back(Figure::of_name(std::move(name), value, unit, scale));
   }
   void add_speeds() {
     const double time = outcome_.t - map_.start_time();
-    add("cycle_time", time, "s", time);
+    add(Name::make(QuantityKind::cycle_time), time, "s", time);
     const std::vector<NamedShaft> shafts = shafts_of(m_);
     for (std::size_t i = 0; i < shafts.size(); ++i) {
       ShaftFluctuation f{shafts[i].name, m_.node_ratio[at(shafts[i].node)], extremes_.found()[2 * i].value,
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
-        add("mean_speed." + f.shaft, f.mean(), "rad/s", m_.speed_scale);
-        add("max_speed." + f.shaft, f.max, "rad/s", m_.speed_scale);
-        add("min_speed." + f.shaft, f.min, "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::mean_speed, f.shaft), f.mean(), "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
       }
-      add("delta." + f.shaft, f.delta(), "", 1);
+      add(Name::make(QuantityKind::delta, f.shaft), f.delta(), "", 1);
       round_.shafts.push_back(std::move(f));
     }
   }
@@ -201,7 +203,7 @@ class RoundFigures {
       }
     const double time = outcome_.t - map_.start_time();
     for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
-      add("rms_torque." + m_.torque_joints[i].component,
+      add(Name::make(QuantityKind::rms_torque, m_.torque_joints[i].component),
           std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
           m_.torque_joints[i].torque_scale);
   }
@@ -221,8 +223,8 @@ class RoundFigures {
         if (section->has("rated_power") && section->has("rated_speed"))
           use.rated = section->number("rated_power") / section->number("rated_speed");
       }
-      add("mean_drive_torque." + use.component, use.mean, "N*m", m_.torque_scale);
-      add("rms_drive_torque." + use.component, use.rms, "N*m", m_.torque_scale);
+      add(Name::make(QuantityKind::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
+      add(Name::make(QuantityKind::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);
       round_.motors.push_back(std::move(use));
     }
   }
@@ -235,12 +237,13 @@ class RoundFigures {
         if (m_.accounts[a].kind == kind) of_kind += outcome_.state[equations_.work_index(a)];
       sum += of_kind;
       turnover += std::abs(of_kind);
-      add(fmt::format("{}_work_per_cycle", name_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
+      add(Name::make(work_per_cycle_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
     }
     for (std::size_t a = 0; a < m_.accounts.size(); ++a)
       if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
-        add(fmt::format("work_per_cycle.{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)), work, "J",
-            m_.torque_scale * 2 * std::numbers::pi);
+        add(Name::make(QuantityKind::work_per_cycle,
+                       fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind))),
+            work, "J", m_.torque_scale * 2 * std::numbers::pi);
     round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
   }
 

@@ -213,8 +213,11 @@ TEST(ExtremeRecorder, FindsAPeakThatThreeSamplesOnALineHide) {
   const std::vector<double> y = equations.start(0);
   for (const double sign : {1.0, -1.0}) {
     const auto value = [sign](const Snapshot& s) { return sign * (std::pow(s.now.t, 3) - 0.9 * s.now.t); };
-    ExtremeRecorder recorder(
-        {{.name = "cubic", .unit = "1", .which = ExtremeOf::Which::maximum, .value = value, .rate = {}}});
+    ExtremeRecorder recorder({{.name = {QuantityKind::other, "", "cubic"},
+                               .unit = "1",
+                               .which = ExtremeOf::Which::maximum,
+                               .value = value,
+                               .rate = {}}});
     recorder.begin(-1, y, equations);
     OneStep step(-1, 1, y);
     StepView view(equations);

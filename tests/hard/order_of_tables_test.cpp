@@ -56,9 +56,9 @@ void expect_same_bits(const Result& a, const Result& b) {
     const auto& others = b.trajectory->channels();
     if (std::none_of(others.begin(), others.end(), [&](const Channel& c) { return c.name == channel.name; })) continue;
     ++channels;
-    const auto x = test::series(a, channel.name), y = test::series(b, channel.name);
+    const auto x = test::series(a, channel.name.text), y = test::series(b, channel.name.text);
     ASSERT_EQ(x.size(), y.size());
-    for (std::size_t row = 0; row < x.size(); ++row) expect_same_bits(x[row], y[row], channel.name);
+    for (std::size_t row = 0; row < x.size(); ++row) expect_same_bits(x[row], y[row], channel.name.text);
   }
   EXPECT_GT(channels, 2u);
   ASSERT_EQ(a.events.size(), b.events.size());

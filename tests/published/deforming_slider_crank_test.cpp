@@ -58,7 +58,7 @@ std::map<std::string, double> at_the_end(std::shared_ptr<const Model> model, dou
   EXPECT_TRUE(outcome.complete) << outcome.diagnosis;
   const Snapshot& s = equations.snapshot(outcome.t, outcome.state);
   std::map<std::string, double> found;
-  for (const Channel& channel : channels_of(*model, {})) found[channel.name] = channel.value(s);
+  for (const Channel& channel : channels_of(*model, {})) found[channel.name.text] = channel.value(s);
   return found;
 }
 

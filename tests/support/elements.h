@@ -27,7 +27,7 @@ inline void expect_same_machine(const std::string& off, const std::string& witho
   ASSERT_EQ(ta.time().size(), tb.time().size());
   for (std::size_t row = 0; row < ta.time().size(); ++row)
     for (std::size_t k = 0; k < ta.channels().size(); ++k)
-      ASSERT_EQ(ta.value(row, k), tb.value(row, k)) << ta.channels()[k].name << " at " << ta.time()[row];
+      ASSERT_EQ(ta.value(row, k), tb.value(row, k)) << ta.channels()[k].name.text << " at " << ta.time()[row];
 }
 
 }  // namespace kurbel::test

@@ -205,7 +205,7 @@ struct TwinMap {
   void find_start_shift(const TrajectoryRecorder& a, const TrajectoryRecorder& b) {
     if (turned == 0) return;
     for (std::size_t k = 0; k < a.channels().size() && k < b.channels().size(); ++k) {
-      const std::string& name = a.channels()[k].name;
+      const std::string& name = a.channels()[k].name.text;
       if (!name.starts_with("angle.")) continue;
       const std::string shaft = name.substr(name.find('.') + 1);
       start_shift[shaft] = b.value(0, k) - a.value(0, k);
@@ -276,21 +276,21 @@ inline void expect_same_channels(const Result& first, const Result& second, cons
   std::size_t compared = 0;
   for (std::size_t k = 0; k < a.channels().size(); ++k) {
     const Channel& channel = a.channels()[k];
-    if (of_a_gear(channel.name)) continue;
+    if (of_a_gear(channel.name.text)) continue;
     const auto same = std::find_if(b.channels().begin(), b.channels().end(),
                                    [&](const Channel& c) { return c.name == channel.name && c.unit == channel.unit; });
     if (same == b.channels().end()) {
-      ADD_FAILURE() << "the second run has no channel " << channel.name;
+      ADD_FAILURE() << "the second run has no channel " << channel.name.text;
       continue;
     }
     const auto m = static_cast<std::size_t>(same - b.channels().begin());
-    const double factor = map.factor(channel.name, channel.unit), offset = map.offset(channel.name);
+    const double factor = map.factor(channel.name.text, channel.unit), offset = map.offset(channel.name.text);
     double largest = 1e-4;
     for (std::size_t row = 0; row < a.time().size(); ++row) largest = std::max(largest, std::abs(b.value(row, m)));
     for (std::size_t row = 0; row < a.time().size(); ++row)
       if (!(std::abs(factor * a.value(row, k) + offset - b.value(row, m)) <= allowed * largest)) {
         ADD_FAILURE() << fmt::format(
-            "{} at {:.6g} s: {:.10g} · {:.6g} = {:.10g}, but {:.10g}; off by {:.2g} of the largest", channel.name,
+            "{} at {:.6g} s: {:.10g} · {:.6g} = {:.10g}, but {:.10g}; off by {:.2g} of the largest", channel.name.text,
             a.time()[row], a.value(row, k), factor, factor * a.value(row, k) + offset, b.value(row, m),
             std::abs(factor * a.value(row, k) + offset - b.value(row, m)) / largest);
         break;
