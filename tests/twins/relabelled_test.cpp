@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "studies/modes/modes.h"
-#include "studies/modes/modes_output.h"
+#include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/run_output.h"
 #include "tests/support/scenes.h"
