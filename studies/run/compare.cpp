@@ -10,7 +10,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_changes.h"
 #include "studies/findings/figure_text.h"
-#include "studies/run/run_report.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel {
 namespace {

@@ -22,7 +22,7 @@
 #include "studies/gears/gears.h"
 #include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 #include "studies/scenes/kinds.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady_findings.h"

@@ -7,7 +7,7 @@
 #include "studies/modes/modes.h"
 #include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 
