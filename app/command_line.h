@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "studies/findings/output.h"
 #include "studies/run/simulate.h"
+
+namespace kurbel {
+struct StudyOutput;
+}
 
 namespace kurbel::app {
 

@@ -8,7 +8,7 @@
 #include "app/command_line.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "studies/forces/forces_output.h"
+#include "studies/forces/forces_findings.h"
 
 namespace kurbel::app {
 namespace {

@@ -17,7 +17,7 @@
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/verb.h"
-#include "studies/steady/steady_output.h"
+#include "studies/steady/steady_findings.h"
 
 namespace kurbel::app {
 namespace {

@@ -21,7 +21,7 @@
 #include "mechanisms/linkages/multibody_run.h"
 #include "studies/accuracy/accuracy.h"
 #include "studies/report/write_output.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel::bench {
 namespace {

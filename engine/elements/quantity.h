@@ -51,7 +51,8 @@ enum class QuantityKind {
   stopping_angle,
   slip_heat,
   impacts,
-  work,  // "work.driving": of a line of the energy balance
+  amplification,  // of a torque: peak with elasticity over peak without
+  work,           // "work.driving": of a line of the energy balance
   driving_work_per_cycle,
   useful_work_per_cycle,
   harmful_work_per_cycle,
@@ -97,6 +98,7 @@ inline const char* word(QuantityKind quantity) {
                                                                    {stopping_angle, "stopping_angle"},
                                                                    {slip_heat, "slip_heat"},
                                                                    {impacts, "impacts"},
+                                                                   {amplification, "amplification"},
                                                                    {work, "work"},
                                                                    {driving_work_per_cycle, "driving_work_per_cycle"},
                                                                    {useful_work_per_cycle, "useful_work_per_cycle"},

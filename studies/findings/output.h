@@ -1,18 +1,18 @@
-// output.h — what every study hands out: a conclusion, a table for the terminal, JSON, a report, tables as CSV.
+// output.h — a study's findings as they are handed out: text for the terminal, JSON, a page, tables as CSV.
 #pragma once
 
+#include <concepts>
 #include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "studies/findings/findings.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {
-
-struct CsvFile {
-  std::string name;                   // "trajectory.csv"
-  std::function<std::string()> text;  // made only when it is written
-};
 
 struct StudyOutput {
   std::string conclusion;          // one line
@@ -23,6 +23,30 @@ struct StudyOutput {
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
+  std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
 };
+
+// The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
+std::string terminal_text(const Findings& findings);
+std::string summary_json(const Findings& findings);
+Report page_of(const Findings& findings);
+
+StudyOutput rendered(Findings findings);
+
+// Of a study with a function findings_of. It must outlive the output; one that is handed over is kept by it.
+template <class Study>
+requires requires(const std::remove_reference_t<Study>& s) {
+  { findings_of(s) } -> std::same_as<Findings>;
+}
+StudyOutput output_of(Study&& study) {
+  if constexpr (std::is_lvalue_reference_v<Study>) {
+    return rendered(findings_of(study));
+  } else {
+    const auto kept = std::make_shared<const Study>(std::move(study));
+    StudyOutput output = rendered(findings_of(*kept));
+    output.study = kept;
+    return output;
+  }
+}
 
 }  // namespace kurbel

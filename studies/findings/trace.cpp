@@ -47,7 +47,7 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
     if (what == QuantityKind::torque || what == QuantityKind::force || what == QuantityKind::load_torque ||
         what == QuantityKind::speed)
       over_angle_.push_back(traces_->over_time.size());
-    traces_->over_time.push_back({channel.name.text, channel.unit, {}, {}});
+    traces_->over_time.push_back({channel.name.text, channel.unit, {}, {}, what, channel.name.of});
   }
   for (const char* name :
        {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
@@ -86,8 +86,9 @@ void TraceRecorder::follow_cycle(double t, double angle) {
   const double turn = std::floor(angle / model_->cycle + 1e-12);
   const auto start = [&] {
     open_ = {t, t, {}};
-    for (const std::size_t i : over_angle_)
-      open_.traces.push_back({traces_->over_time[i].name, traces_->over_time[i].unit, {}, {}});
+    for (const std::size_t i : over_angle_) open_.traces.push_back(traces_->over_time[i]);
+    open_.traces.back().x.clear();
+    open_.traces.back().y.clear();
   };
   const auto add = [&](double within) {
     for (std::size_t k = 0; k < over_angle_.size(); ++k) push(open_.traces[k], within, now_[over_angle_[k]]);

@@ -14,6 +14,8 @@ namespace kurbel {
 struct Trace {
   std::string name, unit;  // SI
   std::vector<double> x, y;
+  QuantityKind what = QuantityKind::other;
+  std::string of = {};
 };
 
 // One whole cycle of the reduction link; the traces run over its angle from 0 [rad].

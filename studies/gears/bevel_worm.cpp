@@ -3,41 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "studies/findings/json_text.h"
-#include "studies/findings/text_table.h"
 
 namespace kurbel {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using Rows = std::vector<std::vector<std::string>>;
 
 constexpr double mm = 1e3, degree = std::numbers::pi / 180;
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "∞"; }
 
-StudyOutput made(std::string title, std::string conclusion, Rows rows, Json json, std::vector<Formula> formulas,
-                 std::vector<Plot> plots) {
-  StudyOutput output;
-  output.conclusion = conclusion;
-  output.table = conclusion + "\n\n" + aligned(rows, 2);
-  json["conclusion"] = conclusion;
-  output.json = json_text(json);
-  output.report = [=] {
-    Report report{.title = title, .subtitle = "Basic relations (theory 6)", .conclusion = conclusion};
-    ReportSection& section = report.add("Geometry");
-    Table table{.title = title, .columns = rows.front(), .rows = {}, .text_columns = 2};
-    table.rows.assign(rows.begin() + 1, rows.end());
-    section.cards.push_back(table);
-    for (const Formula& formula : formulas) section.cards.push_back(formula);
-    for (const Plot& plot : plots) section.cards.push_back(plot);
-    report.footer = report_footer();
-    return report;
-  };
-  return output;
+Findings made(std::string title, std::string conclusion, const Lines& lines, const Formula& formula) {
+  Findings f{.title = "",
+             .subtitle = "Basic relations (theory 6)",
+             .page_title = title,
+             .conclusion = std::move(conclusion),
+             .tells_complete = false,
+             .footer = report_footer()};
+  const Chapter in = f.chapter("Geometry");
+  Rows table = words_table(title, lines.front(), {lines.begin() + 1, lines.end()});
+  table.text_columns = table.text_columns_on_terminal = 2;
+  f.say(in, std::move(table));
+  f.show(in, formula);
+  return f;
 }
 
 // Efficiency of both directions over the coefficient of friction.
@@ -62,9 +50,9 @@ Plot efficiency_plot(const WormPair& pair) {
 
 }  // namespace
 
-StudyOutput output_of(const BevelPair& b) {
+Findings findings_of(const BevelPair& b) {
   check(b);
-  const Rows rows = {
+  const Lines rows = {
       {"of the wheels", "symbol", "1", "2", "unit"},
       {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), ""},
       {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree), "°"},
@@ -72,55 +60,59 @@ StudyOutput output_of(const BevelPair& b) {
        number(mm * b.reference_diameter(1)), "mm"},
       {"cone distance, outer end", "R_e", number(mm * b.cone_distance()), number(mm * b.cone_distance()), "mm"},
       {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)), ""}};
-  const Json json = {{"ratio", b.ratio()},
-                     {"cone_angle", {b.cone_angle(0), b.cone_angle(1)}},
-                     {"cone_distance", b.cone_distance()},
-                     {"virtual_teeth", {b.virtual_teeth(0), b.virtual_teeth(1)}}};
   const Formula cones{
       .title = "Pitch cones (theory 6.14)",
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
                              b.ratio(), std::cos(b.shaft_angle), b.cone_angle(0) / degree, b.cone_angle(1) / degree)};
-  return made("Bevel pair",
-              fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
-                          "those of spur wheels with {:.1f} and {:.1f} teeth.",
-                          b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree,
-                          b.cone_angle(1) / degree, mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
-              rows, json, {cones}, {});
+  Findings f =
+      made("Bevel pair",
+           fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
+                       "those of spur wheels with {:.1f} and {:.1f} teeth.",
+                       b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree,
+                       b.cone_angle(1) / degree, mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
+           rows, cones);
+  f.tell("ratio", b.ratio());
+  f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
+  f.tell("cone_distance", b.cone_distance());
+  f.tell("virtual_teeth", std::array{b.virtual_teeth(0), b.virtual_teeth(1)});
+  return f;
 }
 
-StudyOutput output_of(const WormPair& w, std::optional<double> speed) {
+Findings findings_of(const WormPair& w, std::optional<double> speed) {
   check(w);
-  Rows rows = {{"of the pair", "symbol", "value", "unit"},
-               {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), ""},
-               {"ratio", "u", number(w.ratio()), ""},
-               {"lead angle", "γ", number(w.lead_angle() / degree), "°"},
-               {"centre distance", "a", number(mm * w.centre_distance()), "mm"},
-               {"friction angle", "ρ′", number(w.friction_angle() / degree), "°"},
-               {"efficiency, worm drives", "η", number(w.efficiency()), ""},
-               {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()), ""}};
-  Json json = {{"ratio", w.ratio()},
-               {"lead_angle", w.lead_angle()},
-               {"centre_distance", w.centre_distance()},
-               {"friction_angle", w.friction_angle()},
-               {"efficiency", w.efficiency()},
-               {"efficiency_back", w.efficiency_back()},
-               {"self_locking", w.self_locking()}};
-  if (speed) {
-    rows.push_back({"sliding speed", "v_g", number(w.sliding_speed(std::abs(*speed))), "m/s"});
-    json["sliding_speed"] = w.sliding_speed(std::abs(*speed));
-  }
+  Lines rows = {{"of the pair", "symbol", "value", "unit"},
+                {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), ""},
+                {"ratio", "u", number(w.ratio()), ""},
+                {"lead angle", "γ", number(w.lead_angle() / degree), "°"},
+                {"centre distance", "a", number(mm * w.centre_distance()), "mm"},
+                {"friction angle", "ρ′", number(w.friction_angle() / degree), "°"},
+                {"efficiency, worm drives", "η", number(w.efficiency()), ""},
+                {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()), ""}};
+  if (speed) rows.push_back({"sliding speed", "v_g", number(w.sliding_speed(std::abs(*speed))), "m/s"});
   const Formula efficiency{
       .title = "Efficiency in both directions (theory 6.15)",
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
       .numbers = fmt::format("γ = {:.4f}°, ρ′ = {:.4f}°:   η = {:.5f},   η′ = {:.5f}", w.lead_angle() / degree,
                              w.friction_angle() / degree, w.efficiency(), w.efficiency_back())};
-  return made("Worm pair",
-              fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f} with the worm driving; the wheel {}.",
-                          w.starts, w.teeth, w.lead_angle() / degree, w.friction_angle() / degree, w.efficiency(),
-                          w.self_locking() ? "cannot drive: self-locking (γ ≤ ρ′)"
-                                           : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
-              rows, json, {efficiency}, {efficiency_plot(w)});
+  Findings f =
+      made("Worm pair",
+           fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f} with the worm driving; the wheel {}.",
+                       w.starts, w.teeth, w.lead_angle() / degree, w.friction_angle() / degree, w.efficiency(),
+                       w.self_locking() ? "cannot drive: self-locking (γ ≤ ρ′)"
+                                        : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
+           rows, efficiency);
+  f.draw(static_cast<Chapter>(0), [w] { return efficiency_plot(w); });
+  for (Field& field : Record{{"ratio", w.ratio()},
+                             {"lead_angle", w.lead_angle()},
+                             {"centre_distance", w.centre_distance()},
+                             {"friction_angle", w.friction_angle()},
+                             {"efficiency", w.efficiency()},
+                             {"efficiency_back", w.efficiency_back()},
+                             {"self_locking", w.self_locking()}})
+    f.tell(field.key, field.value);
+  if (speed) f.tell("sliding_speed", w.sliding_speed(std::abs(*speed)));
+  return f;
 }
 
 }  // namespace kurbel

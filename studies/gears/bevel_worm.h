@@ -9,7 +9,7 @@
 namespace kurbel {
 
 // Both throw std::invalid_argument in words.
-StudyOutput output_of(const BevelPair& pair);
-StudyOutput output_of(const WormPair& pair, std::optional<double> worm_speed = {});  // [rad/s]
+Findings findings_of(const BevelPair& pair);
+Findings findings_of(const WormPair& pair, std::optional<double> worm_speed = {});  // [rad/s]
 
 }  // namespace kurbel

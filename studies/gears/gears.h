@@ -40,6 +40,7 @@ Gears single_pair(const GearPairData& data, std::optional<double> speed = {});
 // Worst finding of a stage.
 Finding worst_of(const GearStage& stage);
 
-StudyOutput output_of(const Gears& gears);
+// Files: STAGE.path.csv, STAGE.wheel1.csv, STAGE.wheel2.csv. The gears must outlive the findings.
+Findings findings_of(const Gears& gears);
 
 }  // namespace kurbel

@@ -91,6 +91,7 @@ Chain elastic_chain(const Model& model, int node);
 // "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the names allowed.
 int node_named(const Model& model, const std::string& name);
 
-StudyOutput output_of(const MachineReduction& reduction);
+// Files: positions.csv, harmonics.csv. The reduction must outlive the findings.
+Findings findings_of(const MachineReduction& reduction);
 
 }  // namespace kurbel

@@ -10,7 +10,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_changes.h"
 #include "studies/findings/figure_text.h"
-#include "studies/run/run_report.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 void add_rows(Comparison& c) {
   for (const Figure& f : c.b.figures) {
     if (!is_told(f, c.b)) continue;
-    ComparisonRow row{f.name, f.unit, {}, {}, f.value, f.error, 0, {}};
+    ComparisonRow row{f.name, f.unit, {}, {}, f.value, f.error, 0, {}, f.what, f.of};
     if (const Figure* other = c.a.find(f.name); other && is_told(*other, c.a)) {
       row.a = other->value;
       row.a_error = other->error;
@@ -29,10 +29,9 @@ void add_rows(Comparison& c) {
     c.rows.push_back(std::move(row));
   }
   for (const ComparisonRow& row : c.rows) {
-    const std::string prefix = "peak_torque.";
-    if (!row.name.starts_with(prefix) || !row.ratio) continue;
-    ComparisonRow factor{
-        "amplification." + row.name.substr(prefix.size()), "", {}, {}, std::abs(*row.ratio), {}, 0, {}};
+    if (row.what != QuantityKind::peak_torque || !row.ratio) continue;
+    const Name name = Name::make(QuantityKind::amplification, row.of);
+    ComparisonRow factor{name.text, "", {}, {}, std::abs(*row.ratio), {}, 0, {}, name.what, name.of};
     if (row.a_error && row.b_error)
       factor.b_error = std::abs(*row.ratio) * (*row.a_error / std::abs(*row.a) + *row.b_error / std::abs(*row.b));
     c.amplification.push_back(std::move(factor));
@@ -55,9 +54,9 @@ void note_sudden_loads(Comparison& c) {
   std::vector<std::string> sudden;
   const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
   for (const ComparisonRow& row : c.amplification) {
-    const std::string joint = row.name.substr(std::string("amplification.").size());
+    const std::string& joint = row.of;
     const auto rigid = rigid_torques.find(joint), elastic = elastic_torques.find(joint);
-    const Figure* peak = c.a.find("peak_torque." + joint);
+    const Figure* peak = c.a.find(QuantityKind::peak_torque, joint);
     if (rigid == rigid_torques.end() || elastic == elastic_torques.end() || !peak) continue;
     if (std::abs(rigid->second - elastic->second) > 0.05 * std::abs(peak->value))
       sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(elastic->second, "N*m", 4),
@@ -93,14 +92,14 @@ void conclude(Comparison& c) {
                                         return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
                                       });
   if (worst != c.amplification.end() && *worst->b > 0) {
-    const std::string joint = worst->name.substr(std::string("amplification.").size());
-    const Figure* peak = c.b.find("peak_torque." + joint);
+    const std::string& joint = worst->of;
+    const Figure* peak = c.b.find(QuantityKind::peak_torque, joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
                                with_error(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
   }
   const char* of_cycle = c.a.periods.steady && c.b.periods.steady ? "" : " of the last cycle, which is not steady,";
   for (const ComparisonRow& row : c.rows)
-    if (row.name.starts_with("delta.") && row.ratio)
+    if (row.what == QuantityKind::delta && row.ratio)
       c.conclusion += (c.conclusion.empty() ? "" : "; ") +
                       (*row.ratio > 2 ? fmt::format("δ{} is {:.3g} × as great", of_cycle, *row.ratio)
                                       : fmt::format("δ{} changes by {:+.2g} %", of_cycle, 100 * (*row.ratio - 1)));

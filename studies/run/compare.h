@@ -10,6 +10,8 @@ struct ComparisonRow {
   std::optional<double> a, a_error, b, b_error;
   double difference = 0;        // b − a
   std::optional<double> ratio;  // b/a
+  QuantityKind what = QuantityKind::other;
+  std::string of = {};
 };
 
 struct Comparison {

@@ -6,7 +6,7 @@
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
-#include "studies/run/run_report.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel {
 namespace {

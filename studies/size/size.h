@@ -99,6 +99,7 @@ std::string slope_of_what(const Sizing& sizing);
 // The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 
-StudyOutput output_of(const Sizing& sizing);
+// Files: diagrams.csv. The sizing must outlive the findings.
+Findings findings_of(const Sizing& sizing);
 
 }  // namespace kurbel

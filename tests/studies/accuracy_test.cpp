@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "studies/accuracy/accuracy_output.h"
+#include "studies/accuracy/accuracy_findings.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"

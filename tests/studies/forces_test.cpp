@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "studies/forces/forces_output.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"
 

@@ -1,7 +1,7 @@
 // machine_view_test.cpp — the drawn mechanism: links keep their lengths, bearings stand still, the turn closes.
 #include <cmath>
 
-#include "studies/run/run_report.h"
+#include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {

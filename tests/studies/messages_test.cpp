@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "studies/report/render.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "tests/support/scenes.h"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "studies/modes/modes_output.h"
+#include "studies/modes/modes_findings.h"
 #include "studies/report/render.h"
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
 // output_test.cpp — results as files: the JSON that programs read, the CSV, and a run against the full multibody.
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 
 #include <cmath>
 #include <filesystem>
@@ -32,7 +32,7 @@ Comparison press_comparison() {
 
 TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
   const Scene scene = press_at_speed();
-  const auto j = nlohmann::json::parse(json_of(run(scene)));
+  const auto j = nlohmann::json::parse(output_of(run(scene)).json);
   EXPECT_EQ(j.at("title"), "Crank press, 630 kN");
   EXPECT_EQ(j.at("model").at("coordinates"), 5);
   EXPECT_TRUE(j.at("model").at("effects").is_string());
@@ -60,7 +60,7 @@ TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
 
 TEST(Summary, OfAComparisonHoldsBothModels) {
   const Comparison c = press_comparison();
-  const auto j = nlohmann::json::parse(json_of(c));
+  const auto j = nlohmann::json::parse(output_of(c).json);
   EXPECT_EQ(j.at("models").at("rigid").at("model").at("coordinates"), 1);
   EXPECT_EQ(j.at("models").at("elastic").at("model").at("coordinates"), 5);
   for (const auto& factor : j.at("amplification")) EXPECT_GT(factor.at("value").get<double>(), 0);

@@ -15,8 +15,7 @@
 #include "studies/findings/trace.h"
 #include "studies/report/render.h"
 #include "studies/run/compare.h"
-#include "studies/run/run_output.h"
-#include "studies/run/run_report.h"
+#include "studies/run/run_findings.h"
 #include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
@@ -98,8 +97,8 @@ TEST(JsonString, ClosesNoScriptAndParsesBack) {
 // Terminal and page show one form of value and error, every figure's.
 TEST(Report, ShowsFiguresAsTheTerminalDoes) {
   const Result r = test::run(geared_train);
-  const nlohmann::json data = data_of(html_of(report_of(r)));
-  const std::string table = table_of(r);
+  const nlohmann::json data = data_of(html_of(output_of(r).report()));
+  const std::string table = output_of(r).table;
   std::map<std::string, nlohmann::json> rows;
   for (const auto& section : data.at("sections"))
     for (const auto& card : section.at("cards"))
@@ -120,7 +119,7 @@ TEST(Report, ShowsFiguresAsTheTerminalDoes) {
 }
 
 TEST(Report, LoadsNothingFromElsewhere) {
-  const std::string html = html_of(report_of(compared(geared_train)));
+  const std::string html = html_of(output_of(compared(geared_train)).report());
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
   // Of the page itself; Plotly's text holds addresses that it never calls, which the browser test sees to.
   const std::size_t plotly = html.find("plotly.js");
@@ -132,7 +131,7 @@ TEST(Report, LoadsNothingFromElsewhere) {
 
 TEST(Report, HoldsBothModelsAndTheMachine) {
   const Comparison c = compared(geared_train);
-  const nlohmann::json data = data_of(html_of(report_of(c)));
+  const nlohmann::json data = data_of(html_of(output_of(c).report()));
   EXPECT_EQ(data["conclusion"], c.conclusion);
   int plots = 0, machines = 0;
   for (const auto& section : data["sections"])

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "studies/steady/steady_output.h"
+#include "studies/steady/steady_findings.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test {

@@ -9,7 +9,7 @@
 
 #include "studies/effects/effect_study.h"
 #include "studies/forces/forces.h"
-#include "studies/forces/forces_output.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 

@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "studies/modes/modes.h"
-#include "studies/modes/modes_output.h"
+#include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
-#include "studies/run/run_output.h"
+#include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 

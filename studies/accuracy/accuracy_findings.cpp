@@ -1,0 +1,258 @@
+// accuracy_findings.cpp — words and tables of the study of accuracy.
+#include "studies/accuracy/accuracy_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/units.h"
+#include "studies/accuracy/accuracy_plots.h"
+#include "studies/accuracy/known_accuracy.h"
+#include "studies/accuracy/machine_info.h"
+#include "studies/findings/figure_text.h"
+
+namespace kurbel {
+namespace {
+
+std::string error_number(double error) { return std::isnan(error) ? "—" : fmt::format("{:.1e}", error); }
+std::string tolerance_text(double tolerance) { return tolerance > 0 ? fmt::format("{:.0e}", tolerance) : "—"; }
+std::string milliseconds(double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); }
+// "± 4 %": half the range over the median.
+std::string spread(const MeasuredSetting& s) {
+  return s.repetitions < 2 ? "" : fmt::format("± {:.0f} %", 50 * (s.slowest - s.fastest) / s.seconds);
+}
+
+std::string front_text(const MeasuredSetting& s) {
+  return std::string(s.on_front ? "all" : "") + (s.on_front && s.on_level_front ? ", " : "") +
+         (s.on_level_front ? "model" : "");
+}
+
+// --- tables ---
+
+Rows settings_table(const AccuracyStudy& study) {
+  using S = const MeasuredSetting&;
+  auto table = table_of("settings", "Every setting", study.settings).not_on_terminal().fold().text_in(2).always();
+  table.column("model", "model", [&](S s) { return study.levels[s.level].name; })
+      .column("method", "method", &MeasuredSetting::method)
+      .only_for_programs("tolerance", [](S s) { return s.tolerance > 0 ? Value(s.tolerance) : Value(); })
+      .only_for_people("tolerance", &MeasuredSetting::tolerance, tolerance_text)
+      .column("trajectory_error", "error of motion", &MeasuredSetting::trajectory_error, error_number);
+  for (std::size_t i = 0; i < study.figures.size(); ++i)
+    table.only_for_people("error of " + study.figures[i].name, [i](S s) { return error_number(s.numerical_error[i]); });
+  return table
+      .only_for_people("total error",
+                       [&](S s) { return s.total_error.empty() ? "—" : error_number(s.total_error[study.key]); })
+      .only_for_people("time [ms]", &MeasuredSetting::seconds, milliseconds)
+      .only_for_people("spread", spread)
+      .only_for_programs("seconds",
+                         [](S s) {
+                           return Record{{"median", s.seconds}, {"fastest", s.fastest}, {"slowest", s.slowest}};
+                         })
+      .only_for_programs("repetitions", &MeasuredSetting::repetitions)
+      .column("steps", "steps", &MeasuredSetting::steps)
+      .only_for_programs("rejected", &MeasuredSetting::rejected)
+      .column("right_hand_sides", "right-hand sides", &MeasuredSetting::flow_calls)
+      .column("jacobians", "Jacobians", &MeasuredSetting::jacobian_calls)
+      .column("events", "events", &MeasuredSetting::events)
+      .column("energy_drift", "energy drift", &MeasuredSetting::energy_drift, error_number)
+      .only_for_programs("on_front", &MeasuredSetting::on_front)
+      .only_for_programs("on_front_of_model", &MeasuredSetting::on_level_front)
+      .only_for_people("front", front_text)
+      .only_for_programs("figures", [&](S s) {
+        return each(numbers_below(study.figures.size()), [&](std::size_t i) {
+          return Record{{"name", study.figures[i].name},
+                        {"numerical_error", s.numerical_error[i]},
+                        {"total_error", s.total_error[i]}};
+        });
+      });
+}
+
+// On a terminal the fronts alone, with the key figure; all settings are in the files.
+Rows front_table(const AccuracyStudy& study) {
+  std::vector<const MeasuredSetting*> shown;
+  for (const MeasuredSetting& s : study.settings)
+    if (s.on_front || s.on_level_front) shown.push_back(&s);
+  std::stable_sort(shown.begin(), shown.end(), [](const MeasuredSetting* a, const MeasuredSetting* b) {
+    return a->level != b->level ? a->level < b->level : a->seconds < b->seconds;
+  });
+  using S = const MeasuredSetting*;
+  return table_of("", "", std::move(shown))
+      .headed(fmt::format("errors of {} are relative; settings that no other beats in error and time:",
+                          study.figures[study.key].name))
+      .text_in(2)
+      .always()
+      .not_on_page()
+      .only_for_people("model", [&](S s) { return study.levels[s->level].name; })
+      .only_for_people("method", &MeasuredSetting::method)
+      .only_for_people("tolerance", &MeasuredSetting::tolerance, tolerance_text)
+      .only_for_people("time [ms]", &MeasuredSetting::seconds, milliseconds)
+      .only_for_people("error of motion", &MeasuredSetting::trajectory_error, error_number)
+      .only_for_people("numerical error", [&](S s) { return error_number(s->numerical_error[study.key]); })
+      .only_for_people("total error", [&](S s) { return error_number(s->total_error[study.key]); })
+      .only_for_people("front", [](S s) { return s->on_front ? "cheapest of all at its error" : "of its model"; });
+}
+
+Rows level_table(const AccuracyStudy& study) {
+  using L = const ModelLevel&;
+  auto table = table_of("models", "Models and their references", study.levels).not_on_terminal().text_in(3).always();
+  table.column("name", "model", &ModelLevel::name)
+      .column("effects", "effects", &ModelLevel::effects)
+      .only_for_people("reference by", [](L m) { return fmt::format("{}, {}", m.first, m.second); })
+      .column("coordinates", "coordinates", &ModelLevel::coordinates)
+      .only_for_people("agreement of motion", &ModelLevel::agreement, error_number)
+      .only_for_programs("reference",
+                         [](L m) {
+                           return Record{{"methods", List{m.first, m.second}},
+                                         {"tolerance", m.tolerance},
+                                         {"agreement_of_motion", m.agreement}};
+                         })
+      .only_for_programs("figures", [&](L m) {
+        return each(numbers_below(study.figures.size()), [&](std::size_t i) {
+          return Record{{"name", study.figures[i].name},
+                        {"value", m.value[i]},
+                        {"unit", study.figures[i].unit},
+                        {"agreement", m.floor[i]},
+                        {"model_error", m.model_error[i]}};
+        });
+      });
+  for (std::size_t i = 0; i < study.figures.size(); ++i)
+    table
+        .only_for_people(
+            fmt::format("{} [{}]", study.figures[i].name, pretty_unit(study.figures[i].unit)),
+            [i](L m) {
+              return std::isnan(m.value[i]) ? "—" : figure_text(m.value[i], m.floor[i] * std::abs(m.value[i])).value;
+            })
+        .only_for_people("model error", [i](L m) {
+          return std::isnan(m.model_error[i]) ? "—" : fmt::format("{:.2g} %", 100 * m.model_error[i]);
+        });
+  return table;
+}
+
+Rows omission_table(const AccuracyStudy& study) {
+  return table_of("omissions", "", study.omissions)
+      .not_on_terminal()
+      .text_in(2)
+      .column("what", "what", &Omission::what)
+      .column("why", "why", &Omission::why);
+}
+
+std::string settings_csv(const AccuracyStudy& study) {
+  using S = const MeasuredSetting&;
+  auto csv = csv_of(study.settings);
+  csv.column("model", [&](S s) { return fmt::format("\"{}\"", study.levels[s.level].name); })
+      .column("method", &MeasuredSetting::method)
+      .column("tolerance", &MeasuredSetting::tolerance, 6)
+      .column("trajectory_error", &MeasuredSetting::trajectory_error, 6);
+  for (std::size_t i = 0; i < study.figures.size(); ++i)
+    csv.column(
+           "numerical_error." + study.figures[i].name, [i](S s) { return s.numerical_error[i]; }, 6)
+        .column(
+            "total_error." + study.figures[i].name, [i](S s) { return s.total_error[i]; }, 6);
+  return csv.column("seconds", &MeasuredSetting::seconds, 6)
+      .column("fastest", &MeasuredSetting::fastest, 6)
+      .column("slowest", &MeasuredSetting::slowest, 6)
+      .column("repetitions", &MeasuredSetting::repetitions)
+      .column("steps", &MeasuredSetting::steps)
+      .column("rejected", &MeasuredSetting::rejected)
+      .column("right_hand_sides", &MeasuredSetting::flow_calls)
+      .column("jacobians", &MeasuredSetting::jacobian_calls)
+      .column("events", &MeasuredSetting::events)
+      .column("energy_drift", &MeasuredSetting::energy_drift, 6)
+      .column("on_front", [](S s) { return s.on_front ? 1 : 0; })
+      .text();
+}
+
+// --- all of it ---
+
+void add_key_figures(Findings& f, const AccuracyStudy& study) {
+  const ModelLevel& full = study.levels[study.fullest];
+  for (std::size_t i = 0; i < std::min<std::size_t>(study.figures.size(), 3); ++i)
+    f.figures.push_back({fmt::format("{}, {}", study.figures[i].name, full.name), full.value[i], study.figures[i].unit,
+                         full.floor[i] * std::abs(full.value[i])});
+  const auto fastest =
+      std::min_element(study.settings.begin(), study.settings.end(),
+                       [](const MeasuredSetting& a, const MeasuredSetting& b) { return a.seconds < b.seconds; });
+  f.figures.push_back({"settings measured",
+                       static_cast<double>(study.settings.size()),
+                       "",
+                       {},
+                       fmt::format("the fastest: {}", study.name_of(*fastest)),
+                       4});
+}
+
+Text how_measured(const AccuracyStudy& study) {
+  const ModelLevel& full = study.levels[study.fullest];
+  return {.title = "How it was measured",
+          .body = fmt::format(
+              "Time is processor time of the integration with its peaks and cycles found, without samples for plots "
+              "and without the energy audit: median of up to nine runs in one process. Tables of the work equation are "
+              "made beforehand. Numerical errors are against the model's own reference, by two methods at a tolerance "
+              "of {:.0e}; total errors against the reference of the {} model. The whole study took {:.3g} s.",
+              full.tolerance, full.name, study.seconds)};
+}
+
+// What a page shows of settings that were measured.
+void show_measured(Findings& f, const AccuracyStudy& study) {
+  const Chapter words = f.chapter("What it means"), plane = f.chapter("Model and numbers"),
+                motion = f.chapter("The motion"), figures = f.chapter("The figures"), numbers = f.chapter("Numbers"),
+                left_out = f.chapter("Left out");
+  std::vector<std::string> sentences;
+  for (const auto* list : {&study.findings, &study.answers})
+    for (const std::string& sentence : *list) sentences.push_back(sentence + ".");
+  f.say(words, Words{.lines = sentences, .terminal = false});
+  f.draw(plane, [&study] { return total_plots(study); });
+  f.draw(motion, [&study] { return motion_cost_plots(study); });
+  f.draw(figures, [&study] { return figure_cost_plots(study); });
+  f.say(numbers, level_table(study));
+  f.say(numbers, settings_table(study));
+  f.say(left_out, omission_table(study));
+  f.show(left_out, how_measured(study));
+}
+
+}  // namespace
+
+Findings findings_of(const AccuracyStudy& study) {
+  const std::string first = study.findings.empty() ? study.diagnosis : study.findings.front();
+  Findings f{.title = study.title,
+             .subtitle = "What accuracy costs: methods, tolerances and models against converged references",
+             .scene_file = study.scene_file,
+             .conclusion = study.answers.empty() ? first : study.answers.front(),
+             .page_conclusion = study.findings.empty() ? first : first + ".",
+             .complete = study.complete,
+             .diagnosis = study.diagnosis,
+             .opening = Findings::Opening::title,
+             .tells_conclusion = false,
+             .footer = machine_info() + " · " + report_footer()};
+  const bool measured = !study.settings.empty() && !study.figures.empty();
+  const Chapter terminal = f.chapter("");  // nothing of it on the page
+  const auto say = [&](Words words) {
+    words.page = false;
+    f.say(terminal, std::move(words));
+  };
+  f.tell("fingerprint", fingerprint(study.scene_text));
+  say({.lines = study.findings, .indent = "  ", .key = "findings"});
+  say({.lines = study.answers, .indent = "  ", .key = "answers"});
+  f.tell("key_figure", study.figures.empty() ? Value() : Value(study.figures[study.key].name));
+  if (measured) {
+    f.say(terminal, front_table(study));
+    say({.lines = {""}});
+    add_key_figures(f, study);
+    show_measured(f, study);
+  } else {
+    f.tell("models", level_table(study).list());
+    f.tell("settings", settings_table(study).list());
+    f.tell("omissions", omission_table(study).list());
+  }
+  for (const Omission& o : study.omissions)
+    say({.lines = {fmt::format("left out: {}: {}", o.what, o.why)}, .indent = "  "});
+  say({.lines = {fmt::format("{} settings in {:.3g} s of processor time; {}", study.settings.size(), study.seconds,
+                             machine_info())},
+       .indent = "  "});
+  f.tell("machine", machine_info());
+  f.tell("processor_seconds", study.seconds);
+  f.csv = {{"settings.csv", [&study] { return settings_csv(study); }}};
+  return f;
+}
+
+}  // namespace kurbel

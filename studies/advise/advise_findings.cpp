@@ -1,0 +1,147 @@
+// advise_findings.cpp — error bought and time saved on one plane, the screens and the runs behind the advice.
+#include "studies/advise/advise_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+constexpr double least_shown = 1e-6;  // percent
+
+std::string percent(double relative) {
+  return std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "lost";
+}
+
+std::string or_dash(const std::string& figure) { return figure.empty() ? "—" : figure; }
+
+Rows effect_table(const Advice& a) {
+  return table_of("", "Each effect", numbers_below(std::min(a.units.size(), a.kept_because.size())))
+      .text_in(3, 2)
+      .always()
+      .only_for_people("effect", [&](std::size_t k) { return a.units[k].words; })
+      .only_for_people("advice", [&](std::size_t k) { return a.kept_because[k]; })
+      .only_for_people("screens", [&](std::size_t k) {
+        std::string screens;
+        for (const Screen& s : a.screens[k]) screens += (screens.empty() ? "" : "; ") + s.verdict;
+        return screens.empty() ? "none applies" : screens;
+      });
+}
+
+// The least deviation first.
+Rows tried_table(const Advice& a) {
+  std::vector<const TriedSet*> order;
+  for (const TriedSet& t : a.tried) order.push_back(&t);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const TriedSet* x, const TriedSet* y) { return x->deviation < y->deviation; });
+  return table_of("", "Every set that was run", std::move(order))
+      .always()
+      .only_for_people("effects on", &TriedSet::words)
+      .only_for_people("deviation", [](const TriedSet* t) { return t->refused.empty() ? percent(t->deviation) : "—"; })
+      .only_for_people("in", [](const TriedSet* t) { return or_dash(t->figure); })
+      .only_for_people("time [ms]", &TriedSet::cpu_seconds, {.factor = 1e3, .digits = 3})
+      .only_for_people("states", [](const TriedSet* t) { return t->size.states; })
+      .only_for_people("within", [&](const TriedSet* t) {
+        if (!t->refused.empty()) return "does not run";
+        return t == &a.tried[a.chosen] ? "yes, chosen" : t->within ? "yes" : "no";
+      });
+}
+
+Rows held_out_table(const Advice& a) {
+  return table_of("held_out", "Figures and operating points that took no part in the choice", a.held_out)
+      .column("what", "held out", &HeldOut::what)
+      .only_for_programs("deviation", &HeldOut::deviation)
+      .only_for_people("deviation", [](const HeldOut& h) { return h.refused.empty() ? percent(h.deviation) : "—"; })
+      .column("figure", "in", &HeldOut::figure, or_dash)
+      .only_for_programs("within", &HeldOut::within)
+      .only_for_people("within", [](const HeldOut& h) {
+        return h.within ? "yes" : h.refused.empty() ? "no" : h.refused;
+      });
+}
+
+Record effect_record(const Advice& a, std::size_t k) {
+  return {{"effect", a.units[k].name},
+          {"on", static_cast<bool>(a.tried[a.chosen].on[k])},
+          {"why", a.kept_because[k]},
+          {"screens", each(a.screens[k], [](const Screen& s) {
+             return Record{{"name", s.name}, {"number", s.number}, {"verdict", s.verdict}, {"needed", s.needed}};
+           })}};
+}
+
+Record tried_record(const Advice& a, const TriedSet& t) {
+  Record r = {{"effects", t.words}, {"cpu_seconds", t.cpu_seconds}, {"states", t.size.states}, {"within", t.within}};
+  if (!t.refused.empty()) {
+    r.push_back({"refused", t.refused});
+  } else {
+    if (std::isfinite(t.deviation)) r.push_back({"deviation", t.deviation});
+    r.push_back({"figure", t.figure});
+  }
+  r.push_back({"chosen", &t == &a.tried[a.chosen]});
+  return r;
+}
+
+Plot plane(const Advice& a) {
+  Plot plot{.title = "Error bought against time saved: every set that was run",
+            .x = {"processor time of a run", "ms", true},
+            .y = {"greatest deviation from the full model", "%", true},
+            .series = {}};
+  const auto add = [&](const std::string& name, Role role, auto belongs) {
+    Series series{.name = name, .role = role, .x = {}, .y = {}, .points = true, .line = false};
+    for (std::size_t i = 0; i < a.tried.size(); ++i) {
+      const TriedSet& t = a.tried[i];
+      if (!t.refused.empty() || !std::isfinite(t.deviation) || !belongs(i, t)) continue;
+      series.x.push_back(1e3 * t.cpu_seconds);
+      series.y.push_back(std::max(100 * t.deviation, least_shown));
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  };
+  add("full model", Role::reference, [&](std::size_t i, const TriedSet&) { return i == 0; });
+  add("chosen: " + a.tried[a.chosen].words, Role::green,
+      [&](std::size_t i, const TriedSet&) { return i == a.chosen && i > 0; });
+  add("within the tolerance", Role::elastic,
+      [&](std::size_t i, const TriedSet& t) { return i > 0 && i != a.chosen && t.within; });
+  add("outside", Role::vermillion, [&](std::size_t i, const TriedSet& t) { return i > 0 && !t.within; });
+  double low = HUGE_VAL, high = 0;
+  for (const Series& s : plot.series)
+    for (const double x : s.x) low = std::min(low, x), high = std::max(high, x);
+  plot.series.push_back({.name = fmt::format("tolerance {:.3g} %", 100 * a.tolerance),
+                         .role = Role::rigid,
+                         .x = {low, high},
+                         .y = {100 * a.tolerance, 100 * a.tolerance},
+                         .dashed = true});
+  plot.note = fmt::format("Deviations below {:g} % are drawn there.", least_shown);
+  return plot;
+}
+
+}  // namespace
+
+Findings findings_of(const Advice& a) {
+  Findings f{.title = a.title,
+             .subtitle = fmt::format("Which effects are needed for {:.3g} %", 100 * a.tolerance),
+             .conclusion = a.conclusion,
+             .complete = a.complete,
+             .diagnosis = a.full.diagnosis,
+             .opening = Findings::Opening::title_and_conclusion,
+             .tells_diagnosis = false};
+  const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
+  f.figures = {{"deviation", 100 * chosen.deviation, "", {}, "% at most, measured", 3},
+               {"time of the full model", 1e3 * full.cpu_seconds, "", {}, "ms a run", 3},
+               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", {}, "ms a run", 3},
+               {"sets run", static_cast<double>(a.tried.size()), "", {}, "", 3}};
+  const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
+  f.tell("within", a.tolerance);
+  f.draw(advice, [&a] { return plane(a); });
+  f.say(advice, effect_table(a));
+  f.tell("effects", each(numbers_below(std::min(a.units.size(), a.kept_because.size())),
+                         [&](std::size_t k) { return effect_record(a, k); }));
+  f.say(runs, tried_table(a));
+  f.tell("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
+  f.say(advice, held_out_table(a));
+  f.say(advice, Words{.lines = a.warnings, .title = "Warnings", .indent = "warning: ", .key = "warnings"});
+  f.show(lean, Text{.title = "The scene with these effects", .body = a.lean_scene, .verbatim = true, .folded = true});
+  return f;
+}
+
+}  // namespace kurbel

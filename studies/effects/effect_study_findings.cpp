@@ -1,0 +1,152 @@
+// effect_study_findings.cpp — effects ranked: what changes without each, what each adds, what each costs.
+#include "studies/effects/effect_study_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t most_figures = 8;  // columns of the matrix of changes
+constexpr double least_shown = 1e-6;     // percent; smaller changes lie on the axis
+
+std::string percent(const FigureChange& change) {
+  return change.from_nothing && change.relative > 1 ? std::string("from zero")
+                                                    : fmt::format("{:.3g} %", 100 * change.relative);
+}
+
+Rows ranking(const EffectStudy& s) {
+  Lines lines;
+  for (const LeftOut& l : s.left_out) {
+    if (!l.refused.empty()) {
+      lines.push_back({l.effect.words, "—", "—", "", "", "", "", "", "does not run: " + l.refused});
+      continue;
+    }
+    const bool any = !l.changes.empty();
+    lines.push_back({l.effect.words, any ? percent(l.changes.front()) : "—", any ? l.changes.front().figure : "—",
+                     fmt::format("{}", l.saved.states), fmt::format("{}", l.saved.nonzeros),
+                     fmt::format("{}", l.saved.guards), fmt::format("{:+d}", l.events_added),
+                     fmt::format("{:.2f}", l.time_ratio), ""});
+  }
+  Rows table =
+      words_table("Each effect left out of the full model",
+                  {"left out", "greatest change", "in", "states", "nonzeros", "guards", "events", "time ×", ""}, lines);
+  table.apart = false;
+  return table;
+}
+
+// The figures that any effect changes most.
+std::vector<std::string> figures_shown(const EffectStudy& s) {
+  std::vector<std::pair<double, std::string>> most;
+  for (const Figure& f : s.full.figures) {
+    double change = -1;
+    for (const LeftOut& l : s.left_out)
+      for (const FigureChange& c : l.changes)
+        if (c.figure == f.name) change = std::max(change, c.relative);
+    if (change >= 0) most.emplace_back(change, f.name);
+  }
+  std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < most.size() && k < most_figures; ++k) names.push_back(most[k].second);
+  return names;
+}
+
+Rows matrix(const EffectStudy& s) {
+  std::vector<LeftOut> ran = s.left_out;
+  std::erase_if(ran, [](const LeftOut& l) { return !l.refused.empty(); });
+  const std::vector<std::string> figures = figures_shown(s);
+  auto table = table_of("", "Change of each figure", ran);
+  table.even_if_empty = !figures.empty();
+  table.people_see_it_if(!figures.empty()).only_for_people("change when left out", [](const LeftOut& l) {
+    return l.effect.words;
+  });
+  for (const std::string& name : figures)
+    table.only_for_people(name, [&](const LeftOut& l) {
+      const auto found =
+          std::find_if(l.changes.begin(), l.changes.end(), [&](const FigureChange& c) { return c.figure == name; });
+      return found == l.changes.end() ? "—" : percent(*found);
+    });
+  return table;
+}
+
+Record left_out_record(const LeftOut& l) {
+  if (!l.refused.empty()) return {{"effect", l.effect.name}, {"refused", l.refused}};
+  return {{"effect", l.effect.name},
+          {"states", l.saved.states},
+          {"nonzeros", l.saved.nonzeros},
+          {"guards", l.saved.guards},
+          {"events_added", l.events_added},
+          {"time_ratio", l.time_ratio},
+          {"changes", each(l.changes, [](const FigureChange& c) {
+             return Record{{"figure", c.figure},
+                           {"unit", c.unit},
+                           {"full", c.full},
+                           {"without", c.without},
+                           {"relative", c.relative}};
+           })}};
+}
+
+// Change against cost: what lies on the left above costs little and matters.
+Plot plane(const EffectStudy& s) {
+  Plot plot{.title = "What each effect changes, and what it costs (theory 14.1)",
+            .x = {"time with the effect over time without", "×"},
+            .y = {"greatest change of a figure without it", "%", true},
+            .series = {}};
+  std::size_t k = 0;
+  for (const LeftOut& l : s.left_out) {
+    if (!l.refused.empty() || l.changes.empty()) continue;
+    plot.series.push_back({.name = l.effect.words + " (" + l.changes.front().figure + ")",
+                           .role = further_role(k++),
+                           .x = {l.time_ratio},
+                           .y = {std::max(100 * l.changes.front().relative, least_shown)},
+                           .points = true,
+                           .line = false});
+  }
+  plot.note = fmt::format("Changes below {:g} % are drawn there.", least_shown);
+  return plot;
+}
+
+std::string full_model(const EffectStudy& s) {
+  return fmt::format("full model: {}; {} states, {} nonzeros, {} guards, {} events, {:.3g} ms of processor time a run",
+                     s.full.effects, s.size.states, s.size.nonzeros, s.size.guards, s.full.statistics.events,
+                     1e3 * s.full.statistics.cpu_seconds);
+}
+
+}  // namespace
+
+Findings findings_of(const EffectStudy& s) {
+  Findings f{.title = s.title,
+             .subtitle = "What each effect changes and costs",
+             .conclusion = s.conclusion,
+             .complete = s.full.complete,
+             .diagnosis = s.full.diagnosis,
+             .opening = Findings::Opening::title_and_conclusion,
+             .tells_diagnosis = false};
+  for (const LeftOut& l : s.left_out)
+    if (l.refused.empty() && !l.changes.empty() && f.figures.size() < 4)
+      f.figures.push_back({"without " + l.effect.words,
+                           100 * l.changes.front().relative,
+                           "",
+                           {},
+                           "% off in " + l.changes.front().figure,
+                           3});
+  const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
+  f.say(ranked, Words{.lines = {full_model(s)}, .page = false, .apart = true});
+  f.draw(ranked, [&s] { return plane(s); });
+  f.say(ranked, ranking(s));
+  f.say(ranked, matrix(s));
+  f.tell("full", Record{{"effects", s.full.effects},
+                        {"states", s.size.states},
+                        {"nonzeros", s.size.nonzeros},
+                        {"guards", s.size.guards},
+                        {"events", s.full.statistics.events},
+                        {"cpu_seconds", s.full.statistics.cpu_seconds}});
+  f.tell("effects", each(s.left_out, left_out_record));
+  f.show(full, Text{.title = "", .body = s.full.explanation, .verbatim = true});
+  f.show_scene(s.scene_file, s.scene_text);
+  return f;
+}
+
+}  // namespace kurbel

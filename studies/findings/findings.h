@@ -1,0 +1,112 @@
+// findings.h — what a study found, each thing said once; terminal, JSON, CSV and page are renderings of it (output.h).
+//
+//   Findings f{.title = "Size of the flywheel", .conclusion = "420 kg·m² keep δ below 0.05."};
+//   const Chapter results = f.chapter("Results");   // chapters stand on the page as they are declared,
+//   f.say(results, table_of(…).column(…));          // statements within them, and on the terminal, as they are said
+//   f.draw(results, [&] { return plot_of(study); });
+//   f.tell("operating_point", Record{{"speed", 31.4}});
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "studies/findings/report.h"
+#include "studies/findings/rows.h"
+
+namespace kurbel {
+
+// Of summary.json: one higher whenever a program that reads it has to change.
+inline constexpr int summary_version = 1;
+
+struct CsvFile {
+  std::string name;                   // "trajectory.csv"
+  std::function<std::string()> text;  // made only when it is written
+};
+
+// Sentences, a line each.
+struct Words {
+  std::vector<std::string> lines;
+  std::string title = {};    // of the card on the page
+  std::string heading = {};  // on the terminal, above
+  std::string indent = {};   // on the terminal, before each: "  note: "
+  std::string key = {};      // of the list in JSON; empty: none
+  bool terminal = true, page = true;
+  bool apart = false;  // on the terminal, by a blank line before it
+};
+
+enum class Chapter : std::size_t {};
+
+using Cards = std::vector<Card>;
+
+// Made only when a page is: plots cost. Or what is for the page alone.
+struct Drawn {
+  std::function<Cards()> cards;
+};
+
+struct Statement {
+  std::optional<Chapter> chapter;  // of the page; none: not on it
+  std::variant<Rows, Words, Field, Drawn> what;
+};
+
+struct Findings {
+  // What the terminal's text begins with.
+  enum class Opening { conclusion, title_and_conclusion, title };
+
+  std::string title, subtitle = {};
+  std::string page_title = {};       // empty: the title
+  std::string scene_file = {};       // for programs; empty: not told
+  std::string conclusion = {};       // one line
+  std::string page_conclusion = {};  // empty: the conclusion
+  bool complete = true;
+  std::string diagnosis = {};    // of a run that failed on its way
+  std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
+  Opening opening = Opening::conclusion;
+  bool tells_conclusion = true;  // to programs
+  bool tells_diagnosis = true;   // to programs, of what is incomplete
+  bool tells_complete = true;    // to programs; not by those that are always complete
+  std::string footer = {};       // versions
+  std::vector<KeyFigure> figures = {};
+  std::vector<std::string> chapters = {};
+  std::vector<Statement> statements = {};
+  std::vector<CsvFile> csv = {};
+
+  // A chapter without cards is not shown.
+  Chapter chapter(std::string with_title) {
+    chapters.push_back(std::move(with_title));
+    return static_cast<Chapter>(chapters.size() - 1);
+  }
+  void say(Chapter in, Rows rows) { statements.push_back({in, std::move(rows)}); }
+  void say(Chapter in, Words words) { statements.push_back({in, std::move(words)}); }
+  // On the page alone.
+  void show(Chapter in, Card card) {
+    statements.push_back({in, Drawn{[cards = Cards{std::move(card)}] { return cards; }}});
+  }
+  // The same, made when the page is: a Plot, std::optional<Plot>, or list of plots.
+  template <class Made>
+  void draw(Chapter in, Made made) {
+    statements.push_back({in, Drawn{[made = std::move(made)] { return cards_of(made()); }}});
+  }
+  // Programs alone.
+  void tell(std::string key, Value value) {
+    statements.push_back({std::nullopt, Field{std::move(key), std::move(value)}});
+  }
+  // Notes in terminal, JSON and page, where what is missing of an incomplete study stands with them.
+  void note(Chapter in, const std::vector<std::string>& notes, const std::string& indent = "  ");
+  // The scene's text, folded.
+  void show_scene(const std::string& file, const std::string& text);
+
+ private:
+  static Cards cards_of(Cards cards) { return cards; }
+  static Cards cards_of(Plot plot) { return {std::move(plot)}; }
+  static Cards cards_of(std::optional<Plot> plot) { return plot ? cards_of(std::move(*plot)) : Cards{}; }
+  static Cards cards_of(std::vector<Plot> plots) {
+    return {std::make_move_iterator(plots.begin()), std::make_move_iterator(plots.end())};
+  }
+};
+
+}  // namespace kurbel

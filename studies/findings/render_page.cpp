@@ -1,0 +1,108 @@
+// render_page.cpp — findings as a page: sections of cards; and all renderings together.
+#include <algorithm>
+#include <memory>
+
+#include "studies/findings/output.h"
+
+namespace kurbel {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+void show(Cards& cards, const Rows& rows) {
+  if (rows.page && rows.shown_to_people())
+    cards.push_back(Table{.title = rows.title,
+                          .columns = rows.headings(),
+                          .rows = rows.texts(),
+                          .folded = rows.folded,
+                          .text_columns = rows.text_columns,
+                          .tones = rows.tones,
+                          .hints = rows.hints});
+}
+void show(Cards& cards, const Words& words) {
+  if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
+}
+void show(Cards& cards, const Drawn& drawn) {
+  for (Card& card : drawn.cards()) cards.push_back(std::move(card));
+}
+void show(Cards&, const Field&) {}
+
+}  // namespace
+
+std::vector<std::size_t> numbers_below(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = i;
+  return numbers;
+}
+
+std::vector<std::string> Rows::headings() const {
+  std::vector<std::string> all;
+  for (const Column& c : columns)
+    if (c.for_people) all.push_back(c.heading);
+  return all;
+}
+
+std::vector<std::vector<std::string>> Rows::texts() const {
+  std::vector<std::vector<std::string>> all;
+  for (const std::size_t i : for_people ? *for_people : numbers_below(count)) {
+    std::vector<std::string>& row = all.emplace_back();
+    for (const Column& c : columns)
+      if (c.for_people) row.push_back(c.texts[i]);
+  }
+  return all;
+}
+
+Rows words_table(const std::string& title, const std::vector<std::string>& headings, const Lines& lines) {
+  auto table = table_of("", title, lines).always();
+  for (std::size_t k = 0; k < headings.size(); ++k)
+    table.only_for_people(headings[k], [k](const std::vector<std::string>& line) { return line[k]; });
+  return table;
+}
+
+void Findings::note(Chapter in, const std::vector<std::string>& notes, const std::string& indent) {
+  say(in, Words{.lines = notes, .indent = indent + "note: ", .key = "notes", .page = complete});
+  if (complete) return;
+  statements.push_back({std::nullopt, Words{.lines = {diagnosis}, .indent = indent + "INCOMPLETE: "}});
+  std::vector<std::string> lines = notes;
+  lines.push_back("incomplete: " + diagnosis);
+  say(in, Words{.lines = lines, .terminal = false});
+}
+
+void Findings::show_scene(const std::string& file, const std::string& text) {
+  show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
+}
+
+Report page_of(const Findings& f) {
+  Report page{.title = f.page_title.empty() ? f.title : f.page_title,
+              .subtitle = f.subtitle,
+              .conclusion = f.page_conclusion.empty() ? f.conclusion : f.page_conclusion,
+              .complete = f.complete,
+              .figures = f.figures,
+              .sections = {},
+              .footer = f.footer};
+  std::vector<Cards> cards(f.chapters.size());
+  for (const Statement& s : f.statements)
+    if (s.chapter)
+      std::visit([&](const auto& what) { show(cards[static_cast<std::size_t>(*s.chapter)], what); }, s.what);
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    if (!cards[i].empty()) page.add(f.chapters[i]).cards = std::move(cards[i]);
+  return page;
+}
+
+StudyOutput rendered(Findings findings) {
+  const auto kept = std::make_shared<const Findings>(std::move(findings));
+  return {.conclusion = kept->conclusion,
+          .table = terminal_text(*kept),
+          .json = summary_json(*kept),
+          .report = [kept] { return page_of(*kept); },
+          .csv = kept->csv,
+          .complete = kept->complete,
+          .diagnosis = kept->diagnosis,
+          .unconfirmed = kept->unconfirmed};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,307 @@
+// rows.h — a table said once: rows of values described by columns; terminal, JSON, page and CSV are renderings of it.
+//
+//   table_of("critical_speeds", "Strongest critical speeds", study.critical)
+//       .column("speed", "speed [1/min]", &CriticalSpeed::speed, {.factor = 30 / pi})
+//       .column("mode", "mode", &CriticalSpeed::mode)
+//       .only_for_programs("harmonic", &CriticalSpeed::harmonic)
+//
+// A column has a key for programs, a heading for people, or both; programs get the value in SI, people its reading.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <ranges>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "studies/findings/report.h"
+
+namespace kurbel {
+
+// --- values, for programs ---
+
+class Value;
+struct Field;
+using List = std::vector<Value>;
+using Record = std::vector<Field>;  // in this order
+
+// What JSON can say. A number that is not finite is null there.
+class Value {
+ public:
+  Value() = default;  // null
+  template <std::same_as<bool> T>
+  Value(T v) : what_(v) {}
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) Value(T v) : what_(static_cast<std::int64_t>(v)) {}
+  Value(double v) : what_(v) {}
+  Value(const char* v) : what_(std::string(v)) {}
+  Value(std::string v) : what_(std::move(v)) {}
+  Value(List v) : what_(std::move(v)) {}
+  Value(Record v) : what_(std::move(v)) {}
+  template <class T>
+  Value(const std::optional<T>& v) {
+    if (v) *this = Value(*v);
+  }
+  template <std::ranges::input_range R>
+  requires(!std::convertible_to<R, std::string> && !std::same_as<R, List> && !std::same_as<R, Record>)
+      Value(const R& range)
+      : what_(List(std::begin(range), std::end(range))) {}
+
+  template <class F>
+  decltype(auto) visit(F&& f) const {
+    return std::visit(std::forward<F>(f), what_);
+  }
+
+ private:
+  std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Record> what_;
+};
+
+struct Field {
+  std::string key;
+  Value value;
+};
+
+// One value for each item.
+template <class Items, class F>
+List each(const Items& items, F&& value) {
+  List list;
+  for (const auto& item : items) list.push_back(Value(std::invoke(value, item)));
+  return list;
+}
+
+// --- readings, for people ---
+
+// How people read a number.
+struct Reading {
+  double factor = 1;  // from SI
+  int digits = 6;
+  const char* otherwise = "—";  // what is not finite, or is not there
+};
+
+inline std::string read_as(double v, const Reading& r = {}) {
+  const double x = r.factor * v;
+  return std::isfinite(x) ? fmt::format("{:.{}g}", x == 0 ? 0.0 : x, r.digits) : std::string(r.otherwise);
+}
+inline std::string read_as(const std::string& text, const Reading& = {}) { return text; }
+template <std::integral T>
+std::string read_as(T v, const Reading& = {}) {
+  return fmt::format("{}", v);
+}
+template <class T>
+std::string read_as(const std::optional<T>& v, const Reading& r = {}) {
+  return v ? read_as(*v, r) : std::string(r.otherwise);
+}
+template <class T, std::invocable<const T&> InWords>
+std::string read_as(const T& v, const InWords& in_words) {
+  return std::invoke(in_words, v);
+}
+
+// --- tables ---
+
+struct Column {
+  std::string key, heading;             // empty: not for programs; not for people
+  bool for_people = true;               // even under an empty heading
+  std::vector<Value> values = {};       // a row each, where there is a key
+  std::vector<std::string> texts = {};  // a row each, where it is for people
+};
+
+struct Rows {
+  std::string key;           // of the list in JSON; empty: none
+  std::string title;         // on the page
+  std::string heading = {};  // on the terminal, above; empty: none
+  std::vector<Column> columns = {};
+  std::size_t count = 0;
+  std::size_t for_programs = SIZE_MAX;                         // at most
+  std::optional<std::vector<std::size_t>> for_people = {};     // which; none: all
+  std::size_t text_columns = 1, text_columns_on_terminal = 1;  // leading ones; the others are numbers, on the right
+  bool terminal = true, page = true, even_if_empty = false;
+  bool folded = false;                        // on the page
+  bool apart = true;                          // on the terminal, by a blank line before it
+  std::vector<std::vector<Tone>> tones = {};  // report.h
+  std::vector<std::vector<std::string>> hints = {};
+
+  List list() const;                                    // as programs get it
+  std::vector<std::string> headings() const;            // as people read it
+  std::vector<std::vector<std::string>> texts() const;  // without the headings
+  bool shown_to_people() const { return (count > 0 && (!for_people || !for_people->empty())) || even_if_empty; }
+};
+
+template <class T>
+class RowsOf : public Rows {
+ public:
+  RowsOf(std::string of_key, std::string of_title, std::span<const T> rows, std::shared_ptr<const std::vector<T>> owned)
+      : rows_(rows), owned_(std::move(owned)) {
+    key = std::move(of_key), title = std::move(of_title), count = rows.size();
+  }
+
+  // `get` is a member or a function of a row; `read` a Reading, or a function that makes words of what `get` gives.
+  template <class Get, class Read = Reading>
+  RowsOf& column(std::string its_key, std::string its_heading, Get get, Read read = {}) {
+    Column& made = columns.emplace_back(Column{std::move(its_key), std::move(its_heading)});
+    for (const T& row : rows_) {
+      const auto& value = std::invoke(get, row);
+      if (!made.key.empty()) made.values.emplace_back(value);
+      made.texts.push_back(read_as(value, read));
+    }
+    return *this;
+  }
+  template <class Get>
+  RowsOf& column(std::string its_key, std::string its_heading, Get get, Reading read) {
+    return column<Get, Reading>(std::move(its_key), std::move(its_heading), std::move(get), read);
+  }
+  template <class Get, class Read = Reading>
+  RowsOf& only_for_people(std::string its_heading, Get get, Read read = {}) {
+    Column& made = columns.emplace_back(Column{"", std::move(its_heading)});
+    for (const T& row : rows_) made.texts.push_back(read_as(std::invoke(get, row), read));
+    return *this;
+  }
+  template <class Get>
+  RowsOf& only_for_people(std::string its_heading, Get get, Reading read) {
+    return only_for_people<Get, Reading>(std::move(its_heading), std::move(get), read);
+  }
+  template <class Get>
+  RowsOf& only_for_programs(std::string its_key, Get get) {
+    Column& made = columns.emplace_back(Column{.key = std::move(its_key), .heading = "", .for_people = false});
+    for (const T& row : rows_) made.values.emplace_back(std::invoke(get, row));
+    return *this;
+  }
+
+  // Where and how it is shown.
+  RowsOf& headed(std::string on_terminal) { return heading = std::move(on_terminal), *this; }
+  RowsOf& text_in(std::size_t leading) { return text_columns = text_columns_on_terminal = leading, *this; }
+  RowsOf& text_in(std::size_t on_page, std::size_t on_terminal) {
+    return text_columns = on_page, text_columns_on_terminal = on_terminal, *this;
+  }
+  RowsOf& fold(bool so = true) { return folded = so, *this; }
+  RowsOf& close() { return apart = false, *this; }
+  RowsOf& always() { return even_if_empty = true, *this; }
+  RowsOf& not_on_terminal() { return terminal = false, *this; }
+  RowsOf& not_on_page() { return page = false, *this; }
+  RowsOf& people_see(std::vector<std::size_t> which) { return for_people = std::move(which), *this; }
+  RowsOf& people_see_first(std::size_t most) {
+    for_people.emplace();
+    for (std::size_t i = 0; i < std::min(most, count); ++i) for_people->push_back(i);
+    return *this;
+  }
+  RowsOf& people_see_it_if(bool so) { return so ? *this : people_see({}); }
+  RowsOf& programs_see_first(std::size_t most) { return for_programs = most, *this; }
+  RowsOf& toned(std::vector<std::vector<Tone>> with, std::vector<std::vector<std::string>> hinted = {}) {
+    return tones = std::move(with), hints = std::move(hinted), *this;
+  }
+
+ private:
+  std::span<const T> rows_;
+  std::shared_ptr<const std::vector<T>> owned_;
+};
+
+// Of rows that live as long as columns are added; rows made for it are kept.
+template <class T>
+RowsOf<T> table_of(std::string key, std::string title, const std::vector<T>& rows) {
+  return {std::move(key), std::move(title), std::span<const T>(rows), nullptr};
+}
+template <class T>
+RowsOf<T> table_of(std::string key, std::string title, std::vector<T>&& rows) {
+  auto kept = std::make_shared<const std::vector<T>>(std::move(rows));
+  const std::span<const T> view(*kept);
+  return {std::move(key), std::move(title), view, std::move(kept)};
+}
+// 0, 1, … count − 1: rows of what is numbered.
+std::vector<std::size_t> numbers_below(std::size_t count);
+
+// Rows of words under headings, for people alone.
+using Lines = std::vector<std::vector<std::string>>;
+Rows words_table(const std::string& title, const std::vector<std::string>& headings, const Lines& lines);
+
+// The other way round: a row a quantity (name, symbol, a value of each thing, unit), for programs a record a thing.
+template <class T>
+class QuantitiesOf {
+ public:
+  QuantitiesOf(std::string title, std::vector<std::string> headings, std::span<const T> things)
+      : title_(std::move(title)), headings_(std::move(headings)), things_(things), records_(things.size()) {}
+  template <class Get, class Read = Reading>
+  QuantitiesOf& quantity(const std::string& key, std::string name, std::string symbol, std::string unit, Get get,
+                         Read read = {}) {
+    std::vector<std::string>& line = lines_.emplace_back();
+    line = {std::move(name), std::move(symbol)};
+    for (const T& thing : things_) line.push_back(read_as(std::invoke(get, thing), read));
+    line.push_back(std::move(unit));
+    return key.empty() ? *this : only_for_programs(key, get);
+  }
+  template <class Get>
+  QuantitiesOf& only_for_programs(const std::string& key, Get get) {
+    for (std::size_t i = 0; i < things_.size(); ++i) records_[i].push_back({key, std::invoke(get, things_[i])});
+    return *this;
+  }
+  Rows rows() const {
+    Rows table = words_table(title_, headings_, lines_);
+    table.text_columns = table.text_columns_on_terminal = 2;
+    return table;
+  }
+  const std::vector<Record>& records() const { return records_; }
+
+ private:
+  std::string title_;
+  std::vector<std::string> headings_;
+  std::span<const T> things_;
+  Lines lines_;
+  std::vector<Record> records_;
+};
+
+// --- CSV: long, so row by row ---
+
+template <class T>
+class CsvOf {
+ public:
+  explicit CsvOf(std::span<const T> rows) : rows_(rows) {}
+  template <class Get>
+  CsvOf& column(const std::string& heading, Get get, int digits = 12) {
+    return add(heading, [get, digits](std::string& text, const T& row) { put(text, std::invoke(get, row), digits); });
+  }
+  std::string text() const {
+    std::string text = headings_ + "\n";
+    for (const T& row : rows_)
+      for (std::size_t k = 0; k < cells_.size(); ++k) {
+        cells_[k](text, row);
+        text += k + 1 < cells_.size() ? ',' : '\n';
+      }
+    return text;
+  }
+
+ private:
+  // What is not finite, or not there, is an empty cell.
+  static void put(std::string& text, double v, int digits) {
+    if (std::isfinite(v)) fmt::format_to(std::back_inserter(text), "{:.{}g}", v, digits);
+  }
+  static void put(std::string& text, const std::optional<double>& v, int digits) {
+    if (v) put(text, *v, digits);
+  }
+  static void put(std::string& text, const std::string& v, int) { text += v; }
+  template <std::integral N>
+  static void put(std::string& text, N v, int) {
+    fmt::format_to(std::back_inserter(text), "{:d}", v);
+  }
+  CsvOf& add(const std::string& heading, std::function<void(std::string&, const T&)> cell) {
+    headings_ += (cells_.empty() ? "" : ",") + heading;
+    cells_.push_back(std::move(cell));
+    return *this;
+  }
+  std::span<const T> rows_;
+  std::string headings_;
+  std::vector<std::function<void(std::string&, const T&)>> cells_;
+};
+
+template <class T>
+CsvOf<T> csv_of(const std::vector<T>& rows) {
+  return CsvOf<T>(std::span<const T>(rows));
+}
+
+}  // namespace kurbel

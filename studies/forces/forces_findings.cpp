@@ -1,0 +1,409 @@
+// forces_findings.cpp — words, tables and formulas of the forces of a slider-crank.
+#include "studies/forces/forces_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+#include "studies/forces/forces_plots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+double degrees(double angle) { return angle * 360 / turn; }
+// "12.3 kN": in the unit that reads easily.
+std::string in_words(const Peak& p, const std::string& si_unit) {
+  const ReadableUnit unit = readable_unit(p.value, si_unit);
+  return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
+}
+bool is_nothing(const Peak& p) { return std::abs(p.value) <= p.error.value_or(0); }
+std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
+
+// --- figures ---
+
+struct NamedPeak {
+  std::string name, unit;  // as in JSON
+  const Peak* peak;
+};
+
+std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
+  std::vector<NamedPeak> peaks;
+  for (std::size_t k = 0; k < joint_count; ++k)
+    peaks.push_back({fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k]});
+  peaks.push_back({"balancing torque", "N*m", &c.torque});
+  peaks.push_back({"shaking force", "N", &c.shaking_force});
+  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment});
+  return peaks;
+}
+
+bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
+
+std::string conclusion_of(const Forces& f) {
+  const ForceCycle& c = front_of(f);
+  const Peak& bearing = c.reaction[0];
+  std::string text = fmt::format(
+      "{} at {}: the main bearing carries up to {} (at {}), {}, the shaking force peaks at {}", f.mechanism,
+      with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
+      is_nothing(c.torque)
+          ? std::string("no balancing torque is needed")
+          : fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque)),
+      in_words(c.shaking_force, "N"));
+  if (has_friction(f))
+    text += c.efficiency ? fmt::format("; efficiency of the cycle {:.4g} %{}", 100 * *c.efficiency,
+                                       c.harmful > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful, "J", 4),
+                                                                   with_unit(c.spent, "J", 4))
+                                                     : "")
+                         : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
+  return text + ".";
+}
+
+// --- tables ---
+
+// The largest values of all problems side by side.
+Rows peak_table(const Forces& f) {
+  const std::vector<NamedPeak> of_first = peaks_of(*f.prescribed);
+  auto table = table_of("", "", numbers_below(of_first.size()));
+  table.not_on_page().only_for_people("largest", [&](std::size_t i) { return of_first[i].name; });
+  for (const ForceCycle* c : problems_of(f)) {
+    const std::vector<NamedPeak> peaks = peaks_of(*c);
+    table
+        .only_for_people(c->label,
+                         [&](std::size_t i) { return with_error(peaks[i].peak->value, peaks[i].peak->error, ""); })
+        .only_for_people("at", [&](std::size_t i) { return at_angle(*peaks[i].peak); });
+  }
+  return table.only_for_people("unit", [&](std::size_t i) { return pretty_unit(of_first[i].unit); });
+}
+
+// Rounding errors beside large forces read as zero.
+double beside(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
+
+Rows position_table(const ForceCycle& c) {
+  using P = const CyclePosition&;
+  return table_of("", fmt::format("{}: {}", c.label, c.description), c.rows)
+      .headed(fmt::format("{}: {}", c.label, c.description))
+      .text_in(0)
+      .always()
+      .only_for_people("φ [°]", [](P p) { return degrees(p.state.phi); }, {.digits = 5})
+      .only_for_people("ω [rad/s]", [](P p) { return p.state.omega; })
+      .only_for_people("M [N·m]", [&](P p) { return beside(p.forces.torque, c.torque.value); })
+      .only_for_people("R main [N]", [](P p) { return p.forces.main_bearing.magnitude(); })
+      .only_for_people("R crank pin [N]", [](P p) { return p.forces.crank_pin.magnitude(); })
+      .only_for_people("R slider pin [N]", [](P p) { return p.forces.slider_pin.magnitude(); })
+      .only_for_people("N guide [N]", [&](P p) { return beside(p.forces.guide, c.reaction[3].value); })
+      .only_for_people("at [mm]", [](P p) { return p.forces.guide_point; }, {.factor = 1e3, .digits = 4})
+      .only_for_people("shaking [N]", [](P p) { return p.forces.shaking_force.magnitude(); })
+      .only_for_people("η", [](P p) {
+        return p.power.efficiency() ? fmt::format("{:.4f}", *p.power.efficiency()) : std::string("—");
+      });
+}
+
+Rows work_table(const Forces& f) {
+  std::vector<std::size_t> acting;
+  for (std::size_t i = 0; i < f.prescribed->work.size(); ++i)
+    for (const ForceCycle* c : problems_of(f))
+      if (c->work[i].work != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
+  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
+  table.text_in(2).always();
+  table.only_for_people("work of a cycle", [&](std::size_t i) { return f.prescribed->work[i].name; })
+      .only_for_people("line", [&](std::size_t i) { return front_of(f).work[i].kind; });
+  for (const ForceCycle* c : problems_of(f))
+    table.only_for_people(c->label, [&](std::size_t i) { return c->work[i].work; });
+  return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
+}
+
+Rows counterweight_table(const Forces& f) {
+  return table_of("counterweights", "Counterweights beyond what the crank has: what they leave", f.counterweights)
+      .headed("counterweights opposite to the crank pin, beyond what the crank has (at constant speed)")
+      .always()
+      .column("name", "counterweight", &Counterweight::name)
+      .column("moment", "m·r [kg·m]", &Counterweight::moment, {.digits = 5})
+      .column("reciprocating_share", "share of reciprocating", &Counterweight::reciprocating_share, {.digits = 3})
+      .column("peak_shaking_force", "peak of shaking force [N]", &Counterweight::peak_force)
+      .column("first_order_along", "order 1 along [N]", &Counterweight::first_x)
+      .column("first_order_across", "order 1 across [N]", &Counterweight::first_y)
+      .column("peak_main_bearing", "peak of main bearing [N]", &Counterweight::peak_bearing);
+}
+
+Rows harmonic_table(const Forces& f, const ForceCycle& c) {
+  const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
+    return [&](std::size_t k) { return orders[k].amplitude; };
+  };
+  auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
+                   .headed(fmt::format("harmonics, {} motion", c.label))
+                   .fold()
+                   .always()
+                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
+                   .only_for_people("along [N]", amplitude(c.shaking_x))
+                   .only_for_people("across [N]", amplitude(c.shaking_y))
+                   .only_for_people("moment [N·m]", amplitude(c.shaking_couple))
+                   .only_for_people("balancing torque [N·m]", amplitude(c.torque_orders));
+  table.terminal = &c == &front_of(f);
+  return table;
+}
+
+std::string checks_of(const ForceCycle& c) {
+  std::string text =
+      fmt::format("power balance closes to {:.1e} of the largest power at every position", c.power_residual);
+  if (c.most_iterations > 0)
+    text += fmt::format("; friction laws hold to {:.1e}, at most {} Newton steps a position", c.friction_residual,
+                        c.most_iterations);
+  if (c.both_edges > 0)
+    text += fmt::format("; the slider bears on both edges at {} of {} positions", c.both_edges, c.positions.size());
+  return text;
+}
+
+// --- for programs and files ---
+
+Record force_record(Force2 force) {
+  return {{"x", force.x}, {"y", force.y}, {"magnitude", force.magnitude()}, {"direction", force.direction()}};
+}
+
+Record position_record(const CyclePosition& p) {
+  const SliderCrankForces& s = p.forces;
+  const Record guide = {{"normal", s.guide},          {"point", s.guide_point},
+                        {"moment", s.guide_moment},   {"friction", s.guide_friction},
+                        {"both_edges", s.both_edges}, {"edge_front", s.edge_front},
+                        {"edge_back", s.edge_back}};
+  const Record inertia = {{"crank", force_record(s.crank_inertia)},
+                          {"rod", force_record(s.rod_inertia)},
+                          {"slider", force_record(s.slider_inertia)},
+                          {"crank_couple", s.crank_couple},
+                          {"rod_couple", s.rod_couple}};
+  return {{"phi", p.state.phi},
+          {"omega", p.state.omega},
+          {"alpha", p.state.alpha},
+          {"position", p.position},
+          {"velocity", p.velocity},
+          {"slider_force", p.state.slider_force},
+          {"torque", s.torque},
+          {"main_bearing", force_record(s.main_bearing)},
+          {"crank_pin", force_record(s.crank_pin)},
+          {"slider_pin", force_record(s.slider_pin)},
+          {"guide", guide},
+          {"inertia", inertia},
+          {"shaking_force", force_record(s.shaking_force)},
+          {"shaking_moment", s.shaking_moment},
+          {"efficiency", p.power.efficiency()},
+          {"friction_power", s.friction_power},
+          {"friction_residual", s.residual},
+          {"power_residual", p.power.residual}};
+}
+
+List order_list(const std::vector<ForceHarmonic>& orders) {
+  return each(orders, [](const ForceHarmonic& h) {
+    return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}};
+  });
+}
+
+Record work_record(const CycleWork& w) {
+  Record r = {{"name", w.name}, {"line", w.kind}, {"work", w.work}};
+  if (w.error > 0) r.push_back({"error", w.error});
+  return r;
+}
+
+Record cycle_record(const ForceCycle& c) {
+  Record r = {{"description", c.description},       {"cycle", c.cycle},
+              {"mean_speed", c.mean_speed},         {"least_speed", c.least_speed},
+              {"greatest_speed", c.greatest_speed}, {"closure", c.closure}};
+  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  tell("peaks", each(peaks_of(c), [](const NamedPeak& p) {
+         return Record{{"name", p.name},
+                       {"value", p.peak->value},
+                       {"unit", p.unit},
+                       {"error", p.peak->error},
+                       {"phi", p.peak->phi}};
+       }));
+  tell("work", each(c.work, work_record));
+  tell("efficiency", c.efficiency);
+  if (!c.efficiency) tell("no_efficiency", c.no_efficiency);
+  tell("work_in", c.input);
+  tell("work_useful", c.useful);
+  tell("work_harmful", c.harmful);
+  tell("kinetic_change", c.kinetic_change);
+  tell("power_residual", c.power_residual);
+  tell("friction_residual", c.friction_residual);
+  tell("positions_on_both_edges", c.both_edges);
+  tell("harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
+                           {"shaking_force_across", order_list(c.shaking_y)},
+                           {"shaking_moment", order_list(c.shaking_couple)},
+                           {"balancing_torque", order_list(c.torque_orders)},
+                           {"balancing_torque_mean", c.torque_mean}});
+  tell("positions", each(c.rows, position_record));
+  return r;
+}
+
+std::string csv_of(const ForceCycle& c) {
+  using P = const CyclePosition&;
+  auto csv = csv_of(c.positions);
+  csv.column("phi [rad]", [](P p) { return p.state.phi; })
+      .column("omega [rad/s]", [](P p) { return p.state.omega; })
+      .column("alpha [rad/s2]", [](P p) { return p.state.alpha; })
+      .column("position [m]", &CyclePosition::position)
+      .column("velocity [m/s]", &CyclePosition::velocity)
+      .column("slider_force [N]", [](P p) { return p.state.slider_force; })
+      .column("torque [N*m]", [](P p) { return p.forces.torque; });
+  const auto force = [&](const std::string& name, Force2 SliderCrankForces::*of) {
+    csv.column(name + "_x [N]", [of](P p) { return (p.forces.*of).x; });
+    csv.column(name + "_y [N]", [of](P p) { return (p.forces.*of).y; });
+  };
+  force("main", &SliderCrankForces::main_bearing);
+  force("crank_pin", &SliderCrankForces::crank_pin);
+  force("slider_pin", &SliderCrankForces::slider_pin);
+  csv.column("guide [N]", [](P p) { return p.forces.guide; })
+      .column("guide_point [m]", [](P p) { return p.forces.guide_point; })
+      .column("guide_friction [N]", [](P p) { return p.forces.guide_friction; })
+      .column("both_edges", [](P p) { return static_cast<int>(p.forces.both_edges); });
+  force("shaking", &SliderCrankForces::shaking_force);
+  csv.column("shaking_moment [N*m]", [](P p) { return p.forces.shaking_moment; });
+  for (std::size_t k = 0; k < joint_count; ++k) {
+    const char* const joints[] = {"main", "crank_pin", "slider_pin", "guide"};
+    csv.column(fmt::format("friction_{} [W]", joints[k]), [k](P p) { return p.forces.friction_power[k]; });
+  }
+  return csv.column("efficiency", [](P p) { return p.power.efficiency(); })
+      .column(
+          "power_residual", [](P p) { return p.power.residual; }, 3)
+      .text();
+}
+
+// --- formulas ---
+
+Formula torque_formula(const Forces& f) {
+  // With the numbers of the peak.
+  const ForceCycle& c = front_of(f);
+  const CyclePosition* const peak = &c.at_torque_peak;
+  const SliderCrankGeometry g(f.data);
+  const auto inertia = g.inertia(peak->state.phi);
+  const double w = peak->state.omega, slope = g.slider(peak->state.phi).slope,
+               weight = g.gravity_torque(peak->state.phi).value, loss = w != 0 ? peak->power.friction / w : 0;
+  return {.title = fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
+          .symbols = "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
+          .numbers = fmt::format(
+              "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
+              "= {:.6g} N·m",
+              inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
+              peak->forces.torque),
+          .note =
+              "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; "
+              "SI units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the "
+              "power balance below."};
+}
+
+Formula mass_formula(const Forces& f) {
+  const double share = f.data.rod_com / f.data.rod_length;
+  return {.title = "Masses that rotate and that reciprocate (theory 9.11)",
+          .symbols = "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
+          .numbers = fmt::format(
+              "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
+              "{:.5g} · {:.4g} = {:.5g} kg",
+              f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
+              f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass),
+          .note =
+              "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order "
+              "along the stroke and puts it across. A negative U is taken off, or set on the pin's side."};
+}
+
+void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
+  if (c.efficiency)
+    to.show(in, Formula{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
+                        .symbols = "η = A_useful / (A_in − ΔT)",
+                        .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
+                        .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", c.harmful,
+                                            c.kinetic_change)});
+  else
+    to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
+                     .body = c.no_efficiency + "."});
+}
+
+void show_friction_circle(Findings& to, Chapter in, const char* name, const RevoluteJoint& j) {
+  if (j.radius == 0) return;
+  const double f_k = j.friction.kinetic;
+  to.show(in, Formula{.title = fmt::format("Friction circle of the {} (theory 8.4)", name),
+                      .symbols = "ρ = r sin(atan f)",
+                      .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
+                                             1e3 * friction_circle_radius(j.radius, f_k))});
+}
+
+// --- all of it ---
+
+void say_positions(Findings& to, Chapter in, const Forces& f) {
+  to.say(in, peak_table(f));
+  for (const ForceCycle* c : problems_of(f)) {
+    to.say(in, position_table(*c));
+    to.say(in, Words{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
+    to.show(in, Text{.title = "", .body = fmt::format("Check: {}.", checks_of(*c))});
+    to.tell(c->label, cycle_record(*c));
+  }
+}
+
+void say_friction(Findings& to, Chapter in, const Forces& f) {
+  to.say(in, work_table(f));
+  show_efficiency(to, in, front_of(f));
+  if (!has_friction(f)) {
+    to.show(in, Text{.title = "",
+                     .body = "The joints are without friction: give main_bearing, crank_pin, slider_pin and guide of "
+                             "the slider-crank their radii and coefficients to count it."});
+    return;
+  }
+  to.draw(in, [&f] { return friction_plots(f); });
+  show_friction_circle(to, in, "main bearing", f.joints.main_bearing);
+  show_friction_circle(to, in, "crank pin", f.joints.crank_pin);
+  show_friction_circle(to, in, "slider pin", f.joints.slider_pin);
+}
+
+void say_shaking(Findings& to, Chapter in, const Forces& f) {
+  to.draw(in, [&f] { return shaking_plots(f); });
+  for (const ForceCycle* c : problems_of(f)) {
+    to.draw(in, [c] { return harmonic_plot(*c); });
+    to.say(in, harmonic_table(f, *c));
+  }
+  to.draw(in, [&f] { return counterweight_plot(f); });
+  to.say(in, counterweight_table(f));
+  to.show(in, mass_formula(f));
+  to.tell("rotating_moment", f.rotating_moment);
+  to.tell("reciprocating_mass", f.reciprocating_mass);
+}
+
+}  // namespace
+
+Findings findings_of(const Forces& f) {
+  Findings to{.title = f.title,
+              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front_of(f).description),
+              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
+              .scene_file = f.scene_file,
+              .conclusion = conclusion_of(f),
+              .complete = f.complete,
+              .diagnosis = f.diagnosis,
+              .footer = report_footer()};
+  for (const NamedPeak& p : peaks_of(front_of(f)))
+    to.figures.push_back({"largest " + p.name, p.peak->value, p.unit, p.peak->error,
+                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6});
+  const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
+                polar = to.chapter("Polar diagrams of the bearings' loads"),
+                shaking = to.chapter("Shaking force and moment; balancing"),
+                friction = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
+                notes = to.chapter("Notes");
+  to.tell("mechanism", f.mechanism);
+  to.draw(torque, [&f] { return torque_plot(f); });
+  to.show(torque, torque_formula(f));
+  to.draw(reactions, [&f] { return reaction_plots(f); });
+  to.show(polar, Text{.title = "",
+                      .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are "
+                              "pressed; turning with the pin, where the pin is: that is where an oil hole must not "
+                              "be."});
+  to.draw(polar, [&f] { return polar_plots(f); });
+  say_positions(to, positions, f);
+  say_friction(to, friction, f);
+  say_shaking(to, shaking, f);
+  to.note(notes, f.notes);
+  to.show_scene(f.scene_file, f.scene_text);
+  for (const ForceCycle* c : problems_of(f))
+    to.csv.push_back({fmt::format("forces_{}.csv", c->label), [c] { return csv_of(*c); }});
+  return to;
+}
+
+}  // namespace kurbel

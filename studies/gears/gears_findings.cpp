@@ -1,0 +1,331 @@
+// gears_findings.cpp — words, tables and formulas of gear pairs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "studies/findings/output.h"
+#include "studies/gears/gears.h"
+#include "studies/gears/gears_plots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double mm = 1e3, degree = std::numbers::pi / 180;
+
+std::string length(double v) { return std::isfinite(v) ? fmt::format("{:.4f}", mm * v) : "—"; }
+std::string angle(double v) { return fmt::format("{:.4f}", v / degree); }
+
+const char* word_of(Finding finding) {
+  switch (finding) {
+    case Finding::good:
+      return "good";
+    case Finding::note:
+      return "note";
+    case Finding::warning:
+      return "warning";
+    case Finding::fault:
+      return "fault";
+  }
+  return "";
+}
+
+std::string shape_of(const GearPair& p) {
+  return fmt::format("{} {} pair", p.internal() ? "internal" : "external", p.data.helix == 0 ? "spur" : "helical");
+}
+
+std::string summary_of(const GearStage& s) {
+  const GearPair& p = s.pair;
+  std::string text = fmt::format("{}: {} {}/{}, m_n = {:g} mm, a_w = {:.4f} mm, α_wt = {:.3f}°, ε_α = {:.3f}", s.name,
+                                 shape_of(p), p.data.teeth[0], p.data.teeth[1], mm * p.data.module,
+                                 mm * std::abs(p.centre_distance), p.working_angle / degree, p.contact_ratio);
+  if (p.overlap_ratio > 0) text += fmt::format(", ε_β = {:.3f}", p.overlap_ratio);
+  const Finding worst = worst_of(s);
+  if (worst < Finding::warning) return text + ": sound";
+  int count = 0;
+  std::string first;
+  for (const GearVerdict& v : s.verdicts)
+    if (v.finding == worst && ++count == 1) first = v.text;
+  while (first.ends_with('.')) first.pop_back();
+  return text + fmt::format(": {}{}", first, count > 1 ? fmt::format(" (and {} more)", count - 1) : "");
+}
+
+std::string conclusion_of(const Gears& g) {
+  std::string text;
+  for (const GearStage& s : g.stages) text += (text.empty() ? "" : "; ") + summary_of(s);
+  return text + ".";
+}
+
+// --- tables ---
+
+QuantitiesOf<MeshedWheel> wheels_of(const GearPair& p) {
+  using W = const MeshedWheel&;
+  QuantitiesOf<MeshedWheel> q("Wheels", {"of the wheels", "symbol", "1", "2", "unit"}, p.wheel);
+  q.quantity("teeth", "teeth", "z", "", &MeshedWheel::teeth)
+      .quantity("shift", "profile shift", "x", "", &MeshedWheel::shift)
+      .quantity("generating_shift", "generating shift", "x_E", "", &MeshedWheel::generating_shift)
+      .quantity("least_shift", "least shift without undercut", "x_min", "", &MeshedWheel::least_shift_generated,
+                Reading{.digits = 5})
+      .only_for_programs("undercut", &MeshedWheel::undercut)
+      .quantity("reference_diameter", "reference diameter", "d", "mm", &MeshedWheel::reference_diameter, length)
+      .quantity("working_diameter", "working diameter", "d_w", "mm", &MeshedWheel::working_diameter, length)
+      .quantity("base_diameter", "base diameter", "d_b", "mm", &MeshedWheel::base_diameter, length)
+      .quantity("tip_diameter", "tip diameter", "d_a", "mm", &MeshedWheel::tip_diameter, length)
+      .quantity(
+          "", "greatest tip diameter without interference", "d_a,max", "mm",
+          [](W w) { return w.internal() ? -w.greatest_tip_diameter : w.greatest_tip_diameter; }, length)
+      .quantity("root_diameter", "root diameter", "d_f", "mm", &MeshedWheel::root_diameter, length)
+      .quantity("form_diameter", "root form diameter", "d_Ff", "mm", &MeshedWheel::form_diameter, length)
+      .quantity("active_diameter", "start of active profile", "d_Nf", "mm", &MeshedWheel::active_diameter, length)
+      .quantity(
+          "thickness_normal", "tooth thickness on the reference circle, normal", "s_n", "mm",
+          [](W w) { return w.thickness_normal(w.reference_diameter); }, length)
+      .quantity(
+          "", "the same, transverse", "s_t", "mm", [](W w) { return w.thickness(w.reference_diameter); }, length)
+      .quantity(
+          "", "on the working circle", "s_wt", "mm", [](W w) { return w.thickness(w.working_diameter); }, length)
+      .quantity("tip_thickness", "at the tip, normal", "s_an", "mm", &MeshedWheel::tip_thickness, length)
+      .quantity("", "diameter where the tooth is pointed", "", "mm", &MeshedWheel::pointed_diameter, length)
+      .quantity("tip_clearance", "tip clearance", "c", "mm", &MeshedWheel::tip_clearance, length);
+  const bool wide = p.wheel[0].inertia > 0 || p.wheel[1].inertia > 0;
+  if (!wide)
+    return q.only_for_programs("width", &MeshedWheel::width).only_for_programs("inertia", &MeshedWheel::inertia);
+  return q.quantity("width", "width", "b", "mm", &MeshedWheel::width, length)
+      .quantity("", "bore, or outer diameter of the rim", "", "mm", &MeshedWheel::bore, length)
+      .quantity("inertia", "moment of inertia", "J", "kg·m²", &MeshedWheel::inertia);
+}
+
+QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
+  using P = const GearPair&;
+  constexpr Reading five{.digits = 5}, stiffness{.factor = 1e-9, .digits = 5}, mrad{.factor = 1e3, .digits = 5};
+  QuantitiesOf<GearPair> q("Mesh", {"of the mesh", "symbol", "value", "unit"}, std::span(&s.pair, 1));
+  q.quantity("ratio", "ratio", "u = z₂/z₁", "", &GearPair::ratio)
+      .quantity(
+          "", "pressure angle, normal", "α_n", "°", [](P p) { return p.data.rack.pressure_angle; }, angle)
+      .quantity(
+          "", "pressure angle, transverse", "α_t", "°", [](P p) { return p.wheel[0].transverse_angle; }, angle)
+      .quantity("working_angle", "working pressure angle", "α_wt", "°", &GearPair::working_angle, angle);
+  if (s.pair.data.helix != 0)
+    q.quantity(
+        "", "base helix angle", "β_b", "°", [](P p) { return p.wheel[0].base_helix; }, angle);
+  q.quantity("reference_centre_distance", "reference centre distance", "a", "mm", &GearPair::reference_centre_distance,
+             length)
+      .quantity("centre_distance", "centre distance", "a_w", "mm", &GearPair::centre_distance, length)
+      .quantity("shift_sum", "sum of shifts", "Σx", "", &GearPair::shift_sum)
+      .quantity("", "sum of shifts that closes the backlash", "Σx(a_w)", "", &GearPair::mating_shift_sum)
+      .quantity("tip_shortening", "tip shortening", "k", "m_n", &GearPair::tip_shortening, five)
+      .quantity("base_pitch", "base pitch", "p_et", "mm", &GearPair::base_pitch, length)
+      .quantity("contact_ratio", "contact ratio", "ε_α", "", &GearPair::contact_ratio)
+      .quantity("overlap_ratio", "overlap ratio", "ε_β", "", &GearPair::overlap_ratio)
+      .quantity("", "total contact ratio", "ε_γ", "", &GearPair::total_contact_ratio)
+      .quantity("backlash_normal", "backlash along the normal", "j_bn", "mm", &GearPair::backlash_normal, length)
+      .quantity("", "backlash on the working circle", "j_wt", "mm", &GearPair::backlash_arc, length)
+      .quantity(
+          "", "backlash angle at wheel 1", "", "mrad", [](P p) { return p.backlash_angle(0); }, mrad)
+      .quantity(
+          "", "backlash angle at wheel 2", "", "mrad", [](P p) { return p.backlash_angle(1); }, mrad)
+      .quantity(
+          "", "stiffness of a pair of teeth per width", "c′", "N/(mm·µm)", [&](P) { return s.stiffness.single; },
+          stiffness)
+      .quantity(
+          "", "mesh stiffness per width", "c_γα", "N/(mm·µm)", [&](P) { return s.stiffness.mean; }, stiffness);
+  if (s.stiffness.torsional > 0)
+    q.quantity("", "torsional mesh stiffness about wheel 1", "k", "N·m/rad", [&](P) { return s.stiffness.torsional; });
+  q.quantity(
+      "", "least teeth without undercut, x = 0", "z_min", "",
+      [](P p) { return least_teeth(p.data.rack, p.data.helix); }, five);
+  if (s.pair.internal())
+    q.quantity("", "margin against tip fouling", "", "rad", tip_fouling_margin, Reading{.digits = 4})
+        .quantity("", "margin of radial assembly", "", "rad", radial_assembly_margin, Reading{.digits = 4});
+  if (s.speed)
+    q.quantity("mesh_frequency", "gear-mesh frequency", "f_z", "Hz", [&](P p) { return p.mesh_frequency(*s.speed); });
+  return q;
+}
+
+struct PathPoint {
+  std::string name;
+  double g = 0, sliding_over_omega = 0;
+  std::array<double, 2> radius, curvature, specific_sliding;
+};
+
+Rows path_table(const GearStage& s) {
+  using P = const PathPoint&;
+  std::vector<PathPoint> points;
+  for (const char name : {'A', 'B', 'C', 'D', 'E'}) {
+    const double g = s.pair.point(name);
+    points.push_back({std::string(1, name), g, s.pair.sliding_speed(g, 1), s.pair.radius(g), s.pair.curvature(g),
+                      s.pair.specific_sliding(g)});
+  }
+  return table_of("path", "Along the path of contact", std::move(points))
+      .column("point", "point", &PathPoint::name)
+      .column("g", "g [mm]", &PathPoint::g, length)
+      .only_for_people(
+          "d₁ [mm]", [](P p) { return 2 * p.radius[0]; }, length)
+      .only_for_people(
+          "d₂ [mm]", [](P p) { return 2 * p.radius[1]; }, length)
+      .only_for_people(
+          "ρ₁ [mm]", [](P p) { return p.curvature[0]; }, length)
+      .only_for_people(
+          "ρ₂ [mm]", [](P p) { return p.curvature[1]; }, length)
+      .only_for_people(s.speed ? "v_g [m/s]" : "v_g/ω₁ [mm]",
+                       [&](P p) {
+                         return s.speed ? read_as(s.pair.sliding_speed(p.g, *s.speed), {.digits = 5})
+                                        : length(p.sliding_over_omega);
+                       })
+      .only_for_programs("sliding_over_omega", &PathPoint::sliding_over_omega)
+      .only_for_programs("specific_sliding", &PathPoint::specific_sliding)
+      .only_for_people("ζ₁", [](P p) { return p.specific_sliding[0]; }, {.digits = 5})
+      .only_for_people("ζ₂", [](P p) { return p.specific_sliding[1]; }, {.digits = 5});
+}
+
+// --- for programs and files ---
+
+Record stage_record(const GearStage& s) {
+  const GearPair& p = s.pair;
+  Record r = {{"name", s.name}, {"module", p.data.module}, {"helix", p.data.helix}};
+  const QuantitiesOf<GearPair> mesh = mesh_of(s);
+  r.insert(r.end(), mesh.records().front().begin(), mesh.records().front().end());
+  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  tell("wheels", wheels_of(p).records());
+  tell("path", path_table(s).list());
+  tell("backlash_angle", std::array{p.backlash_angle(0), p.backlash_angle(1)});
+  tell("mesh_stiffness", Record{{"single", s.stiffness.single},
+                                {"mean", s.stiffness.mean},
+                                {"torsional", s.stiffness.torsional},
+                                {"within_range_of_method", s.stiffness.within}});
+  tell("verdicts", each(s.verdicts, [](const GearVerdict& v) {
+         return Record{{"finding", word_of(v.finding)}, {"text", v.text}};
+       }));
+  return r;
+}
+
+std::string path_csv(const GearPair& p) {
+  const std::vector<double> places = along_path(p);
+  return csv_of(places)
+      .column("g [m]", std::identity())
+      .column("r1 [m]", [&](double g) { return p.radius(g)[0]; })
+      .column("r2 [m]", [&](double g) { return p.radius(g)[1]; })
+      .column("rho1 [m]", [&](double g) { return p.curvature(g)[0]; })
+      .column("rho2 [m]", [&](double g) { return p.curvature(g)[1]; })
+      .column("sliding/omega1 [m]", [&](double g) { return p.sliding_speed(g, 1); })
+      .column(
+          "zeta1", [&](double g) { return p.specific_sliding(g)[0]; }, 9)
+      .column(
+          "zeta2", [&](double g) { return p.specific_sliding(g)[1]; }, 9)
+      .text();
+}
+
+std::string outline_csv(const GearWheel& w) {
+  std::string text = "x [mm],y [mm]\n";
+  for (const OutlinePoint& q : wheel_outline(w, 16)) text += fmt::format("{:.7f},{:.7f}\n", mm * q.x, mm * q.y);
+  return text;
+}
+
+std::vector<Formula> formulas_of(const GearStage& s) {
+  std::vector<Formula> list;
+  const GearPair& p = s.pair;
+  const double alpha_n = p.data.rack.pressure_angle;
+  const MeshedWheel& one = p.wheel[0];
+  list.push_back(Formula{
+      .title = "Working pressure angle (theory 6.5)",
+      .symbols = "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
+      .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
+                             involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
+                             p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle), p.working_angle / degree)});
+  list.push_back(
+      Formula{.title = "Centre distance (theory 6.6)",
+              .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
+              .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", mm * one.transverse_module,
+                                     p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
+                                     std::cos(p.working_angle), mm * p.centre_distance)});
+  list.push_back(Formula{.title = "Contact ratio (theory 6.9)",
+                         .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
+                         .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", mm * p.end, mm * p.start,
+                                                mm * p.base_pitch, p.contact_ratio)});
+  list.push_back(Formula{.title = "Specific sliding at both ends (theory 6.11)",
+                         .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
+                         .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}",
+                                                read_as(p.specific_sliding(p.start)[0], {.digits = 5}),
+                                                read_as(p.specific_sliding(p.start)[1], {.digits = 5}),
+                                                read_as(p.specific_sliding(p.end)[0], {.digits = 5}),
+                                                read_as(p.specific_sliding(p.end)[1], {.digits = 5}))});
+  list.push_back(Formula{
+      .title = "Undercut of wheel 1 (theory 6.4)",
+      .symbols = "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
+      .numbers = fmt::format("x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}",
+                             p.data.rack.straight_depth(), one.teeth, std::pow(std::sin(one.transverse_angle), 2),
+                             std::cos(p.data.helix), one.least_shift_generated(), one.generating_shift)});
+  list.push_back(Formula{
+      .title = "Mesh stiffness, ISO 6336-1 method B (theory 6.13)",
+      .symbols = "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
+      .numbers = fmt::format(
+          "c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}", 1e-9 * s.stiffness.single, p.contact_ratio,
+          1e-9 * s.stiffness.mean,
+          s.stiffness.torsional > 0 ? fmt::format(",   k = {:.5g} N·m/rad about wheel 1", s.stiffness.torsional) : ""),
+      .note = fmt::format("An estimate: solid wheels, a load of at least 100 N per mm of width.{}",
+                          s.stiffness.within ? "" : " Outside the range that the method was fitted for.")});
+  return list;
+}
+
+// --- all of it ---
+
+void add_key_figures(Findings& f, const Gears& g) {
+  for (const GearStage& s : g.stages) {
+    const std::string prefix = g.stages.size() > 1 ? s.name + ": " : "";
+    const auto add = [&](const char* name, double value, const char* unit, const char* note, int digits) {
+      f.figures.push_back({prefix + name, value, unit, {}, note, digits});
+    };
+    add("centre distance", mm * std::abs(s.pair.centre_distance), "mm", "", 7);
+    add("contact ratio ε_α", s.pair.contact_ratio, "", "", 4);
+    add("greatest specific sliding",
+        std::min(s.pair.specific_sliding(s.pair.start)[0], s.pair.specific_sliding(s.pair.end)[1]), "",
+        "at the foot of a flank", 3);
+    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", "", 4);
+    if (s.stiffness.torsional > 0)
+      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad", "ISO 6336-1 B", 3);
+  }
+}
+
+void say_stage(Findings& f, const GearStage& s) {
+  const Chapter in = f.chapter(s.name);
+  std::vector<std::string> verdicts;
+  for (const GearVerdict& v : s.verdicts) verdicts.push_back(fmt::format("{}: {}", word_of(v.finding), v.text));
+  f.draw(in, [&s] { return Cards{drawing_of(s)}; });
+  f.say(in, Words{.lines = verdicts, .title = "Verdict", .terminal = false});
+  f.draw(in, [&s] { return plots_of(s); });
+  for (const Formula& formula : formulas_of(s)) f.show(in, formula);
+  Rows wheels = wheels_of(s.pair).rows();
+  wheels.heading = fmt::format("{}: {}", s.name, shape_of(s.pair));
+  f.say(in, std::move(wheels));
+  f.say(in, mesh_of(s).rows());
+  Rows path = path_table(s);
+  path.key = "";
+  f.say(in, std::move(path));
+  f.say(in, Words{.lines = {""}, .page = false});
+  f.say(in, Words{.lines = verdicts, .indent = "  ", .page = false});
+  f.csv.push_back({fmt::format("{}.path.csv", s.name), [&p = s.pair] { return path_csv(p); }});
+  for (const std::size_t i : {0, 1})
+    f.csv.push_back({fmt::format("{}.wheel{}.csv", s.name, i + 1), [&w = s.pair.wheel[i]] { return outline_csv(w); }});
+}
+
+}  // namespace
+
+Findings findings_of(const Gears& g) {
+  Findings f{.title = g.title,
+             .subtitle = "Involute geometry after ISO 21771",
+             .page_title = g.scene_file.empty() ? g.title : fmt::format("{}: gear pairs", g.title),
+             .scene_file = g.scene_file,
+             .conclusion = conclusion_of(g),
+             .tells_complete = false,
+             .footer = report_footer()};
+  add_key_figures(f, g);
+  if (g.scene_file.empty()) f.tell("scene", "");
+  f.tell("pairs", each(g.stages, stage_record));
+  for (const GearStage& s : g.stages) say_stage(f, s);
+  f.note(f.chapter("Notes"), g.notes);
+  if (!g.scene_text.empty()) f.show_scene(g.scene_file, g.scene_text);
+  return f;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,17 @@
+// gears_plots.h — the turning drawing of a gear pair, and plots along its path of contact.
+#pragma once
+
+#include <vector>
+
+#include "studies/findings/report.h"
+#include "studies/gears/gears.h"
+
+namespace kurbel {
+
+// Places along the path of contact, both ends [m].
+std::vector<double> along_path(const GearPair& pair);
+
+GearView drawing_of(const GearStage& stage);
+std::vector<Plot> plots_of(const GearStage& stage);
+
+}  // namespace kurbel

@@ -1,0 +1,379 @@
+// modes_findings.cpp — words and tables of modes, critical speeds, forced response and a torque's spectrum.
+#include "studies/modes/modes_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/index.h"
+#include "studies/modes/modes_plots.h"
+
+namespace kurbel {
+namespace {
+
+using namespace modes;
+
+constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_programs = 1000;
+
+// "unbounded" where it is: an undamped resonance.
+Reading digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
+Reading in_rpm(int count = 5) { return {.factor = rpm(1), .digits = count, .otherwise = "unbounded"}; }
+
+// Worst barred range: the one that exceeds its limit most.
+const BarredRange* worst_of(const ModesStudy& m) {
+  const BarredRange* worst = nullptr;
+  for (const BarredRange& b : m.barred)
+    if (!worst || b.peak / b.limit > worst->peak / worst->limit) worst = &b;
+  return worst;
+}
+
+bool is_forced(const ModesStudy& m) { return !m.excitations.by_order.empty() || !m.excitations.by_frequency.empty(); }
+
+std::string conclusion_of(const ModesStudy& m) {
+  std::string text;
+  if (m.modes.empty()) {
+    text = "The drive has no mode with twist.";
+  } else {
+    text = fmt::format("First mode at {:.6g} Hz{}", hertz(m.modes.front().omega),
+                       m.modes.front().lambda.imag() > 0 ? fmt::format(" (ζ = {:.3g})", m.modes.front().ratio)
+                                                         : " undamped (it does not swing: ζ ≥ 1)");
+    if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
+  }
+  if (is_forced(m)) {
+    const std::size_t j = joint_with_largest_swing(m.here);
+    text += fmt::format("; at {:.5g} 1/min {} swings by {} about {}", rpm(std::abs(m.drive.at.speed)), m.joint_names[j],
+                        torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
+  }
+  if (const BarredRange* b = worst_of(m))
+    text += fmt::format("; {} barred range{}, worst {:.5g} … {:.5g} 1/min ({})", m.barred.size(),
+                        m.barred.size() == 1 ? "" : "s", rpm(b->from), rpm(b->to), m.joint_names[b->joint]);
+  std::size_t failed = 0;
+  for (const Verdict& v : m.verdicts) failed += !v.holds();
+  if (!m.verdicts.empty())
+    text += failed ? fmt::format("; {} of {} limits exceeded", failed, m.verdicts.size())
+                   : fmt::format("; all {} limits hold", m.verdicts.size());
+  return text + ".";
+}
+
+// --- tables ---
+
+// Names with the largest shares, as "rear 61 %, web34 22 %".
+std::string largest_shares(const std::vector<double>& share, const std::vector<std::string>& name) {
+  std::vector<std::size_t> order(share.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const std::size_t shown = std::min<std::size_t>(2, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
+                    [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i)
+    if (share[order[i]] > 0.05)
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name[order[i]], 100 * share[order[i]]);
+  return text;
+}
+
+std::string damped_text(const Mode& m) {
+  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(8)) : "does not swing";
+}
+
+Rows mode_table(const ModesStudy& m) {
+  auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
+  table.always().text_in(1, 0);
+  table.column("number", "mode", &Mode::number)
+      .only_for_programs("omega", &Mode::omega)
+      .column(
+          "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(8))
+      .only_for_programs("damped",
+                         [](const Mode& mode) {
+                           return Record{{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}};
+                         })
+      .only_for_people("f damped [Hz]", damped_text)
+      .only_for_programs("damping_ratio", &Mode::ratio)
+      .only_for_people(
+          "ζ", [](const Mode& mode) { return mode.lambda.imag() > 0 ? read_as(mode.ratio, digits(4)) : "≥ 1"; });
+  if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
+    table
+        .only_for_programs("shape",
+                           [](const Mode& mode) { return std::vector<double>(mode.shape.begin(), mode.shape.end()); })
+        .only_for_programs("potential_energy", [](const Mode& mode) { return mode.shares.joint; })
+        .only_for_programs("kinetic_energy", [](const Mode& mode) { return mode.shares.coordinate; });
+  return table
+      .only_for_people("twist energy in",
+                       [&](const Mode& mode) { return largest_shares(mode.shares.joint, m.joint_names); })
+      .only_for_people("kinetic energy in",
+                       [&](const Mode& mode) { return largest_shares(mode.shares.coordinate, m.shaft_names); });
+}
+
+Rows response_table(const ModesStudy& m) {
+  const auto of = [&](auto member) { return [&m, member](std::size_t j) { return m.here.joints[j].*member; }; };
+  const auto order = [&](std::size_t j) { return m.excitations.order(m.here.joints[j].dominant); };
+  return table_of("response", fmt::format("At {:.5g} 1/min of {}", rpm(std::abs(m.drive.at.speed)), m.link),
+                  numbers_below(m.here.joints.size()))
+      .headed("forced response at that speed")
+      .programs_see_first(most_for_programs)
+      .people_see_first(is_forced(m) ? responses_shown : 0)
+      .column("joint", "joint", [&](std::size_t j) { return m.joint_names[j]; })
+      .column("mean", "mean [N·m]", of(&JointResponse::mean), digits(5))
+      .column("peak", "peak of swing [N·m]", of(&JointResponse::peak), digits(6))
+      .column("amplitude_sum", "Σ of amplitudes", of(&JointResponse::amplitude_sum), digits(5))
+      .column("rms", "RMS", of(&JointResponse::rms), digits(5))
+      .column("order", "strongest order", order,
+              [&](double r) { return r > 0 ? read_as(r, digits(4)) : std::string("—"); })
+      .only_for_people("its amplitude", of(&JointResponse::dominant_amplitude), digits(5))
+      .column("power", "dissipated [W]", of(&JointResponse::power), digits(4));
+}
+
+Rows critical_table(const ModesStudy& m) {
+  return table_of("critical_speeds", "Strongest critical speeds", m.critical)
+      .headed(fmt::format("critical speeds ({} of {}, by amplitude)", std::min(critical_shown, m.critical.size()),
+                          m.critical.size()))
+      .text_in(0)
+      .people_see(strongest_critical(m, critical_shown))
+      .column("speed", "speed [1/min]", &CriticalSpeed::speed, in_rpm(6))
+      .column("mode", "mode", &CriticalSpeed::mode)
+      .column("order", "order", &CriticalSpeed::order, digits(4))
+      .column("amplitude", "amplitude of that order [N·m]", &CriticalSpeed::amplitude, digits(5))
+      .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; });
+}
+
+Rows barred_table(const ModesStudy& m) {
+  return table_of("barred", "Barred speed ranges", m.barred)
+      .headed("barred speed ranges")
+      .text_in(2)
+      .column("joint", "joint", [&](const BarredRange& b) { return m.joint_names[b.joint]; })
+      .column("reason", "barred because of", &BarredRange::reason)
+      .column("from", "from [1/min]", &BarredRange::from, in_rpm())
+      .column("to", "to [1/min]", &BarredRange::to, in_rpm())
+      .column("peak", "largest [N·m]", &BarredRange::peak, digits(5))
+      .column("limit", "limit there [N·m]", &BarredRange::limit, digits(5));
+}
+
+Rows zone_table(const ModesStudy& m) {
+  return table_of("parametric_zones", "Parametric instability by the varying inertia, first order", m.zones)
+      .headed("parametric instability by the varying inertia, first order")
+      .text_in(0)
+      .column("mode", "mode", &ParametricZone::mode)
+      .column(
+          "order", "order of the inertia", [&](const ParametricZone& z) { return m.excitations.order(z.harmonic); },
+          digits(4))
+      .column("speed", "around [1/min]", &ParametricZone::centre, in_rpm(6))
+      .column("variation", "variation ε", &ParametricZone::variation, digits(4))
+      .only_for_people(
+          "half width [1/min]", [](const ParametricZone& z) { return z.centre * z.half_width; }, in_rpm(4))
+      .column("relative_half_width", "state", &ParametricZone::half_width,
+              [](double half_width) { return half_width > 0 ? "unstable inside" : "closed by damping"; });
+}
+
+Rows verdict_table(const ModesStudy& m) {
+  const auto readable = [](double value, const Verdict& v) {
+    const ReadableUnit unit = readable_unit(v.limit, v.unit);
+    return fmt::format("{} {}", read_as(unit.factor * value, digits(5)), unit.unit);
+  };
+  return table_of("verdicts", "What the components may bear", m.verdicts)
+      .headed("limits")
+      .text_in(3)
+      .column("component", "component", &Verdict::component)
+      .column("requirement", "requirement", &Verdict::requirement)
+      .column("note", "note", &Verdict::note)
+      .only_for_programs("value", &Verdict::value)
+      .only_for_programs("limit", &Verdict::limit)
+      .only_for_programs("unit", &Verdict::unit)
+      .only_for_programs("holds", &Verdict::holds)
+      .only_for_people("value", [&](const Verdict& v) { return readable(v.value, v); })
+      .only_for_people("limit", [&](const Verdict& v) { return readable(v.limit, v); })
+      .only_for_people("use", [](const Verdict& v) {
+        return fmt::format("{:.0f} % {}", 100 * v.value / v.limit, v.holds() ? "holds" : "EXCEEDED");
+      });
+}
+
+struct LoadClass {
+  double from = 0, to = 0, count = 0, sum = 0;
+};
+
+Rows rainflow_table(const TorqueHistory& h) {
+  constexpr int classes = 10;
+  const double width = h.cycles.empty() ? 0 : h.cycles.front().range / classes;
+  std::vector<LoadClass> list;
+  for (int k = classes - 1; k >= 0 && width > 0; --k) {
+    LoadClass& load = list.emplace_back(LoadClass{k * width, (k + 1) * width});
+    for (const LoadCycle& c : h.cycles) {
+      if (std::clamp(static_cast<int>(c.range / width), 0, classes - 1) != k) continue;
+      load.count += c.count;
+      load.sum += c.count * c.mean;
+    }
+  }
+  return table_of("", "Rainflow count (ASTM E1049)", std::move(list))
+      .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = 5: {}",
+                          h.channel, torque_text(equivalent_amplitude(h.cycles, 5))))
+      .text_in(0)
+      .always()
+      .only_for_people("range from [N·m]", &LoadClass::from, digits(5))
+      .only_for_people("to [N·m]", &LoadClass::to, digits(5))
+      .only_for_people("cycles", &LoadClass::count)
+      .only_for_people("mean [N·m]", [](const LoadClass& c) {
+        return c.count > 0 ? read_as(c.sum / c.count, digits(5)) : std::string("—");
+      });
+}
+
+std::string point_text(const ModesStudy& m) {
+  return fmt::format("linearised at {:.6g} 1/min of {}; {}", rpm(m.drive.at.speed), m.link, m.drive.mode_set);
+}
+
+std::string method_text(const ModesStudy& m) {
+  return fmt::format("{}, {} coordinate{}; residual {:.1e}; {} motion{} without twist; counted up to the last mode: {}",
+                     m.undamped.basis ? fmt::format("shift and invert, {} vectors", m.undamped.basis) : "dense solver",
+                     m.drive.size(), m.drive.size() == 1 ? "" : "s", m.undamped.residual, m.undamped.rigid,
+                     m.undamped.rigid == 1 ? "" : "s", m.undamped.counted_below);
+}
+
+// --- for programs and files ---
+
+Record operating_point(const ModesStudy& m) {
+  return {{"speed", m.drive.at.speed},
+          {"link", m.link},
+          {"mode_set", m.drive.mode_set},
+          {"torque_left_over", m.drive.mean_torque}};
+}
+
+List joint_list(const ModesStudy& m) {
+  return each(numbers_below(std::min(m.joint_names.size(), most_for_programs)), [&](std::size_t i) {
+    return Record{{"name", m.joint_names[i]},
+                  {"stiffness", m.drive.joints[i].stiffness},
+                  {"damping", m.drive.joints[i].damping},
+                  {"mean_torque", m.drive.joints[i].torque}};
+  });
+}
+
+Record history_record(const TorqueHistory& h) {
+  return {{"channel", h.channel},
+          {"greatest", h.greatest},
+          {"least", h.least},
+          {"equivalent_amplitude", equivalent_amplitude(h.cycles, 5)}};
+}
+
+std::string shapes_csv(const ModesStudy& m) {
+  const std::vector<std::size_t> shafts = numbers_below(m.shaft_names.size());
+  auto csv =
+      csv_of(shafts)
+          .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
+          .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
+          .column("inertia [kg*m2]", [&](std::size_t i) { return m.drive.inertia[static_cast<Eigen::Index>(i)]; });
+  for (const Mode& mode : m.modes)
+    csv.column(
+        fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)),
+        [&mode](std::size_t i) { return mode.shape[static_cast<Eigen::Index>(i)]; }, 9);
+  return csv.text();
+}
+
+std::string response_csv(const ModesStudy& m) {
+  auto csv = csv_of(m.sweep).column("speed [rad/s]", &SpeedResponse::speed);
+  for (std::size_t j = 0; j < m.joint_names.size(); ++j)
+    csv.column(
+           fmt::format("mean {} [N*m]", m.joint_names[j]), [j](const SpeedResponse& s) { return s.joints[j].mean; }, 9)
+        .column(
+            fmt::format("peak {} [N*m]", m.joint_names[j]), [j](const SpeedResponse& s) { return s.joints[j].peak; },
+            9);
+  return csv.text();
+}
+
+// --- all of it ---
+
+void add_key_figures(Findings& f, const ModesStudy& m) {
+  for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k)
+    f.figures.push_back({fmt::format("mode {}", m.modes[k].number),
+                         hertz(m.modes[k].omega),
+                         "Hz",
+                         {},
+                         m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "",
+                         6});
+  if (!is_forced(m)) return;
+  const std::size_t j = joint_with_largest_swing(m.here);
+  if (std::isfinite(m.here.joints[j].peak))
+    f.figures.push_back({"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5});
+}
+
+Formula rayleigh(const ModesStudy& m) {
+  const Mode& first = m.modes.front();
+  double potential = 0;
+  for (std::size_t j = 0; j < m.drive.joints.size(); ++j)
+    potential += m.drive.joints[j].stiffness * std::pow(m.drive.twist(j, first.shape), 2);
+  const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
+  return {.title = "First mode by its energies (Rayleigh, theory 12.4)",
+          .symbols = "ω² = Σ k θ² / Σ J φ²",
+          .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz", potential, kinetic,
+                                 first.omega, hertz(first.omega)),
+          .note = point_text(m) + "."};
+}
+
+Formula half_width(const ModesStudy& m) {
+  const ParametricZone& z = m.zones.back();
+  const double zeta = m.modes[at(z.mode - 1)].ratio;
+  return {.title = "Half width of a zone (theory 12.8)",
+          .symbols = "ΔΩ/Ω = √(ε²/16 − ζ²) around Ω = 2 ω/r",
+          .numbers = z.variation > 4 * zeta
+                         ? fmt::format("√({:.4g}²/16 − {:.4g}²) · {:.5g} 1/min = {:.4g} 1/min", z.variation, zeta,
+                                       rpm(z.centre), rpm(z.centre * z.half_width))
+                         : fmt::format("{:.4g} ≤ 4 · {:.4g}: closed by damping, around {:.5g} 1/min", z.variation, zeta,
+                                       rpm(z.centre)),
+          .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."};
+}
+
+void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
+  f.say(in, mode_table(m));
+  f.say(in, Words{.lines = {method_text(m)}, .indent = "  ", .page = false});
+  f.tell("shafts", m.shaft_names);
+  f.tell("joints", joint_list(m));
+  f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
+  if (m.modes.empty()) return;
+  f.draw(in, [&m] { return mode_plots(m); });
+  f.show(in, rayleigh(m));
+  f.show(in, Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
+}
+
+void say_history(Findings& f, Chapter in, const ModesStudy& m) {
+  if (!m.history) return;
+  const TorqueHistory& h = *m.history;
+  if (!h.lines.empty()) f.draw(in, [&] { return history_plots(m, h); });
+  Rows rainflow = rainflow_table(h);
+  rainflow.page = !h.lines.empty();
+  f.say(in, std::move(rainflow));
+  f.tell("history", history_record(h));
+}
+
+}  // namespace
+
+Findings findings_of(const ModesStudy& m) {
+  Findings f{.title = m.title,
+             .subtitle = point_text(m),
+             .page_title = fmt::format("{}: modes and critical speeds", m.title),
+             .scene_file = m.scene_file,
+             .conclusion = conclusion_of(m),
+             .complete = m.complete,
+             .diagnosis = m.diagnosis,
+             .footer = report_footer()};
+  const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
+                campbell = f.chapter("Critical speeds (theory 12.6)"),
+                forced = f.chapter("Forced response (theory 12.7)"), history = f.chapter("Simulated torque"),
+                notes = f.chapter("Notes");
+  add_key_figures(f, m);
+  f.tell("operating_point", operating_point(m));
+  f.say(modes, Words{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
+  say_modes(f, modes, m);
+  const bool is_shaken = is_forced(m);
+  if (is_shaken) f.draw(campbell, [&m] { return campbell_plot(m); });
+  f.say(forced, response_table(m));
+  if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
+  f.say(campbell, critical_table(m));
+  f.say(forced, barred_table(m));
+  f.say(campbell, zone_table(m));
+  if (!m.zones.empty()) f.show(campbell, half_width(m));
+  f.say(limits, verdict_table(m));
+  say_history(f, history, m);
+  f.note(notes, m.notes);
+  f.show_scene(m.scene_file, m.scene_text);
+  f.csv.push_back({"mode_shapes.csv", [&m] { return shapes_csv(m); }});
+  if (!m.sweep.empty()) f.csv.push_back({"forced_response.csv", [&m] { return response_csv(m); }});
+  return f;
+}
+
+}  // namespace kurbel

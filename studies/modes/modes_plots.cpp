@@ -1,0 +1,298 @@
+// modes_plots.cpp — shapes, Campbell diagram, response over the speed, spectra.
+#include "studies/modes/modes_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/findings/plots.h"
+#include "studies/findings/rows.h"
+
+namespace kurbel::modes {
+namespace {
+
+constexpr std::size_t shapes_shown = 6, lines_shown = 12;
+
+// "Shafts: 1 motor, 2 rear, …"
+std::string numbered(const std::vector<std::string>& names, const std::string& begin = "") {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < 24; ++i)
+    text += fmt::format("{}{} {}", i ? ", " : begin, i + 1, names[i]);
+  return text;
+}
+
+// Amplitudes of a spectrum's lines up to `end`.
+Series lines_of(const std::string& name, const AmplitudeSpectrum& s, double end) {
+  Series series{.name = name, .role = Role::elastic, .x = {}, .y = {}};
+  for (std::size_t i = 0; i < s.frequency.size() && s.frequency[i] <= end; ++i) {
+    series.x.push_back(s.frequency[i]);
+    series.y.push_back(s.amplitude[i]);
+  }
+  return series;
+}
+
+// From end to end of the range of speeds.
+Series level(const ModesStudy& m, const std::string& name, Role role, double y) {
+  return {.name = name, .role = role, .x = {rpm(m.slowest), rpm(m.fastest)}, .y = {y, y}};
+}
+
+// Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
+Plot shape_plot(const ModesStudy& m) {
+  Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
+            .x = {"shaft", ""},
+            .y = {"relative amplitude", ""},
+            .series = {}};
+  for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
+    Series s{.name = fmt::format("mode {}, {:.4g} Hz", m.modes[k].number, hertz(m.modes[k].omega)),
+             .role = further_role(k),
+             .x = {},
+             .y = {}};
+    s.points = m.drive.size() <= 60;
+    double largest = 0;
+    for (Eigen::Index i = 0; i < m.drive.size(); ++i) {
+      s.x.push_back(static_cast<double>(i + 1));
+      s.y.push_back(m.modes[k].shape[i] / m.drive.ratio[static_cast<std::size_t>(i)]);
+      if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
+    }
+    for (double& y : s.y) y /= largest;
+    plot.series.push_back(std::move(s));
+  }
+  plot.note = numbered(m.shaft_names, "Shafts: ") + (m.shaft_names.size() > 24 ? ", …" : ".");
+  return plot;
+}
+
+Plot energy_plot(const ModesStudy& m, bool kinetic) {
+  Plot plot{.title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
+            .x = {kinetic ? "shaft" : "elastic element", ""},
+            .y = {"share of the energy", "%"},
+            .series = {},
+            .note = numbered(kinetic ? m.shaft_names : m.joint_names),
+            .bars = true};
+  for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
+    Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k), .x = {}, .y = {}};
+    const std::vector<double>& share = kinetic ? m.modes[k].shares.coordinate : m.modes[k].shares.joint;
+    for (std::size_t i = 0; i < share.size() && i < 200; ++i) {
+      s.x.push_back(static_cast<double>(i + 1));
+      s.y.push_back(100 * share[i]);
+    }
+    plot.series.push_back(std::move(s));
+  }
+  return plot;
+}
+
+// Harmonics with the largest torque at the operating point; those that lead to the strongest critical speeds first.
+std::vector<std::size_t> orders_shown(const ModesStudy& m) {
+  std::vector<std::size_t> shown;
+  const auto show = [&](std::size_t r) {
+    if (shown.size() < lines_shown && std::find(shown.begin(), shown.end(), r) == shown.end()) shown.push_back(r);
+  };
+  for (const std::size_t i : strongest_critical(m, 8)) show(m.critical[i].harmonic);
+  std::vector<std::pair<double, std::size_t>> strength;
+  for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
+    strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
+  std::sort(strength.begin(), strength.end());
+  for (const auto& [negative, r] : strength)
+    if (negative < 0) show(r);
+  std::sort(shown.begin(), shown.end());
+  return shown;
+}
+
+Plot sweep_plot(const ModesStudy& m, std::size_t j) {
+  std::vector<const SpeedResponse*> finite;
+  double largest = 0;
+  for (const SpeedResponse& s : m.sweep) {
+    if (!std::isfinite(s.joints[j].peak)) continue;
+    finite.push_back(&s);
+    largest = std::max(largest, s.joints[j].peak);
+  }
+  const auto curve = [&](const char* name, Role role, auto value) {
+    return series_of(
+        name, role, finite, [](const SpeedResponse* s) { return rpm(s->speed); },
+        [&](const SpeedResponse* s) { return value(s->joints[j]); });
+  };
+  Plot plot{
+      .title = fmt::format("Swinging torque in {} over the speed", m.joint_names[j]),
+      .x = {"speed of " + m.link, "1/min"},
+      .y = {"torque", ""},
+      .series = {
+          curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
+          dashed(curve("sum of amplitudes", Role::rigid, [](const JointResponse& r) { return r.amplitude_sum; })),
+          dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
+  if (m.limits[j].vibratory > 0)
+    plot.series.push_back(dashed(level(m, "allowed", Role::vermillion, m.limits[j].vibratory)));
+  for (const BarredRange& b : m.barred) {
+    if (b.joint != j) continue;
+    plot.marks.push_back({rpm(b.from), "barred from"});
+    plot.marks.push_back({rpm(b.to), "to"});
+    plot.note += fmt::format("{}Barred {:.5g} … {:.5g} 1/min by {}.", plot.note.empty() ? "" : " ", rpm(b.from),
+                             rpm(b.to), b.reason);
+  }
+  return in_readable_unit(std::move(plot), "N*m", largest);
+}
+
+Plot order_plot(const ModesStudy& m) {
+  const std::size_t j = joint_with_largest_swing(m.here);
+  Plot plot{.title = fmt::format("Orders of the torque in {} at {:.5g} 1/min", m.joint_names[j],
+                                 rpm(std::abs(m.drive.at.speed))),
+            .x = {"order of the turn of " + m.link, ""},
+            .y = {"amplitude", "N·m"},
+            .series = {}};
+  plot.bars = true;
+  Series response{.name = "in the joint", .role = Role::elastic, .x = {}, .y = {}};
+  for (std::size_t r = 1; r < m.here.orders[j].size(); ++r) {
+    response.x.push_back(m.excitations.order(r));
+    response.y.push_back(std::abs(m.here.orders[j][r]));
+  }
+  plot.series.push_back(std::move(response));
+  return plot;
+}
+
+void mark_modes(const ModesStudy& m, Plot& plot, double end) {
+  for (const Mode& mode : m.modes)
+    if (hertz(mode.omega) <= end) plot.marks.push_back({hertz(mode.omega), fmt::format("mode {}", mode.number)});
+}
+
+// Up to a little above the highest mode that still shows.
+double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
+  double largest = 0, end = 0;
+  for (const double a : s.amplitude) largest = std::max(largest, a);
+  for (std::size_t i = 0; i < s.frequency.size(); ++i)
+    if (s.amplitude[i] > 2e-3 * largest) end = s.frequency[i];
+  if (!m.modes.empty()) end = std::max(end, 1.3 * hertz(m.modes.front().omega));
+  return std::min(1.1 * end, s.frequency.back());
+}
+
+Plot spectrum_plot(const ModesStudy& m, const TorqueHistory& h) {
+  const double end = end_of_spectrum(m, h.spectrum);
+  Plot plot{.title = fmt::format("Spectrum of the simulated {}, modes marked", h.channel),
+            .x = {"frequency", "Hz"},
+            .y = {"amplitude", "N·m"},
+            .series = {lines_of(h.channel, h.spectrum, end)},
+            .note = fmt::format("Hann window, lines {:.3g} Hz apart; from the end of the run.", h.spectrum.resolution)};
+  mark_modes(m, plot, end);
+  return plot;
+}
+
+Plot history_orders_plot(const ModesStudy& m, const TorqueHistory& h) {
+  return {.title = fmt::format("Order analysis of the simulated {}", h.channel),
+          .x = {"order of the turn of " + m.link, ""},
+          .y = {"amplitude", "N·m"},
+          .series = {lines_of(h.channel, h.orders, m.highest_order)},
+          .note = fmt::format("Resampled over the angle; lines {:.3g} orders apart.", h.orders.resolution)};
+}
+
+// Lines one above the other, each set off by the speed at which its window was taken.
+Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
+  Plot plot{.title = fmt::format("Waterfall of {}: spectra along the run, modes marked", h.channel),
+            .x = {"frequency", "Hz"},
+            .y = {"speed of " + m.link + "; height of a line: amplitude", "1/min"},
+            .series = {}};
+  double largest = 0, low = HUGE_VAL, high = -HUGE_VAL, end = 0;
+  for (const WaterfallLine& line : h.lines) {
+    for (const double a : line.spectrum.amplitude) largest = std::max(largest, a);
+    low = std::min(low, rpm(line.speed));
+    high = std::max(high, rpm(line.speed));
+    end = std::max(end, end_of_spectrum(m, line.spectrum));
+  }
+  const double height = 0.25 * std::max(high - low, 0.05 * std::abs(high)) / std::max(largest, 1e-300);
+  for (const WaterfallLine& line : h.lines) {
+    Series s = lines_of(fmt::format("{:.3g} s, {:.4g} 1/min", line.time, rpm(line.speed)), line.spectrum, end);
+    for (double& y : s.y) y = rpm(line.speed) + height * y;
+    plot.series.push_back(std::move(s));
+  }
+  mark_modes(m, plot, end);
+  plot.note = fmt::format("The highest peak stands for {}.", torque_text(largest));
+  return plot;
+}
+
+}  // namespace
+
+std::string torque_text(double value) {
+  if (!std::isfinite(value)) return "unbounded";
+  const ReadableUnit unit = readable_unit(value, "N*m");
+  return fmt::format("{:.5g} {}", unit.factor * value, unit.unit);
+}
+
+std::size_t joint_with_largest_swing(const SpeedResponse& s) {
+  const auto less = [](const JointResponse& a, const JointResponse& b) { return a.peak < b.peak; };
+  return static_cast<std::size_t>(std::max_element(s.joints.begin(), s.joints.end(), less) - s.joints.begin());
+}
+
+std::vector<std::size_t> strongest_critical(const ModesStudy& m, std::size_t count) {
+  std::vector<std::size_t> places = numbers_below(m.critical.size());
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t a, std::size_t b) { return m.critical[a].amplitude > m.critical[b].amplitude; });
+  if (places.size() > count) places.resize(count);
+  std::sort(places.begin(), places.end(),
+            [&](std::size_t a, std::size_t b) { return m.critical[a].speed < m.critical[b].speed; });
+  return places;
+}
+
+Plot campbell_plot(const ModesStudy& m) {
+  Plot plot{.title = "Campbell diagram: where excitation orders meet the modes",
+            .x = {"speed of " + m.link, "1/min"},
+            .y = {"frequency", "Hz"},
+            .series = {},
+            .note =
+                "Level lines are modes, rays are orders of the reduction link's turn; circles mark critical speeds, "
+                "dashed rays tooth meshes."};
+  const double to = rpm(m.fastest);
+  double top = 0;
+  const std::vector<std::size_t> orders = orders_shown(m);
+  for (const std::size_t r : orders) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
+  if (!m.modes.empty()) top = std::max(top, 1.2 * hertz(m.modes.front().omega));
+  for (const Mode& mode : m.modes)
+    if (hertz(mode.omega) <= top)
+      plot.series.push_back(level(m, fmt::format("mode {}", mode.number), Role::elastic, hertz(mode.omega)));
+  // All rays in one series: each comes back to the origin.
+  Series rays{.name = "orders", .role = Role::rigid, .x = {}, .y = {}};
+  for (const std::size_t r : orders) {
+    rays.name += fmt::format("{} {:g}", rays.x.empty() ? "" : ",", m.excitations.order(r));
+    rays.x.insert(rays.x.end(), {0, to, 0});
+    rays.y.insert(rays.y.end(), {0, m.excitations.order(r) * to / 60, 0});
+  }
+  if (!rays.x.empty()) plot.series.push_back(std::move(rays));
+  Series meshes{.name = "tooth meshes", .role = Role::reference, .x = {}, .y = {}, .dashed = true};
+  for (const GearMesh& mesh : m.excitations.meshes) {
+    const double end = std::min(to, 60 * top / mesh.order);
+    meshes.x.insert(meshes.x.end(), {0, end, 0});
+    meshes.y.insert(meshes.y.end(), {0, mesh.order * end / 60, 0});
+    plot.note += fmt::format(" Mesh of {}: order {:.5g}.", mesh.name, mesh.order);
+  }
+  if (!meshes.x.empty()) plot.series.push_back(std::move(meshes));
+  for (const FrequencySource& f : m.excitations.by_frequency)
+    if (hertz(f.omega) <= top)
+      plot.series.push_back(dashed(level(m, "frequency of " + f.component, Role::vermillion, hertz(f.omega))));
+  std::vector<CriticalSpeed> met;
+  for (const CriticalSpeed& c : m.critical)
+    if (std::find(orders.begin(), orders.end(), c.harmonic) != orders.end()) met.push_back(c);
+  if (!met.empty())
+    plot.series.push_back(marks(series_of(
+        "critical speeds", Role::orange, met, [](const CriticalSpeed& c) { return rpm(c.speed); },
+        [](const CriticalSpeed& c) { return hertz(c.order * c.speed); })));
+  for (const ParametricZone& z : m.zones)
+    if (z.half_width > 0) plot.marks.push_back({rpm(z.centre), fmt::format("parametric, mode {}", z.mode)});
+  return plot;
+}
+
+std::vector<Plot> mode_plots(const ModesStudy& m) {
+  return {shape_plot(m), energy_plot(m, false), energy_plot(m, true)};
+}
+
+std::vector<Plot> response_plots(const ModesStudy& m) {
+  std::vector<Plot> plots;
+  if (!m.here.joints.empty() && m.excitations.harmonics > 0 && !m.excitations.by_order.empty())
+    plots.push_back(order_plot(m));
+  for (std::size_t j = 0; j < m.joint_names.size() && j < 12 && !m.sweep.empty(); ++j)
+    plots.push_back(sweep_plot(m, j));
+  return plots;
+}
+
+std::vector<Plot> history_plots(const ModesStudy& m, const TorqueHistory& h) {
+  std::vector<Plot> plots = {waterfall_plot(m, h), spectrum_plot(m, h)};
+  if (!h.orders.frequency.empty()) plots.push_back(history_orders_plot(m, h));
+  return plots;
+}
+
+}  // namespace kurbel::modes

@@ -1,0 +1,280 @@
+// reduce_findings.cpp — words, tables and formulas of the reduced machine.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/output.h"
+#include "studies/reduce/reduce.h"
+#include "studies/reduce/reduce_plots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+std::string number(double value, int digits = 6) { return read_as(value, {.digits = digits}); }
+
+std::string conclusion_of(const MachineReduction& r) {
+  const ReducedPosition *most = nullptr, *least = nullptr;
+  for (const ReducedPosition& p : r.curve) {
+    if (!most || p.inertia > most->inertia) most = &p;
+    if (!least || p.inertia < least->inertia) least = &p;
+  }
+  if (r.to_output)
+    return fmt::format("{}: reduced to {} the machine has {:.5g} {} or more, infinite in the dead centres", r.title,
+                       r.to, least ? least->inertia : 0.0, pretty_unit(names_of(r).inertia_unit));
+  return fmt::format(
+      "{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.title,
+      r.to, least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
+}
+
+// --- tables ---
+
+struct Quantity {
+  std::string heading;
+  std::function<double(const ReducedPosition&)> value;
+};
+
+// What each position holds; values that are rounding dust beside the largest of their kind are zeros.
+std::vector<Quantity> quantities_of(const MachineReduction& r) {
+  const ReducedNames n = names_of(r);
+  const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);
+  std::vector<Quantity> list = {
+      {fmt::format("{}_r [{}]", n.inertia, i), &ReducedPosition::inertia},
+      {fmt::format("{}_drive [{}]", n.inertia, i), &ReducedPosition::drive_inertia},
+      {fmt::format("{}_em [{}]", n.inertia, i), &ReducedPosition::mechanism_inertia},
+      {fmt::format("{}_r′ [{}]", n.inertia, pretty_unit(n.slope_unit)), &ReducedPosition::slope},
+      {fmt::format("{}_d [{}]", n.torque, t), &ReducedPosition::drive},
+      {fmt::format("{}_c [{}]", n.torque, t), &ReducedPosition::load}};
+  for (const std::size_t k : acting(r))
+    list.push_back({r.accounts[k], [k](const ReducedPosition& p) { return p.share[k]; }});
+  for (Quantity& q : list) {
+    double largest = 0;
+    for (const ReducedPosition& p : r.positions)
+      if (p.singular.empty()) largest = std::max(largest, std::abs(q.value(p)));
+    q.value = [value = q.value, largest](const ReducedPosition& p) {
+      const double v = value(p);
+      return std::abs(v) < 1e-12 * largest ? 0.0 : v;
+    };
+  }
+  return list;
+}
+
+Rows positions_table(const MachineReduction& r) {
+  const std::string title = fmt::format("Reduced to {} at {} positions", r.to, r.positions.size());
+  auto table = table_of("", title, r.positions).headed(title).always();
+  table.only_for_people("position", &ReducedPosition::number)
+      .only_for_people("φ [°]", &ReducedPosition::phi, {.factor = degrees});
+  for (const Quantity& q : quantities_of(r))
+    table.only_for_people(q.heading, [&](const ReducedPosition& p) {
+      return p.singular.empty() ? read_as(q.value(p)) : std::string("—");
+    });
+  return table;
+}
+
+Rows chain_table(const MachineReduction& r) {
+  Lines lines;
+  for (std::size_t k = 0; k < r.chain.inertias.size(); ++k) {
+    const ChainInertia& i = r.chain.inertias[k];
+    lines.push_back({fmt::format("J{}", k + 1), i.name + (i.mechanism ? " (mean)" : ""), number(i.own) + " kg·m²",
+                     number(i.ratio), number(i.reduced) + " kg·m²", "", ""});
+  }
+  for (const ChainSpring& s : r.chain.springs)
+    lines.push_back({fmt::format("k{}-{}", s.a + 1, s.b + 1), s.name, number(s.stiffness) + " N·m/rad", number(s.ratio),
+                     number(s.reduced_stiffness) + " N·m/rad", number(s.damping, 5) + " N·m·s/rad",
+                     number(s.reduced_damping, 5) + " N·m·s/rad"});
+  Rows table = words_table(fmt::format("Drive as an elastic chain, reduced to {}", r.to_output ? r.link : r.to),
+                           {"part", "what", "own", "speed ratio i", "reduced", "own c", "reduced c"}, lines);
+  table.heading = table.title;
+  table.text_columns = table.text_columns_on_terminal = 2;
+  return table;
+}
+
+// −180° < phase ≤ 180°, to a millionth of a degree.
+std::string phase_text(double phase) {
+  const double rounded_phase = std::round(phase * degrees * 1e6) / 1e6;
+  return number(rounded_phase <= -180 ? rounded_phase + 360 : rounded_phase, 5);
+}
+
+Rows harmonics_table(const MachineReduction& r) {
+  const std::string title = fmt::format("Harmonics over a cycle, on {}", r.link);
+  const std::vector<Harmonic>& first = r.spectra.front().harmonics;
+  auto table = table_of("", title, numbers_below(first.size())).headed(title).close().always();
+  table.only_for_people("order", [&](std::size_t n) { return first[n].order; }, {.digits = 4});
+  for (const Spectrum& s : r.spectra) {
+    const auto amplitude = [&s](std::size_t n) { return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude; };
+    table.only_for_people(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)), amplitude);
+    table.only_for_people("phase [°]", [&](std::size_t n) {
+      return n == 0 || amplitude(n) == 0 ? "—" : phase_text(s.harmonics[n].phase);
+    });
+  }
+  return table;
+}
+
+// --- for programs and files ---
+
+Record position_record(const MachineReduction& r, const ReducedPosition& p) {
+  Record record = {{"position", p.number}, {"phi", p.phi}};
+  if (p.ratio) record.push_back({"slider_velocity_ratio", *p.ratio});
+  if (!p.singular.empty()) {
+    record.push_back({"singular", p.singular});
+    return record;
+  }
+  const bool mass = r.to_output && !r.to_rocker;
+  const std::string inertia = mass ? "mass" : "inertia", torque = mass ? "force" : "torque";
+  Record share;
+  for (std::size_t k = 0; k < r.accounts.size(); ++k) share.push_back({r.accounts[k], p.share[k]});
+  for (Field& field : Record{{inertia, p.inertia},
+                             {"drive_" + inertia, p.drive_inertia},
+                             {"mechanism_" + inertia, p.mechanism_inertia},
+                             {inertia + "_slope", p.slope},
+                             {"driving_" + torque, p.drive},
+                             {"resisting_" + torque, p.load},
+                             {"share", share}})
+    record.push_back(std::move(field));
+  return record;
+}
+
+Record chain_record(const Chain& chain) {
+  return {{"inertias", each(chain.inertias,
+                            [](const ChainInertia& i) {
+                              return Record{{"name", i.name},
+                                            {"own", i.own},
+                                            {"ratio", i.ratio},
+                                            {"reduced", i.reduced},
+                                            {"mean_of_mechanism", i.mechanism}};
+                            })},
+          {"springs", each(chain.springs, [](const ChainSpring& s) {
+             return Record{{"name", s.name},
+                           {"from", s.a},
+                           {"to", s.b},
+                           {"ratio", s.ratio},
+                           {"stiffness", s.stiffness},
+                           {"damping", s.damping},
+                           {"reduced_stiffness", s.reduced_stiffness},
+                           {"reduced_damping", s.reduced_damping}};
+           })}};
+}
+
+Record spectrum_record(const Spectrum& s) {
+  return {{"name", s.name},
+          {"unit", s.unit},
+          {"captured_of_mean_square", s.captured},
+          {"orders", each(s.harmonics, [](const Harmonic& h) {
+             return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}};
+           })}};
+}
+
+std::string positions_csv(const MachineReduction& r) {
+  std::vector<ReducedPosition> regular = r.positions;
+  std::erase_if(regular, [](const ReducedPosition& p) { return !p.singular.empty(); });
+  auto csv = csv_of(regular)
+                 .column("position", &ReducedPosition::number)
+                 .column(
+                     "φ [°]", [](const ReducedPosition& p) { return p.phi * degrees + 0.0; }, 15);
+  for (const Quantity& q : quantities_of(r))
+    csv.column(
+        q.heading, [value = q.value](const ReducedPosition& p) { return value(p) + 0.0; }, 15);
+  return csv.text();
+}
+
+std::string harmonics_csv(const MachineReduction& r) {
+  std::vector<std::pair<std::string, Harmonic>> rows;
+  for (const Spectrum& s : r.spectra)
+    for (const Harmonic& h : s.harmonics) rows.emplace_back(s.name, h);
+  return csv_of(rows)
+      .column("quantity", [](const auto& row) { return row.first; })
+      .column(
+          "order", [](const auto& row) { return row.second.order + 0.0; }, 6)
+      .column(
+          "amplitude", [](const auto& row) { return row.second.amplitude + 0.0; }, 15)
+      .column(
+          "phase [rad]", [](const auto& row) { return row.second.phase + 0.0; }, 15)
+      .text();
+}
+
+// --- formulas ---
+
+std::vector<Formula> formulas_of(const MachineReduction& r) {
+  std::vector<Formula> list;
+  const ReducedPosition* p = nullptr;
+  for (const ReducedPosition& one : r.positions)
+    if (one.singular.empty() && (!p || std::abs(one.load) > std::abs(p->load))) p = &one;
+  if (!p) return list;
+  const std::string where = fmt::format("At φ = {:.5g}°.", p->phi * degrees);
+  if (r.to_output) {
+    const ReducedNames n = names_of(r);
+    const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit), x = r.to_rocker ? "" : " m";
+    list.push_back(Formula{.title = fmt::format("Reduced {} (theory 2.1)", r.to_rocker ? "inertia" : "mass"),
+                           .symbols = fmt::format("{}_r = I_r / x′²", n.inertia),
+                           .numbers = fmt::format("{}_r = {:.6g} kg·m² / ({:.6g}{})² = {:.6g} {}", n.inertia,
+                                                  p->inertia * *p->ratio * *p->ratio, *p->ratio, x, p->inertia, i),
+                           .note = where});
+    list.push_back(Formula{.title = "Resistance reduced to it (theory 2.2)",
+                           .symbols = fmt::format("{}_r = M_c / x′", n.torque),
+                           .numbers = fmt::format("{}_r = {:.6g} N·m / {:.6g}{} = {:.6g} {}", n.torque,
+                                                  p->load * *p->ratio, *p->ratio, x, p->load, t),
+                           .note = where});
+    return list;
+  }
+  list.push_back(Formula{.title = "Reduced inertia (theory 2.1)",
+                         .symbols = "I_r(φ) = I_drive + I_em(φ)",
+                         .numbers = fmt::format("I_r = {:.6g} + {:.6g} = {:.6g} kg·m²", p->drive_inertia,
+                                                p->mechanism_inertia, p->inertia),
+                         .note = where});
+  std::string sum;
+  for (const std::size_t k : acting(r)) sum += fmt::format("{}{:.6g}", sum.empty() ? "" : " + ", p->share[k]);
+  list.push_back(Formula{.title = "Reduced torque (theory 2.2)",
+                         .symbols = "M_r = Σ [F·v + M·ω]/ω = M_d − M_c",
+                         .numbers = fmt::format("M_r = {} = {:.6g} N·m", sum.empty() ? "0" : sum, p->drive - p->load),
+                         .note = where});
+  return list;
+}
+
+void tell_all(Findings& f, const MachineReduction& r) {
+  const ReducedNames n = names_of(r);
+  f.tell("link", r.link);
+  f.tell("reduced_to", r.to);
+  f.tell("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
+  f.tell("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
+  f.tell("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
+  f.tell("positions", each(r.positions, [&](const ReducedPosition& p) { return position_record(r, p); }));
+  f.tell("chain", chain_record(r.chain));
+  f.tell("harmonics", each(r.spectra, spectrum_record));
+}
+
+}  // namespace
+
+Findings findings_of(const MachineReduction& r) {
+  Findings f{
+      .title = r.title,
+      .subtitle = fmt::format("Machine reduced to {}", r.to),
+      .scene_file = r.scene_file,
+      .conclusion = conclusion_of(r),
+      .tells_complete = false,
+      .figures = {{"constant inertia of the drive", r.constant_inertia, "kg*m2", {}, r.to_output ? "on " + r.link : ""},
+                  {"mean driving torque", r.mean_drive, "N*m", {}, "on " + r.link},
+                  {"mean resisting torque", r.mean_load, "N*m", {}, "on " + r.link}}};
+  const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
+                spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
+  tell_all(f, r);
+  f.say(cycle, Words{.lines = {speed_text(r)}, .page = false});
+  f.draw(cycle, [&r] { return motion_plots(r); });
+  f.say(cycle, positions_table(r));
+  for (const Formula& formula : formulas_of(r)) f.show(cycle, formula);
+  if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r); });
+  f.say(drive, chain_table(r));
+  f.say(drive, Words{.lines = {""}, .page = false});
+  if (!r.spectra.empty()) {
+    f.draw(spectra, [&r] { return harmonics_plots(r); });
+    f.say(spectra, harmonics_table(r));
+  }
+  f.note(notes, r.notes, "");
+  f.csv = {{"positions.csv", [&r] { return positions_csv(r); }}, {"harmonics.csv", [&r] { return harmonics_csv(r); }}};
+  return f;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,175 @@
+// reduce_plots.cpp — reduced inertia and torques over the angle, bars of harmonics, discs on a shaft.
+#include "studies/reduce/reduce_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/plots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+double angle_of(const ReducedPosition& p) { return p.phi * degrees; }
+
+using Quantity = std::function<double(const ReducedPosition&)>;
+
+Series over_angle(const MachineReduction& r, const std::string& name, Role role, const Quantity& value) {
+  return series_of(name, role, r.curve, angle_of, value);
+}
+Series at_positions(const MachineReduction& r, Role role, const Quantity& value) {
+  std::vector<ReducedPosition> regular = r.positions;
+  std::erase_if(regular, [](const ReducedPosition& p) { return !p.singular.empty(); });
+  return marks(series_of(fmt::format("{} positions", r.positions.size()), role, regular, angle_of, value));
+}
+
+Plot harmonics_plot(const Spectrum& s, const std::string& link) {
+  Plot plot{.title = fmt::format("Harmonics of the {}", s.name),
+            .x = {fmt::format("order (per turn of {})", link), ""},
+            .y = {"amplitude", pretty_unit(s.unit)},
+            .series = {{.name = s.name, .role = Role::elastic, .x = {}, .y = {}}},
+            .note = fmt::format("Without the mean of {:.6g} {}; these orders hold {:.6g} % of the mean square.",
+                                s.harmonics.front().amplitude, pretty_unit(s.unit), 100 * s.captured),
+            .bars = true};
+  for (std::size_t n = 1; n < s.harmonics.size(); ++n) {
+    plot.series[0].x.push_back(s.harmonics[n].order);
+    plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude);
+  }
+  return plot;
+}
+
+// Where an inertia stands in the drawing: compliance from the first one along the x-axis, branches below each other.
+struct Place {
+  double x = 0;
+  int row = 0;
+};
+std::vector<Place> places_of(const Chain& chain) {
+  std::vector<Place> places(chain.inertias.size());
+  std::vector<char> placed(chain.inertias.size(), 0);
+  std::vector<int> branches(chain.inertias.size(), 0);
+  int rows = 1;
+  if (!placed.empty()) placed[0] = 1;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const ChainSpring& s : chain.springs) {
+      if (placed[s.a] == placed[s.b]) continue;
+      const std::size_t from = placed[s.a] ? s.a : s.b, to = placed[s.a] ? s.b : s.a;
+      places[to] = {places[from].x + (s.reduced_stiffness > 0 ? 1 / s.reduced_stiffness : 0.0),
+                    branches[from]++ == 0 ? places[from].row : rows++};
+      placed[to] = 1;
+      grown = true;
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+ReducedNames names_of(const MachineReduction& r) {
+  if (r.to_output && !r.to_rocker) return {"m", "kg", "kg/m", "F", "N"};
+  return {"I", "kg*m2", "kg*m2/rad", "M", "N*m"};
+}
+
+std::vector<std::size_t> acting(const MachineReduction& r) {
+  std::vector<std::size_t> list;
+  for (std::size_t k = 0; k < r.accounts.size(); ++k)
+    if (std::any_of(r.curve.begin(), r.curve.end(),
+                    [&](const ReducedPosition& p) { return k < p.share.size() && p.share[k] != 0; }))
+      list.push_back(k);
+  return list;
+}
+
+bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude < 1e-10 * std::sqrt(s.mean_square); }
+
+std::string speed_text(const MachineReduction& r) {
+  return fmt::format("torques at {:.6g} rpm of {} ({})", r.speed * 30 / std::numbers::pi, r.link, r.speed_source);
+}
+
+std::vector<Plot> motion_plots(const MachineReduction& r) {
+  const ReducedNames n = names_of(r);
+  const std::string angle = fmt::format("angle of {}", r.link);
+  std::vector<Plot> plots;
+  Plot inertia{.title = fmt::format("Reduced {} of the mechanism, on {}", n.inertia == "m" ? "mass" : "inertia", r.to),
+               .x = {angle, "°"},
+               .y = {n.inertia + "_em", pretty_unit(n.inertia_unit)},
+               .series = {}};
+  const auto mechanism = [](const ReducedPosition& p) { return p.mechanism_inertia; };
+  inertia.series = {over_angle(r, n.inertia + "_em", Role::elastic, mechanism),
+                    at_positions(r, Role::vermillion, mechanism)};
+  if (!r.to_output)
+    inertia.note = fmt::format("The drive adds a constant {:.6g} kg·m².", r.constant_inertia);
+  else
+    inertia.note = "Near the dead centres it grows beyond all bounds and is left out.";
+  Plot slope{
+      .title = fmt::format("Its derivative {}_r′", n.inertia),
+      .x = {angle, "°"},
+      .y = {n.inertia + "_r′", pretty_unit(n.slope_unit)},
+      .series = {over_angle(r, n.inertia + "_r′", Role::elastic, [](const ReducedPosition& p) { return p.slope; })}};
+  Plot torque{
+      .title = fmt::format("Driving and resisting {}, reduced to {}", n.torque == "F" ? "force" : "torque", r.to),
+      .x = {angle, "°"},
+      .y = {n.torque, pretty_unit(n.torque_unit)},
+      .series = {over_angle(r, n.torque + "_d", Role::green, [](const ReducedPosition& p) { return p.drive; }),
+                 over_angle(r, n.torque + "_c", Role::orange, [](const ReducedPosition& p) { return p.load; })},
+      .note = speed_text(r) + "\n"};
+  Plot shares{.title = "Share of each force, positive when it drives",
+              .x = {angle, "°"},
+              .y = {n.torque, pretty_unit(n.torque_unit)},
+              .series = {}};
+  for (const std::size_t k : acting(r))
+    shares.series.push_back(over_angle(r, r.accounts[k], further_role(shares.series.size()),
+                                       [k](const ReducedPosition& p) { return p.share[k]; }));
+  plots.push_back(std::move(inertia));
+  plots.push_back(std::move(slope));
+  plots.push_back(std::move(torque));
+  if (!shares.series.empty()) plots.push_back(std::move(shares));
+  return plots;
+}
+
+std::vector<Plot> harmonics_plots(const MachineReduction& r) {
+  std::vector<Plot> plots;
+  for (const Spectrum& s : r.spectra)
+    if (std::any_of(s.harmonics.begin() + 1, s.harmonics.end(), [&](const Harmonic& h) { return !is_dust(h, s); }))
+      plots.push_back(harmonics_plot(s, r.link));
+  return plots;
+}
+
+// The chain as one draws it by hand: discs as high as the cube root of their inertia, as far apart as the shaft between
+// them is soft.
+Plot chain_plot(const MachineReduction& r) {
+  const Chain& chain = r.chain;
+  const std::vector<Place> places = places_of(chain);
+  double largest = 0, length = 0;
+  for (const ChainInertia& i : chain.inertias) largest = std::max(largest, i.reduced);
+  for (const Place& p : places) length = std::max(length, p.x);
+  if (length == 0) length = 1e-6;
+  Plot plot{.title = "The elastic chain: discs are inertias, distances are compliances",
+            .x = {"compliance from the first inertia", "µrad/(N·m)"},
+            .y = {"∛(J/J_max)", ""},
+            .series = {},
+            .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
+  for (const ChainSpring& s : chain.springs) {
+    const Place a = places[s.a], b = places[s.b];
+    plot.series.push_back({.name = fmt::format("{}: k = {:.4g} N·m/rad", s.name, s.reduced_stiffness),
+                           .role = Role::elastic,
+                           .x = {1e6 * a.x, 1e6 * b.x},
+                           .y = {-2.5 * a.row, -2.5 * b.row}});
+  }
+  for (std::size_t k = 0; k < chain.inertias.size(); ++k) {
+    const ChainInertia& i = chain.inertias[k];
+    const double height = largest > 0 ? std::max(0.05, std::cbrt(i.reduced / largest)) : 1, width = 4e3 * length,
+                 x = 1e6 * places[k].x, y = -2.5 * places[k].row;
+    plot.series.push_back({.name = fmt::format("J{} = {:.4g} kg·m²", k + 1, i.reduced),
+                           .role = further_role(k),
+                           .x = {x - width, x + width, x + width, x - width, x - width},
+                           .y = {y - height, y - height, y + height, y + height, y - height}});
+  }
+  return plot;
+}
+
+}  // namespace kurbel

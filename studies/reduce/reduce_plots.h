@@ -1,0 +1,28 @@
+// reduce_plots.h — the reduced machine over the cycle, its harmonics, and the drive drawn as an elastic chain.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/report.h"
+#include "studies/reduce/reduce.h"
+
+namespace kurbel {
+
+// Symbols and units of what the positions hold: those of a mass on a slider, of an inertia on a shaft.
+struct ReducedNames {
+  std::string inertia, inertia_unit, slope_unit, torque, torque_unit;
+};
+ReducedNames names_of(const MachineReduction& reduction);
+// Shares that act at all.
+std::vector<std::size_t> acting(const MachineReduction& reduction);
+// Rounding of the sums, not a harmonic.
+bool is_dust(const Harmonic& harmonic, const Spectrum& spectrum);
+// At which speed the torques are.
+std::string speed_text(const MachineReduction& reduction);
+
+std::vector<Plot> motion_plots(const MachineReduction& reduction);
+std::vector<Plot> harmonics_plots(const MachineReduction& reduction);
+Plot chain_plot(const MachineReduction& reduction);
+
+}  // namespace kurbel

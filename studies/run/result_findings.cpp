@@ -1,0 +1,292 @@
+// result_findings.cpp — tables behind the figures: energy, cost, limits of steps, events; a run for programs.
+#include "studies/run/run_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/trace.h"
+
+namespace kurbel {
+namespace {
+
+// --- tables ---
+
+std::string time_of(const Result& r, std::size_t event) {
+  if (r.event_errors.empty()) return with_error(r.events[event].t, {}, "");
+  const std::optional<double>& error = r.event_errors[event];
+  return with_error(r.events[event].t, error, "") + (error ? "" : " (in the finer run only)");
+}
+
+Rows events_table(const Result& r) {
+  constexpr std::size_t most = 500;
+  Lines lines;
+  for (std::size_t i = 0; i < r.events.size() && i < most; ++i)
+    lines.push_back({r.events[i].component, r.events[i].from, r.events[i].what, time_of(r, i)});
+  if (r.events.size() > most)
+    lines.push_back({"…", "", fmt::format("{} more in summary.json", r.events.size() - most), ""});
+  Rows table = words_table(fmt::format("Events, {} model ({})", r.label, r.events.size()),
+                           {"component", "from", "to", "time [s]"}, lines);
+  table.folded = true;
+  table.text_columns = 3;
+  return table;
+}
+
+// A row a quantity, the models side by side.
+class SideBySide {
+ public:
+  SideBySide(std::string title, const Results& results) : title_(std::move(title)), results_(results) {
+    for (const Result* r : results) headings_.push_back(r->label);
+  }
+  template <class Get>
+  void row(const std::string& name, Get value) {
+    lines_.push_back({name});
+    for (const Result* r : results_) lines_.back().push_back(read_as(value(*r)));
+  }
+  Rows rows() const { return words_table(title_, headings_, lines_); }
+
+ private:
+  std::string title_;
+  const Results& results_;
+  std::vector<std::string> headings_ = {""};
+  Lines lines_;
+};
+
+Rows statistics_table(const Results& results) {
+  SideBySide table("What it cost", results);
+  table.row("coordinates", [](const Result& r) { return r.coordinates; });
+  table.row("method", [](const Result& r) { return r.statistics.method; });
+  table.row("steps", [](const Result& r) { return r.statistics.stepper.steps; });
+  table.row("rejected steps", [](const Result& r) { return r.statistics.stepper.rejected; });
+  table.row("evaluations of the equations", [](const Result& r) { return r.statistics.stepper.flow_calls; });
+  table.row("events", [](const Result& r) { return r.statistics.events; });
+  table.row("processor time of a run [ms]",
+            [](const Result& r) { return fmt::format("{:.3g}", 1e3 * r.statistics.cpu_seconds); });
+  table.row("runs", [](const Result& r) { return r.runs; });
+  table.row("accuracy asked for", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
+  table.row("accuracy measured", [](const Result& r) {
+    return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
+  });
+  table.row("energy balance closes to", [](const Result& r) {
+    return !has_works(r)                   ? std::string("—")
+           : nothing_turned_over(r.energy) ? std::string("no energy turned over")
+                                           : fmt::format("{:.1e}", r.energy.relative);
+  });
+  return table.rows();
+}
+
+Rows energy_table(const Results& results) {
+  SideBySide table("Energy audit [J] (theory 1.3)", results);
+  const auto row = [&](const std::string& name, auto value) {
+    table.row(name, [&](const Result& r) { return fmt::format("{:.6g}", value(r.energy)); });
+  };
+  std::set<std::string> accounts;
+  for (const Result* r : results)
+    for (const auto& [name, work] : r->energy.by_account) accounts.insert(name);
+  for (const std::string& name : accounts)
+    row("work of " + name, [&](const EnergyBalance& e) {
+      const auto found = e.by_account.find(name);
+      return found == e.by_account.end() ? 0.0 : found->second;
+    });
+  row("kinetic energy at the start", [](const EnergyBalance& e) { return e.kinetic_start; });
+  row("kinetic energy at the end", [](const EnergyBalance& e) { return e.kinetic_end; });
+  row("stored in springs at the start", [](const EnergyBalance& e) { return e.stored_start; });
+  row("stored in springs at the end", [](const EnergyBalance& e) { return e.stored_end; });
+  row("residual", [](const EnergyBalance& e) { return e.residual; });
+  return table.rows();
+}
+
+// What kept the steps short, ranked.
+Rows limits_table(const Result& r) {
+  constexpr std::size_t most = 12, most_states = 3;
+  return table_of("", fmt::format("What kept the steps short, {} model", r.label), r.statistics.limits)
+      .people_see_first(most)
+      .only_for_people("element", [](const LimitedSteps& l) { return l.element.empty() ? "—" : l.element; })
+      .only_for_people("by", &LimitedSteps::by)
+      .only_for_people("states",
+                       [](const LimitedSteps& l) {
+                         std::string states;
+                         for (std::size_t k = 0; k < l.states.size() && k < most_states; ++k)
+                           states += (k ? ", " : "") + l.states[k];
+                         return states + (l.states.size() > most_states ? ", …" : "");
+                       })
+      .only_for_people("steps", &LimitedSteps::steps)
+      .only_for_people("share", [](const LimitedSteps& l) { return fmt::format("{:.1f} %", 100 * l.share); });
+}
+
+// --- for programs ---
+
+Record figure_record(const Figure& f) {
+  return {{"name", f.name},   {"value", f.value}, {"unit", f.unit},
+          {"error", f.error}, {"at", f.at},       {"at_error", f.at_error}};
+}
+
+Record state_record(const ComponentState& s) {
+  Record r = {{"angle", s.angle}, {"speed", s.speed}, {"angle_error", s.angle_error}, {"speed_error", s.speed_error}};
+  if (s.angle_out)
+    for (Field& field : Record{{"angle_out", *s.angle_out},
+                               {"speed_out", *s.speed_out},
+                               {"angle_out_error", s.angle_out_error},
+                               {"speed_out_error", s.speed_out_error}})
+      r.push_back(std::move(field));
+  return r;
+}
+
+Record event_record(const Result& r, std::size_t k) {
+  const Event& e = r.events[k];
+  Record record = {{"t", e.t}, {"component", e.component}, {"kind", name_of(e.kind)}, {"what", e.what}};
+  if (!e.from.empty()) record.push_back({"from", e.from});
+  record.push_back({"error", r.event_errors.empty() ? Value() : Value(r.event_errors[k])});
+  if (!r.event_errors.empty() && !r.event_errors[k]) record.push_back({"only_in_finer_run", true});
+  return record;
+}
+
+template <class Map, class Of>
+Record named(const Map& map, Of of) {
+  Record record;
+  for (const auto& [name, value] : map) record.push_back({name, of(value)});
+  return record;
+}
+
+Record energy_record(const EnergyBalance& e) {
+  const auto work = [](double w) { return w; };
+  return {{"work", named(e.by_line, work)},
+          {"work_by_component", named(e.by_account, work)},
+          {"kinetic_start", e.kinetic_start},
+          {"kinetic_end", e.kinetic_end},
+          {"stored_start", e.stored_start},
+          {"stored_end", e.stored_end},
+          {"residual", e.residual},
+          {"relative", e.relative},
+          {"bodies_against_reduced", e.reduction_residual},
+          {"check_points", e.checks},
+          {"unit", "J"}};
+}
+
+Record statistics_record(const Result& r) {
+  const StepperStatistics& s = r.statistics.stepper;
+  return {{"method", r.statistics.method},
+          {"reason", r.statistics.reason},
+          {"steps", s.steps},
+          {"rejected", s.rejected},
+          {"flow_calls", s.flow_calls},
+          {"jacobian_calls", s.jacobian_calls},
+          {"factorisations", s.factorisations},
+          {"events", r.statistics.events},
+          {"cpu_seconds", r.statistics.cpu_seconds},
+          {"cpu_seconds_all_runs", r.cpu_total},
+          {"runs", r.runs},
+          {"limits", each(r.statistics.limits, [](const LimitedSteps& l) {
+             return Record{
+                 {"element", l.element}, {"by", l.by}, {"states", l.states}, {"steps", l.steps}, {"share", l.share}};
+           })}};
+}
+
+}  // namespace
+
+Record result_record(const Result& r) {
+  std::vector<Figure> figures = r.figures;
+  std::erase_if(figures, [&](const Figure& f) { return !is_told(f, r); });
+  const Periods& p = r.periods;
+  return {{"model", Record{{"label", r.label},
+                           {"effects", r.effects},
+                           {"coordinates", r.coordinates},
+                           {"states", r.states},
+                           {"explanation", r.explanation}}},
+          {"figures", each(figures, figure_record)},
+          {"final", named(r.final_state, state_record)},
+          {"events", each(numbers_below(r.events.size()), [&](std::size_t k) { return event_record(r, k); })},
+          {"periods", Record{{"run_up_end", p.run_up_end},
+                             {"run_down_begin", p.run_down_begin},
+                             {"standstill", p.standstill},
+                             {"steady", p.steady},
+                             {"remaining_to_limit", p.remaining},
+                             {"verdict", p.verdict}}},
+          {"cycles", each(r.cycles,
+                          [](const CycleRecord& c) {
+                            return Record{{"begin", c.begin},
+                                          {"end", c.end},
+                                          {"max_speed", c.omega_max},
+                                          {"min_speed", c.omega_min},
+                                          {"delta", c.delta()}};
+                          })},
+          {"energy_balance", energy_record(r.energy)},
+          {"accuracy", Record{{"asked", r.accuracy},
+                              {"measured", r.errors_measured ? Value(r.measured_accuracy) : Value()},
+                              {"confirmed", r.confirmation_asked ? Value(r.accuracy_confirmed) : Value()},
+                              {"tolerance", r.tolerance}}},
+          {"statistics", statistics_record(r)},
+          {"notes", r.notes}};
+}
+
+std::string trajectory_csv(const Result& r) {
+  const TrajectoryRecorder& t = *r.trajectory;
+  std::string text = r.complete ? "" : "# incomplete: " + r.diagnosis + "\n";
+  text += "time [s]";
+  for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name.text, channel.unit);
+  text += "\n";
+  for (std::size_t row = 0; row < t.time().size(); ++row) {
+    text += fmt::format("{}", t.time()[row]);
+    for (std::size_t k = 0; k < t.channels().size(); ++k) text += fmt::format(",{:.12g}", t.value(row, k));
+    text += "\n";
+  }
+  return text;
+}
+
+// --- chapters of the page ---
+
+void show_motion(Findings& f, const Results& results) {
+  if (!drawable(results)) return;
+  f.draw(f.chapter(""), [results] { return Cards{machine_view(results)}; });
+  const Chapter plots =
+      f.chapter(results.back()->traces->last_cycles.empty() ? "Over time" : "Over time and over the crank's angle");
+  f.draw(plots, [results] { return motion_plots(results); });
+  if (const std::size_t all = couplings(*results.back()).size(); all > most_torque_plots)
+    f.show(plots, Text{.title = "Further couplings",
+                       .body = fmt::format("Torques are plotted for the {} couplings with the largest peaks, of {}; "
+                                           "trajectory.csv holds the others.",
+                                           most_torque_plots, all)});
+}
+
+void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
+  for (const Result* r : results) {
+    if (r->cycles.empty()) continue;
+    const Figure* delta = first_of(*r, QuantityKind::delta);
+    const CycleRecord* cycle = nullptr;
+    for (const CycleRecord& c : r->cycles)
+      if (delta && delta->at && c.end == *delta->at) cycle = &c;
+    if (!cycle) continue;
+    f.show(in, Formula{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
+                       .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                       .numbers = fmt::format("δ = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", cycle->omega_max,
+                                              cycle->omega_min, cycle->mean_speed(), sure(*delta)),
+                       .note = fmt::format("Cycle from {:.5g} to {:.5g} s.", cycle->begin, cycle->end)});
+  }
+}
+
+void show_background(Findings& f, const Results& results) {
+  const Chapter audit = f.chapter("Energy, cost, events"), model = f.chapter("What was on, what was merged, and why");
+  const auto say = [&](Rows rows) {
+    rows.terminal = false;
+    f.say(audit, std::move(rows));
+  };
+  if (results.back()->energy.checks > 0) say(energy_table(results));
+  say(statistics_table(results));
+  for (const Result* r : results) say(limits_table(*r));
+  for (const Result* r : results)
+    if (!r->events.empty()) say(events_table(*r));
+  std::string method;
+  for (const Result* r : results) {
+    f.show(model, Text{.title = fmt::format("{} model", r->label), .body = r->explanation, .verbatim = true});
+    method += fmt::format("{}: {} — {}\n", r->label, r->statistics.method, r->statistics.reason);
+  }
+  f.show(model, Text{.title = "How it was integrated", .body = method, .verbatim = true});
+  if (const auto& last = *results.back(); last.model && !last.model->scene.text.empty())
+    f.show_scene(last.scene_file, last.model->scene.text);
+}
+
+}  // namespace kurbel

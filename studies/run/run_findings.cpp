@@ -1,0 +1,210 @@
+// run_findings.cpp — figures of one run; figures of two models side by side.
+#include "studies/run/run_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+
+namespace kurbel {
+namespace {
+
+KeyFigure key_of(const Figure& f, const std::string& note) { return {in_words(f), f.value, f.unit, f.error, note}; }
+
+// --- one run ---
+
+Rows figures_table(const Result& r, bool on_terminal) {
+  using F = const Figure&;
+  std::vector<Figure> figures = r.figures;
+  std::erase_if(figures, [&](F f) { return !is_told(f, r); });
+  auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
+                        std::move(figures))
+                   .always()
+                   .close()
+                   .only_for_people("figure", &Figure::name)
+                   .only_for_people("value", [](F f) { return figure_text(f.value, f.error).value; })
+                   .only_for_people("error", [](F f) { return error_cell(f.value, f.error); })
+                   .only_for_people("unit", [](F f) { return pretty_unit(f.unit); });
+  // The page's heading names the unit of the time.
+  if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
+  return table.not_on_terminal().only_for_people(
+      "at [s]", [](F f) { return f.at ? with_error(*f.at, f.at_error, "") : std::string(); });
+}
+
+void add_key_figures(Findings& f, const Result& r) {
+  if (const Figure* peak = largest_peak(r)) f.figures.push_back(key_of(*peak, at_time(*peak)));
+  using enum QuantityKind;
+  for (const QuantityKind what : {delta, mean_speed, peak_force, run_up_time})
+    if (const Figure* figure = first_of(r, what)) f.figures.push_back(key_of(*figure, ""));
+  f.figures.push_back({"coordinates",
+                       static_cast<double>(r.coordinates),
+                       "",
+                       {},
+                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds)});
+}
+
+// --- two models ---
+
+std::string value_cell(const std::optional<double>& value, const std::optional<double>& error) {
+  return value ? figure_text(*value, error).value : "—";
+}
+std::string sure_to(const std::optional<double>& value, const std::optional<double>& error) {
+  return value ? error_cell(*value, error) : "";
+}
+
+Rows comparison_table(const Comparison& c) {
+  using R = const ComparisonRow&;
+  auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
+  table.column("name", "figure", &ComparisonRow::name);
+  table.only_for_programs(c.a.label, &ComparisonRow::a)
+      .only_for_programs(c.a.label + "_error", &ComparisonRow::a_error)
+      .only_for_programs(c.b.label, &ComparisonRow::b)
+      .only_for_programs(c.b.label + "_error", &ComparisonRow::b_error);
+  table.only_for_people(c.a.label, [](R row) { return value_cell(row.a, row.a_error); })
+      .only_for_people("error", [](R row) { return sure_to(row.a, row.a_error); })
+      .only_for_people(c.b.label, [](R row) { return value_cell(row.b, row.b_error); })
+      .only_for_people("error", [](R row) { return sure_to(row.b, row.b_error); })
+      .column("unit", "unit", &ComparisonRow::unit, [](const std::string& unit) { return pretty_unit(unit); })
+      .only_for_programs("difference", &ComparisonRow::difference);
+  return table.column("ratio", c.b.label + "/" + c.a.label, &ComparisonRow::ratio,
+                      Reading{.digits = 4, .otherwise = ""});
+}
+
+// On the terminal the amplification of torques stands below the figures.
+Rows with_amplification(const Comparison& c, const Rows& figures) {
+  Lines lines = figures.texts();
+  for (const ComparisonRow& row : c.amplification)
+    lines.push_back({row.name, "1", "", value_cell(row.b, row.b_error), sure_to(row.b, row.b_error), "", ""});
+  Rows table = words_table("", figures.headings(), lines);
+  table.page = false;
+  return table;
+}
+
+void show_amplification(Findings& f, Chapter in, const Comparison& c) {
+  for (const ComparisonRow& row : c.amplification) {
+    const std::string& joint = row.of;
+    const Figure *a = c.a.find(QuantityKind::peak_torque, joint), *b = c.b.find(QuantityKind::peak_torque, joint);
+    if (!a || !b || !row.b) continue;
+    f.show(in,
+           Formula{.title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
+                   .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
+                   .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
+                                          figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),
+                   .note = "Largest transmitted torques, each at its own time."});
+  }
+}
+
+void add_key_figures(Findings& f, const Comparison& c) {
+  const auto add = [&](const Figure* figure) {
+    if (!figure) return;
+    const Figure* other = c.a.find(figure->name);
+    f.figures.push_back(key_of(
+        *figure,
+        other ? fmt::format("{}: {}{}", c.a.label, with_error(other->value, other->error, ""),
+                            other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "")
+              : ""));
+  };
+  for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
+    if (f.figures.size() < 3) add(c.b.find("peak_torque." + joint));
+  add(first_of(c.b, QuantityKind::delta));
+  add(first_of(c.b, QuantityKind::mean_speed));
+  f.figures.push_back({"processor time of a run",
+                       1e3 * c.b.statistics.cpu_seconds,
+                       "ms",
+                       {},
+                       fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
+                       3});
+}
+
+// As it is told of a run alone.
+Record model_record(const Result& r) {
+  Record record = {{"title", r.title}, {"scene", r.scene_file}, {"complete", r.complete}};
+  if (r.begins_at > 0) record.push_back({"goes_on_from", r.begins_at});
+  if (!r.complete) record.push_back({"diagnosis", r.diagnosis});
+  for (Field& field : result_record(r)) record.push_back(std::move(field));
+  return record;
+}
+
+void judge_completion(Findings& f, const Comparison& c) {
+  for (const Result* r : {&c.a, &c.b}) {
+    if (r->trajectory) f.csv.push_back({"trajectory." + r->label + ".csv", [r] { return trajectory_csv(*r); }});
+    if (r->unconfirmed()) f.unconfirmed = fmt::format("{} model: {}", r->label, r->accuracy_in_words());
+    if (r->complete) continue;
+    f.complete = false;
+    if (f.diagnosis.empty()) f.diagnosis = r->diagnosis;
+  }
+}
+
+}  // namespace
+
+Findings findings_of(const Result& r) {
+  Findings f{
+      .title = r.title,
+      .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
+      .scene_file = r.scene_file,
+      .conclusion = one_line(r),
+      .page_conclusion = conclusion_of(r),
+      .complete = r.complete,
+      .diagnosis = r.diagnosis,
+      .unconfirmed = r.unconfirmed() ? r.accuracy_in_words() : "",
+      .opening = Findings::Opening::title,
+      .tells_conclusion = false,
+      .footer = report_footer()};
+  add_key_figures(f, r);
+  show_motion(f, {&r});
+  const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
+  f.say(figures, Words{.lines = model_words(r), .page = false});
+  f.say(figures, figures_table(r, true));
+  f.say(figures, Words{.lines = balance_words(r), .page = false});
+  f.say(figures, figures_table(r, false));
+  show_delta_formulas(f, figures, {&r});
+  std::vector<std::string> lines = r.notes;
+  if (r.complete && !r.periods.verdict.empty())
+    lines.push_back(fmt::format("{}: {}", r.periods.steady ? "steady motion" : "no steady motion", r.periods.verdict));
+  f.say(notes, Words{.lines = lines, .terminal = false});
+  show_background(f, {&r});
+  if (r.begins_at > 0) f.tell("goes_on_from", r.begins_at);
+  for (Field& field : result_record(r)) f.tell(std::move(field.key), std::move(field.value));
+  if (r.trajectory) f.csv.push_back({"trajectory.csv", [&r] { return trajectory_csv(r); }});
+  return f;
+}
+
+Findings findings_of(const Comparison& c) {
+  const Results results = {&c.a, &c.b};
+  Findings f{.title = c.title,
+             .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
+             .conclusion = c.conclusion,
+             .opening = Findings::Opening::title_and_conclusion,
+             .tells_diagnosis = false,
+             .tells_complete = false,
+             .footer = report_footer()};
+  judge_completion(f, c);
+  add_key_figures(f, c);
+  show_motion(f, results);
+  const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
+  for (const Result* r : results) {
+    f.say(figures, Words{.lines = model_words(*r), .page = false, .apart = r == &c.a});
+    f.say(figures, Words{.lines = balance_words(*r), .page = false});
+  }
+  f.tell("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
+  const Rows table = comparison_table(c);
+  f.say(figures, table);
+  f.say(figures, with_amplification(c, table));
+  f.tell("amplification", each(c.amplification, [](const ComparisonRow& row) {
+           return Record{{"name", row.name}, {"value", row.b}, {"unit", ""}, {"error", row.b_error}};
+         }));
+  show_amplification(f, figures, c);
+  show_delta_formulas(f, figures, results);
+  f.say(notes, Words{.lines = c.notes, .indent = "note: ", .key = "notes", .page = false});
+  std::vector<std::string> lines = c.notes;
+  for (const Result* r : results)
+    for (const std::string& note : r->notes) lines.push_back(r->label + ": " + note);
+  f.say(notes, Words{.lines = lines, .terminal = false});
+  show_background(f, results);
+  return f;
+}
+
+}  // namespace kurbel

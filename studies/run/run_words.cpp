@@ -1,0 +1,161 @@
+// run_words.cpp — sentences about one run.
+#include "studies/run/run_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+
+namespace kurbel {
+namespace {
+
+// The time of a period's end from the figure that has it, if one has.
+std::string time_text(const Result& r, double t) {
+  for (const Figure& f : r.figures)
+    if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
+      return with_error(t, f.error, "s");
+  return with_unit(t, "s", 6);
+}
+
+// What the figures of a cycle belong to, where there are any.
+std::string of_last_cycle(const Result& r) {
+  const bool any =
+      std::any_of(r.figures.begin(), r.figures.end(), [](const Figure& f) { return f.what == QuantityKind::delta; });
+  return any && !r.periods.steady ? " (figures of a cycle are those of the last whole one)" : "";
+}
+
+}  // namespace
+
+bool nothing_turned_over(const EnergyBalance& e) {
+  return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&
+         std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
+}
+
+bool is_told(const Figure& f, const Result& r) { return r.complete || std::isfinite(f.value); }
+
+bool has_works(const Result& r) {
+  const auto finite = [](const auto& line) { return std::isfinite(line.second); };
+  return r.energy.checks > 0 && (r.complete || (!nothing_turned_over(r.energy) && std::isfinite(r.energy.relative) &&
+                                                std::all_of(r.energy.by_line.begin(), r.energy.by_line.end(), finite)));
+}
+
+std::string told(const EnergyBalance& e) {
+  if (!nothing_turned_over(e))
+    return fmt::format("energy balance closed to {:.1e} of the energy turned over", e.relative);
+  return e.kinetic_end > 0
+             ? fmt::format("no work is done and the kinetic energy stays {}: no balance of energy to prove anything by",
+                           with_unit(e.kinetic_end, "J", 5))
+             : std::string("nothing moves and no work is done: no balance of energy to prove anything by");
+}
+
+std::string in_words(const Figure& f) {
+  std::string words = f.of.empty() ? f.name : f.name.substr(0, f.name.size() - f.of.size() - 1);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (f.what == QuantityKind::delta) words = "speed fluctuation δ";
+  return f.of.empty() ? words : words + ", " + f.of;
+}
+
+std::string sure(const Figure& f) { return with_error(f.value, f.error, f.unit); }
+std::string at_time(const Figure& f) { return f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""; }
+
+const Figure* largest_peak(const Result& r) {
+  const Figure* peak = nullptr;
+  for (const Figure& f : r.figures)
+    if (f.what == QuantityKind::peak_torque && is_told(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
+      peak = &f;
+  return peak;
+}
+
+const Figure* first_of(const Result& r, QuantityKind what) {
+  for (const Figure& f : r.figures)
+    if (f.what == what && is_told(f, r)) return &f;
+  return nullptr;
+}
+
+std::string one_line(const Result& r) {
+  if (!r.complete) return fmt::format("{}: INCOMPLETE: {}", r.title, r.diagnosis);
+  const std::string accuracy = r.unconfirmed()     ? "NOT confirmed: " + r.accuracy_in_words()
+                               : r.errors_measured ? fmt::format("accuracy {:.1e} measured", r.measured_accuracy)
+                                                   : "errors not measured";
+  std::string peak;
+  for (const Figure& f : r.figures)
+    if (peak.empty() && f.what == QuantityKind::peak_torque)
+      peak = fmt::format("peak torque in {} {}, ", f.of, with_error(f.value, f.error, "N*m"));
+  std::string balance;
+  if (r.energy.checks > 0)
+    balance = nothing_turned_over(r.energy) ? ", no energy turned over"
+                                            : fmt::format(", energy balance {:.1e}", r.energy.relative);
+  const std::string span = r.begins_at > 0
+                               ? fmt::format("{} … {}", with_unit(r.begins_at, "s", 6), with_unit(r.until, "s", 6))
+                               : with_unit(r.until, "s", 6);
+  return fmt::format("{}: {} simulated, {}, {}{}{}", r.title, span, r.label, peak, accuracy, balance);
+}
+
+std::string conclusion_of(const Result& r) {
+  if (!r.complete) return fmt::format("The run is incomplete: {}", r.diagnosis);
+  std::string text;
+  if (r.unconfirmed()) text = fmt::format("NOT confirmed: {}. ", r.accuracy_in_words());
+  const std::size_t begin = text.size();
+  if (const Figure* peak = largest_peak(r))
+    text += fmt::format("The torque in {} reaches {}{}", peak->of, sure(*peak), peak->at ? " " + at_time(*peak) : "");
+  if (const Figure* delta = first_of(r, QuantityKind::delta))
+    text += fmt::format("{} speed of {} fluctuates by δ = {}{}", text.size() == begin ? "The" : "; the", delta->of,
+                        sure(*delta), r.periods.steady ? "" : " in the last cycle, which is not steady");
+  if (text.size() == begin)
+    if (const Figure* speed = first_of(r, QuantityKind::final_speed))
+      text += fmt::format("{} ends at {}", speed->of, sure(*speed));
+  if (has_works(r) && nothing_turned_over(r.energy))
+    text += fmt::format("{}o work is done and no energy changes its form", text.size() == begin ? "N" : "; n");
+  else if (has_works(r))
+    text += fmt::format("{}he energy balance closes to {:.1e}", text.size() == begin ? "T" : "; t", r.energy.relative);
+  return text + ".";
+}
+
+std::vector<std::string> model_words(const Result& r) {
+  std::vector<std::string> lines = {
+      fmt::format("{}: {} coordinate{}, {} — {}", r.label, r.coordinates, r.coordinates == 1 ? "" : "s",
+                  r.effects == "none" ? "no effects on" : "effects: " + r.effects, r.statistics.method),
+      fmt::format("  {}; {} steps, {:.3g} ms of processor time a run, {} run{}", r.statistics.reason,
+                  r.statistics.stepper.steps, 1e3 * r.statistics.cpu_seconds, r.runs, r.runs == 1 ? "" : "s")};
+  if (const std::string limits = told(r.statistics.limits); !limits.empty())
+    lines.push_back("  what kept the steps short: " + limits);
+  if (!r.complete) lines.push_back("  INCOMPLETE: " + r.diagnosis);
+  return lines;
+}
+
+std::vector<std::string> balance_words(const Result& r) {
+  std::vector<std::string> lines;
+  const EnergyBalance& e = r.energy;
+  if (has_works(r)) {
+    std::string works;
+    for (const auto& [line, work] : e.by_line)
+      works += fmt::format("{} {} {}", works.empty() ? "" : ",", line, with_unit(work, "J", 5));
+    lines.push_back("  work:" + works);
+    lines.push_back(
+        "  " + told(e) +
+        (e.reduction_residual > 0 ? fmt::format("; bodies against reduced inertia {:.1e}", e.reduction_residual) : ""));
+  }
+  if (r.errors_measured)
+    lines.push_back(fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}", r.accuracy, r.measured_accuracy,
+                                r.accuracy_confirmed ? "" : " — NOT confirmed"));
+  else if (r.complete)
+    lines.push_back(r.unconfirmed() ? "  accuracy: errors could not be measured — NOT confirmed"
+                                    : "  errors were not measured (--no-error): digits are not what is sure");
+  const Periods& p = r.periods;
+  if (p.run_up_end)
+    lines.push_back(fmt::format("  run-up to {}", time_text(r, *p.run_up_end)) +
+                    (p.run_down_begin
+                         ? fmt::format(", steady to {}, then run-down{}", with_unit(*p.run_down_begin, "s", 6),
+                                       p.standstill ? " to standstill at " + time_text(r, *p.standstill) : "")
+                         : ", then steady motion"));
+  if (r.complete && r.trajectory)
+    lines.push_back(fmt::format("  {}{}: {}", p.steady ? "steady motion" : "no steady motion within the time simulated",
+                                of_last_cycle(r), p.verdict));
+  for (const std::string& note : r.notes) lines.push_back("  note: " + note);
+  return lines;
+}
+
+}  // namespace kurbel

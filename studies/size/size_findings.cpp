@@ -1,0 +1,381 @@
+// size_findings.cpp — words and tables of the sized flywheel.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/output.h"
+#include "studies/size/size.h"
+#include "studies/size/size_plots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr int curve_points = 720;
+
+double rpm(double speed) { return speed * 30 / std::numbers::pi; }
+
+const SizeMethod& exact_method(const Sizing& s) { return s.methods.front(); }
+
+const DeltaReached* reached(const Sizing& s, const std::string& model) {
+  for (const DeltaReached& r : s.reached)
+    if (r.model == model && r.sized_by == "Wittenbauer") return &r;
+  return nullptr;
+}
+
+const char* unless_settled(const DeltaReached& r) {
+  return r.settled ? "" : " in its last cycle, for it does not settle (see the notes)";
+}
+
+std::string conclusion_of(const Sizing& s) {
+  const SizeMethod& exact = exact_method(s);
+  if (!s.needed)
+    return fmt::format(
+        "{}: no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title, s.delta,
+        exact.drive_inertia > 0
+            ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
+            : std::string("its torques would not swing the speed as far with any inertia"));
+  std::string text = fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title, exact.flywheel,
+                                 s.flywheel, s.delta, basis_of(s));
+  if (s.soft) {
+    const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
+    text += s.soft->flywheel > 0 ? fmt::format("; with {} counted {:.6g} kg·m² do ({:.3g} % {})", slope_of_what(s),
+                                               s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
+                                 : fmt::format("; with {} counted none is needed", slope_of_what(s));
+  }
+  if (const DeltaReached* rigid = reached(s, "rigid, simulated"))
+    text += fmt::format("; simulated rigid it reaches {:.5g}{}", rigid->crank, unless_settled(*rigid));
+  if (const DeltaReached* elastic = reached(s, "elastic, simulated"))
+    text += fmt::format(", elastic {:.5g} at the crank{}{}", elastic->crank,
+                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor),
+                        unless_settled(*elastic));
+  return text;
+}
+
+std::string comparison_with_scene(const Sizing& s) {
+  if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of {}.", s.link);
+  const double needed = exact_method(s).flywheel;
+  const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
+                                                  : fmt::format("δ = {:.5g} {}", s.delta_now, basis_of(s));
+  return fmt::format("The scene's \"{}\" has {:.6g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
+                     s.flywheel_now >= needed ? "already larger than needed" : "too small");
+}
+
+// --- tables ---
+
+// On the terminal below its title, with a blank line behind it.
+void say_titled(Findings& f, Chapter in, Rows rows) {
+  rows.heading = rows.title;
+  rows.apart = false;
+  rows.even_if_empty = true;
+  f.say(in, std::move(rows));
+  f.say(in, Words{.lines = {""}, .page = false});
+}
+
+Rows methods_table(const Sizing& s) {
+  std::vector<SizeMethod> all = s.methods;
+  if (s.soft) all.push_back(*s.soft);
+  return table_of("methods", "Flywheel by each method", std::move(all))
+      .column("method", "method", &SizeMethod::name)
+      .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 7})
+      .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 7})
+      .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 7})
+      .only_for_people(
+          "against exact [%]",
+          [&](const SizeMethod& m) { return fmt::format("{:+.3f}", 100 * (m.drive_inertia / s.exact.inertia - 1)); })
+      .column("delta", "δ reached", &SizeMethod::delta, {.digits = 7, .otherwise = "stops"});
+}
+
+Rows reached_table(const Sizing& s) {
+  const auto at_motor = [&](const DeltaReached& r) { return figure_text(r.motor, r.motor_error); };
+  return table_of("reached", fmt::format("δ reached against δ = {:g} demanded", s.delta), s.reached)
+      .text_in(2)
+      .column("model", "model", &DeltaReached::model)
+      .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
+      .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
+      .only_for_programs("delta_crank", &DeltaReached::crank)
+      .only_for_programs("delta_crank_error", &DeltaReached::crank_error)
+      .only_for_people("δ at the crank",
+                       [](const DeltaReached& r) { return figure_text(r.crank, r.crank_error).value; })
+      .only_for_people("error", [](const DeltaReached& r) { return figure_text(r.crank, r.crank_error).error; })
+      .only_for_programs("delta_motor", &DeltaReached::motor)
+      .only_for_programs("delta_motor_error", &DeltaReached::motor_error)
+      .only_for_people("δ at the motor",
+                       [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
+      .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
+      .column("mean_speed", "mean speed [rpm]", &DeltaReached::mean_speed, {.factor = rpm(1)})
+      .only_for_programs("settled", &DeltaReached::settled)
+      .only_for_programs("cycles", &DeltaReached::cycles)
+      .only_for_people("cycles", [](const DeltaReached& r) {
+        return r.cycles ? fmt::format("{}{}", r.cycles, r.settled ? "" : ", not settled") : std::string("exact");
+      });
+}
+
+Rows dimensions_table(const FlywheelDimensions& d) {
+  Lines lines;
+  const auto add = [&](const std::string& name, const std::string& value) { lines.push_back({name, value}); };
+  add("material", fmt::format("{}, ρ = {:g} kg/m³, tensile strength {:g} MPa", d.material.name, d.material.density,
+                              d.material.strength / 1e6));
+  add("outer diameter D", fmt::format("{:.5g} mm", 1e3 * d.diameter));
+  add("breadth b", fmt::format("{:.5g} mm", 1e3 * d.breadth));
+  if (d.form == FlywheelForm::rim) {
+    add("thickness of the rim h = b/2", fmt::format("{:.5g} mm", 1e3 * d.thickness));
+    add("spokes (elliptical)",
+        fmt::format("{} of {:.4g} mm × {:.4g} mm", flywheel_spokes, 1e3 * d.thickness, 500 * d.thickness));
+    add("hub diameter D/5", fmt::format("{:.5g} mm", 200 * d.diameter));
+    add("mass of the rim", fmt::format("{:.5g} kg", d.rim_mass));
+    add("rim's share of the inertia", fmt::format("{:.3g} %", 100 * d.rim_share));
+  }
+  add("mass", fmt::format("{:.5g} kg", d.mass));
+  add("rim speed at ω_max", fmt::format("{:.4g} m/s, limit {:.4g} m/s{}", d.rim_speed, d.rim_speed_limit,
+                                        d.within_limit ? "" : " — EXCEEDED"));
+  add(d.form == FlywheelForm::disc ? "stress at the centre (3+ν)/8 ρ v²" : "stress of a free rim ρ v²",
+      fmt::format("{:.4g} MPa, limit {:.4g} MPa", d.stress / 1e6, d.allowed_stress / 1e6));
+  if (d.form == FlywheelForm::rim)
+    add("stress with bending between spokes", fmt::format("{:.4g} MPa", d.spoked_stress / 1e6));
+  add("safety against tensile strength", read_as(d.safety, {.digits = 3}));
+  add("energy stored at ω_max", with_unit(d.energy, "J", 5));
+  return words_table(d.form == FlywheelForm::disc ? "Dimensions of a solid disc" : "Dimensions of a rim on six spokes",
+                     {"quantity", "value"}, lines);
+}
+
+Rows inertias_table(const Sizing& s) {
+  std::vector<std::pair<std::string, double>> parts = s.other_parts;
+  parts.emplace_back("sum", s.motor_inertia + s.gearbox_inertia + s.other_inertia);
+  using Part = std::pair<std::string, double>;
+  return table_of("", fmt::format("What else turns at constant ratio, reduced to {}", s.flywheel), std::move(parts))
+      .not_on_terminal()
+      .only_for_people("component", &Part::first)
+      .only_for_people("inertia [kg·m²]", &Part::second);
+}
+
+std::vector<double> angles(const Sizing& s, int steps) {
+  std::vector<double> list;
+  for (int k = 0; k <= steps; ++k) list.push_back(s.diagram.excess.begin() + s.diagram.excess.length() * k / steps);
+  return list;
+}
+
+Rows positions_table(const Sizing& s) {
+  constexpr int steps = 12;
+  const std::vector<double> phi = angles(s, steps);
+  const double largest = s.diagram.load_torque.largest(), energy = s.diagram.load_work.largest();
+  // Rounding beside the largest value reads as zero.
+  const auto clean = [&](const Piecewise& f, double scale) {
+    return [&f, &phi, scale](std::size_t k) {
+      const double v = f.value(phi[k]);
+      return std::abs(v) < 1e-11 * scale ? 0.0 : v;
+    };
+  };
+  return table_of("", "The cycle at 12 positions", numbers_below(phi.size()))
+      .not_on_terminal()
+      .only_for_people("position", [](std::size_t k) { return k; })
+      .only_for_people("φ [°]", [&](std::size_t k) { return degrees * phi[k]; })
+      .only_for_people("M_d [N·m]", clean(s.diagram.drive_torque, largest))
+      .only_for_people("M_c [N·m]", clean(s.diagram.load_torque, largest))
+      .only_for_people("A_d [J]", clean(s.diagram.drive_work, energy))
+      .only_for_people("A_c [J]", clean(s.diagram.load_work, energy))
+      .only_for_people("ΔT [J]", clean(s.diagram.excess, energy))
+      .only_for_people("I_em [kg·m²]", clean(s.cycle.mechanism.value, 0));
+}
+
+// The next of 1, 2, 2.5, 5, 10 … that is not below.
+double round_scale(double value) {
+  const double decade = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 2.5, 5.0, 10.0})
+    if (step * decade >= value * (1 - 1e-12)) return step * decade;
+  return 10 * decade;
+}
+
+// Scales of diagrams on a sheet, per millimetre (theory 3).
+Rows scales_table(const Sizing& s) {
+  const double length = 1e3 * *s.sheet, height = length / 2;
+  const double mu_phi = s.diagram.excess.length() / length;
+  const double mu_m = round_scale(std::max(s.diagram.load_torque.largest(), s.diagram.drive_torque.largest()) / height);
+  const double mu_a = mu_m * mu_phi;
+  const double pole =
+      round_scale(std::max(s.diagram.load_work.largest(), s.diagram.drive_work.largest()) / height / mu_a);
+  Lines lines;
+  lines.push_back({"μ_φ", read_as(mu_phi) + " rad/mm", "angle axis: one cycle over the sheet"});
+  lines.push_back({"μ_M", read_as(mu_m) + " N·m/mm", "M_c, M_d"});
+  lines.push_back({"μ_A = μ_M μ_φ", read_as(mu_a) + " J/mm²",
+                   "area below the torques; A_c, A_d drawn with a pole distance of 1 mm"});
+  lines.push_back({"μ_T = μ_A", read_as(mu_a) + " J/mm", "ΔT with a pole distance of 1 mm"});
+  lines.push_back({"H μ_A", read_as(pole * mu_a) + " J/mm",
+                   fmt::format("A_c, A_d, ΔT drawn with a pole distance of H = {:g} mm", pole)});
+  const double largest = s.cycle.mechanism.value.largest();
+  if (largest > 0) lines.push_back({"μ_I", read_as(round_scale(largest / height)) + " kg·m²/mm", "I_em"});
+  Rows table = words_table(fmt::format("Scales for a sheet of {:g} mm", length), {"scale", "value", "for"}, lines);
+  table.text_columns = table.text_columns_on_terminal = 3;
+  return table;
+}
+
+Words basis_words(const Sizing& s) {
+  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mean speed {:.6g} rpm of {} ({})", s.delta, s.delta_source,
+                                rpm(s.mean_speed), s.link, s.mean_speed_source),
+                    fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
+                                with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
+                                s.diagram.least.x * degrees, s.diagram.most.x * degrees),
+                    comparison_with_scene(s)},
+          .indent = "  ",
+          .page = false};
+}
+
+std::string punch_words(const PunchPress& p) {
+  return fmt::format(
+      "punch-press form: {} per stroke, working for {:.4g} s of {:.4g} s; the flywheel gives {}, the motor needs {}",
+      with_unit(p.energy, "J"), p.working_time, p.cycle_time, with_unit(p.from_flywheel(), "J"),
+      with_unit(p.power(), "W"));
+}
+
+// --- for programs and files ---
+
+Record tangent_record(const Tangent& t) {
+  return {
+      {"slope", t.slope}, {"phi", t.phi}, {"inertia", t.inertia}, {"excess", t.excess}, {"intercept", t.intercept()}};
+}
+
+Record dimensions_record(const FlywheelDimensions& d) {
+  return {{"form", d.form == FlywheelForm::disc ? "disc" : "rim"},
+          {"material", d.material.name},
+          {"diameter", d.diameter},
+          {"breadth", d.breadth},
+          {"thickness", d.thickness},
+          {"mass", d.mass},
+          {"rim_mass", d.rim_mass},
+          {"rim_share", d.rim_share},
+          {"rim_speed", d.rim_speed},
+          {"rim_speed_limit", d.rim_speed_limit},
+          {"within_limit", d.within_limit},
+          {"stress", d.stress},
+          {"spoked_stress", d.spoked_stress},
+          {"allowed_stress", d.allowed_stress},
+          {"safety", d.safety},
+          {"energy", d.energy}};
+}
+
+Record punch_record(const PunchPress& p) {
+  return {{"energy", p.energy},
+          {"cycle_time", p.cycle_time},
+          {"working_time", p.working_time},
+          {"power", p.power()},
+          {"from_flywheel", p.from_flywheel()}};
+}
+
+void tell_basis(Findings& f, const Sizing& s) {
+  f.tell("link", s.link);
+  f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
+  f.tell("mean_speed", Record{{"value", s.mean_speed}, {"unit", "rad/s"}, {"source", s.mean_speed_source}});
+  f.tell("flywheel", Record{{"component", s.flywheel},
+                            {"added", s.flywheel_added},
+                            {"needed", s.needed},
+                            {"inertia", exact_method(s).flywheel},
+                            {"unit", "kg*m2"},
+                            {"in_scene", s.flywheel_now},
+                            {"speed_ratio", s.flywheel_ratio},
+                            {"delta_in_scene", s.delta_now}});
+  f.tell("work_diagram", Record{{"work", s.diagram.work},
+                                {"mean_torque", s.diagram.mean_torque()},
+                                {"fluctuation", s.diagram.fluctuation()},
+                                {"phi_most", s.diagram.most.x},
+                                {"phi_least", s.diagram.least.x},
+                                {"energy_coefficient", s.diagram.energy_coefficient()}});
+  f.tell("wittenbauer", Record{{"inertia", s.exact.inertia},
+                               {"upper", tangent_record(s.exact.upper)},
+                               {"lower", tangent_record(s.exact.lower)}});
+}
+
+std::string diagrams_csv(const Sizing& s) {
+  const std::vector<double> phi = angles(s, curve_points);
+  const auto of = [](const Piecewise& f) { return [&f](double x) { return f.value(x); }; };
+  return csv_of(phi)
+      .column("phi [rad]", std::identity())
+      .column("M_d [N*m]", of(s.diagram.drive_torque))
+      .column("M_c [N*m]", of(s.diagram.load_torque))
+      .column("A_d [J]", of(s.diagram.drive_work))
+      .column("A_c [J]", of(s.diagram.load_work))
+      .column("dT [J]", of(s.diagram.excess))
+      .column("I_em [kg*m2]", of(s.cycle.mechanism.value))
+      .text();
+}
+
+// --- all of it ---
+
+void add_key_figures(Findings& f, const Sizing& s) {
+  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s)}};
+  if (s.soft) f.figures.push_back({"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, ""});
+  for (const DeltaReached& r : s.reached)
+    if (r.sized_by == "Wittenbauer" && r.model != "rigid, work equation") {
+      const char* note = r.settled ? "" : "last cycle, not settled";
+      f.figures.push_back({"δ at the crank, " + r.model, r.crank, "", r.crank_error, note});
+      if (r.model.starts_with("elastic") && !s.motor.empty())
+        f.figures.push_back({"δ at the motor, " + r.model, r.motor, "", r.motor_error, note});
+    }
+  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, ""});
+  if (s.dimensions) f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name});
+}
+
+void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {
+  for (const Formula& formula : formulas) f.show(in, formula);
+}
+
+void say_notes(Findings& f, Chapter in, const Sizing& s) {
+  std::vector<std::string> notes;
+  for (const std::string& why : {s.soft_why, s.dimensions_why})
+    if (!why.empty()) notes.push_back(why);
+  notes.insert(notes.end(), s.notes.begin(), s.notes.end());
+  f.say(in, Words{.lines = notes, .indent = "note: "});
+  f.tell("notes", s.notes);
+}
+
+}  // namespace
+
+Findings findings_of(const Sizing& s) {
+  Findings f{.title = s.title,
+             .subtitle = fmt::format("Flywheel for δ = {:g}", s.delta),
+             .scene_file = s.scene_file,
+             .conclusion = conclusion_of(s),
+             .complete = s.complete,
+             .diagnosis = s.diagnosis};
+  const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),
+                motor = f.chapter("With the torques as they are over the speed, rigid and elastic"),
+                body = f.chapter("Dimensions"), scales = f.chapter("Scales of the diagrams"),
+                notes = f.chapter("Notes");
+  add_key_figures(f, s);
+  tell_basis(f, s);
+  f.draw(cycle, [&s] { return cycle_diagrams(s); });
+  show_all(f, cycle, cycle_formulas(s));
+  f.say(cycle, positions_table(s));
+  f.say(cycle, basis_words(s));
+  f.say(cycle, Words{.lines = {""}, .page = false});
+  f.draw(synthesis, [&s] { return energy_mass_plots(s); });
+  show_all(f, synthesis, method_formulas(s));
+  show_all(f, synthesis, flywheel_formulas(s));
+  say_titled(f, synthesis, methods_table(s));
+  f.say(synthesis, inertias_table(s));
+  f.show(synthesis, Text{.title = "Against the scene", .body = comparison_with_scene(s)});
+  show_all(f, motor, motor_formulas(s));
+  if (s.operating || !s.reached.empty()) f.draw(motor, [&s] { return speed_plot(s); });
+  if (s.reached.empty())
+    f.tell("reached", List{});
+  else
+    say_titled(f, motor, reached_table(s));
+  if (s.dimensions) {
+    say_titled(f, body, dimensions_table(*s.dimensions));
+    show_all(f, body, dimension_formulas(*s.dimensions));
+    f.tell("dimensions", dimensions_record(*s.dimensions));
+  }
+  if (s.punch) {
+    f.say(synthesis, Words{.lines = {punch_words(*s.punch)}, .page = false});
+    f.tell("punch_press", punch_record(*s.punch));
+  }
+  if (s.sheet) say_titled(f, scales, scales_table(s));
+  say_notes(f, notes, s);
+  f.csv = {{"diagrams.csv", [&s] { return diagrams_csv(s); }}};
+  return f;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,420 @@
+// steady_findings.cpp — words, tables and plots of steady cycles.
+#include "studies/steady/steady_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/plots.h"
+#include "studies/findings/trace.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double per_minute = 30 / std::numbers::pi, degrees = 180 / std::numbers::pi;
+
+std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
+std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
+
+Role role_of(const SteadyCycle& c) { return c.model->elastic.empty() ? Role::rigid : Role::elastic; }
+
+std::string complex_text(std::complex<double> z) {
+  if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
+  return fmt::format("{:.6g} {} {:.6g} i", z.real(), z.imag() < 0 ? "−" : "+", std::abs(z.imag()));
+}
+
+// --- words ---
+
+std::vector<std::string> words_of(const SteadyCycle& c) {
+  std::vector<std::string> words;
+  if (!c.found) return {fmt::format("NOT found: {}", c.why)};
+  words.push_back(c.stability);
+  words.push_back(fmt::format(
+      "{} unknown{} on the section at {:.4g}°; found in {} rounds ({} with derivative), {:.3g} cycles' worth ({:.0f} "
+      "aimed at), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees, c.point.rounds, c.point.derivatives, c.cost,
+      c.cost_limit, 1e3 * c.cpu_seconds, c.point.residual, c.work_residual));
+  if (c.point.grazed)
+    words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
+  for (const MotorUse& m : c.motors)
+    words.push_back(fmt::format("drive \"{}\": torque {} in the mean, {} RMS, {} at most{}", m.component,
+                                with_unit(m.mean, "N*m", 5), with_unit(m.rms, "N*m", 5), with_unit(m.peak, "N*m", 5),
+                                m.rated ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()),
+                                                      with_unit(*m.rated, "N*m", 5))
+                                        : ""));
+  if (!c.added_at.empty())
+    words.push_back(fmt::format("the demanded mean speed needs {} N·m beside the scene's drive at \"{}\"{}",
+                                number(c.added_torque), c.added_at,
+                                std::abs(c.added_torque) < 1e-6 * c.model->torque_scale
+                                    ? ": nothing, the machine has a cycle of this speed as it is"
+                                    : ""));
+  return words;
+}
+
+// Rounding of differences beside the other slope reads as zero.
+std::string beside(double value, double other) {
+  return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value, 4);
+}
+
+std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
+  if (!s.diagram) return {"no operating diagram: " + s.no_diagram};
+  std::vector<std::string> words;
+  const OperatingDiagram& d = *s.diagram;
+  for (const OperatingPoint& p : d.points)
+    words.push_back(fmt::format("operating point {} rpm at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+                                number(p.mean.omega * per_minute, 6), with_unit(p.mean.load, "N*m", 6),
+                                p.stable() ? "stable" : "unstable", beside(p.drive_slope, p.load_slope),
+                                p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
+  if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
+    words.push_back(fmt::format(
+        "margin: the drive gives at most {} in the mean (at {} rpm), {}", with_unit(d.strongest.drive, "N*m", 5),
+        number(d.strongest.omega * per_minute, 5),
+        std::isfinite(d.margin(*p)) ? number(d.margin(*p), 4) + " times what it needs" : "and it needs nothing"));
+  if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
+  return words;
+}
+
+std::vector<std::string> words_of_start(const SteadyStudy& s) {
+  std::vector<std::string> words;
+  if (s.start)
+    words.push_back(s.start->reached ? fmt::format("start: from rest to 95 % of the steady speed in {}",
+                                                   with_unit(s.start->time, "s", 5))
+                                     : "start: " + s.start->why);
+  for (const RatioSearch& r : s.ratios)
+    words.push_back(fmt::format(
+        "fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
+        r.at_bound ? " (the end of what was tried)" : "", with_unit(r.best_time, "s", 5),
+        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present, 5), with_unit(r.present_time, "s", 5))
+                           : fmt::format("with its ratio of {} the machine does not start", number(r.present, 5))));
+  return words;
+}
+
+// --- figures and multipliers ---
+
+std::vector<std::string> names_of_figures(const SteadyStudy& s) {
+  std::vector<std::string> names;
+  for (const SteadyCycle& c : s.cycles)
+    for (const Figure& f : c.figures)
+      if (std::find(names.begin(), names.end(), f.name) == names.end()) names.push_back(f.name);
+  return names;
+}
+
+// A row per figure, the models side by side.
+Rows figure_table(const SteadyStudy& s) {
+  auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
+  table.only_for_people("figure", std::identity());
+  for (const SteadyCycle& c : s.cycles) {
+    table.only_for_people(c.label, [&](const std::string& name) {
+      const Figure* f = c.find(name);
+      return f ? figure_text(f->value, f->error).value : "—";
+    });
+    table.only_for_people("error", [&](const std::string& name) {
+      const Figure* f = c.find(name);
+      return f ? error_cell(f->value, f->error) : "";
+    });
+  }
+  return table.only_for_people("unit", [&](const std::string& name) {
+    std::string unit;
+    for (const SteadyCycle& c : s.cycles)
+      if (const Figure* f = c.find(name)) unit = pretty_unit(f->unit);
+    return unit;
+  });
+}
+
+RowsOf<std::complex<double>> multiplier_table(const SteadyCycle& c) {
+  const auto magnitude = [](const std::complex<double>& m) { return std::abs(m); };
+  return table_of("", fmt::format("Floquet multipliers, {} model", c.label), c.point.multipliers)
+      .fold(c.point.multipliers.size() > 6)
+      .not_on_terminal()
+      .always()
+      .only_for_people("multiplier", complex_text)
+      .only_for_programs("real", [](const std::complex<double>& m) { return m.real(); })
+      .only_for_programs("imaginary", [](const std::complex<double>& m) { return m.imag(); })
+      .column("magnitude", "magnitude", magnitude)
+      .only_for_people("halves in cycles", magnitude, [](double size) {
+        return size < 1 - 1e-6 && size > 0 ? number(std::log(2.0) / -std::log(size), 4) : std::string("—");
+      });
+}
+
+Rows shaft_table(const SteadyStudy& s) {
+  const std::vector<ShaftFluctuation>& first = s.cycles.front().shafts;
+  auto table = table_of("", "Speed fluctuation δ at every shaft", numbers_below(first.size())).not_on_terminal();
+  table.always();
+  table.only_for_people("shaft", [&](std::size_t i) { return first[i].shaft; });
+  table.only_for_people("ratio to the link", [&](std::size_t i) { return first[i].ratio; }, {.digits = 5});
+  for (const SteadyCycle& c : s.cycles)
+    if (c.found) {
+      table.only_for_people("mean [1/min], " + c.label, [&](std::size_t i) { return per_minute * c.shafts[i].mean(); });
+      table.only_for_people("δ, " + c.label, [&](std::size_t i) { return c.shafts[i].delta(); });
+    }
+  return table;
+}
+
+// --- for programs and files ---
+
+Record figure_record(const Figure& f) {
+  return {{"name", f.name}, {"value", f.value}, {"unit", f.unit}, {"error", f.error}};
+}
+
+List drive_list(const SteadyCycle& c) {
+  return each(c.motors, [](const MotorUse& m) {
+    return Record{{"component", m.component}, {"mean_torque", m.mean},   {"rms_torque", m.rms},
+                  {"peak_torque", m.peak},    {"rated_torque", m.rated}, {"thermal_use", m.thermal()}};
+  });
+}
+
+Record cycle_record(const SteadyCycle& c) {
+  Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
+  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  if (!c.found) {
+    tell("why", c.why);
+    return r;
+  }
+  tell("stability", c.stability);
+  tell("stable", c.point.largest() < 1 && !c.neutral);
+  tell("halving_cycles", c.halving);
+  tell("multipliers", multiplier_table(c).list());
+  tell("figures", each(c.figures, figure_record));
+  tell("drives", drive_list(c));
+  if (!c.added_at.empty())
+    tell("added_torque", Record{{"component", c.added_at}, {"value", c.added_torque}, {"unit", "N*m"}});
+  tell("statistics", Record{{"unknowns", c.unknowns},
+                            {"section", c.section},
+                            {"rounds", c.point.rounds},
+                            {"derivatives", c.point.derivatives},
+                            {"cost_in_cycles", c.cost},
+                            {"cost_allowed", c.cost_limit},
+                            {"residual", c.point.residual},
+                            {"work_residual", c.work_residual},
+                            {"cpu_seconds", c.cpu_seconds}});
+  return r;
+}
+
+Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
+  return {{"speed", p.mean.omega},      {"torque", p.mean.load}, {"drive_slope", p.drive_slope},
+          {"load_slope", p.load_slope}, {"stable", p.stable()},  {"margin", d.margin(p)}};
+}
+
+Record ratio_record(const RatioSearch& r) {
+  return {{"gearbox", r.gearbox},
+          {"ratio", r.best},
+          {"time", r.best_time},
+          {"present_ratio", r.present},
+          {"present_time", r.present_time > 0 ? Value(r.present_time) : Value()}};
+}
+
+const CycleTraces* whole_cycle(const SteadyCycle& c) {
+  return c.traces && !c.traces->last_cycles.empty() ? &c.traces->last_cycles.back() : nullptr;
+}
+
+double at_angle(const Trace& trace, double angle) {
+  const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
+  if (after == trace.x.begin()) return trace.y.front();
+  if (after == trace.x.end()) return trace.y.back();
+  const auto i = static_cast<std::size_t>(after - trace.x.begin());
+  const double width = trace.x[i] - trace.x[i - 1];
+  return width > 0 ? trace.y[i - 1] + (trace.y[i] - trace.y[i - 1]) * (angle - trace.x[i - 1]) / width : trace.y[i];
+}
+
+std::string cycle_csv(const SteadyCycle& c) {
+  constexpr int rows = 720;
+  std::vector<double> angles;
+  for (int i = 0; i <= rows; ++i) angles.push_back(c.model->cycle * i / rows);
+  auto csv = csv_of(angles).column("angle [rad]", std::identity());
+  for (const Trace& t : whole_cycle(c)->traces)
+    csv.column(
+        fmt::format("{} [{}]", t.name, t.unit), [&t](double angle) { return at_angle(t, angle); }, 10);
+  return csv.text();
+}
+
+void add_files(Findings& f, const SteadyStudy& s) {
+  if (s.diagram)
+    f.csv.push_back({"operating_points.csv", [&s] {
+                       return csv_of(s.diagram->curve)
+                           .column("speed [rad/s]", &MeanTorques::omega)
+                           .column("drive_torque [N*m]", &MeanTorques::drive)
+                           .column("load_torque [N*m]", &MeanTorques::load)
+                           .text();
+                     }});
+  for (const SteadyCycle& c : s.cycles)
+    if (whole_cycle(c)) f.csv.push_back({"steady." + c.label + ".csv", [&c] { return cycle_csv(c); }});
+}
+
+// --- plots ---
+
+std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel, const std::string& title,
+                               const std::string& label) {
+  Plot plot{.title = title, .x = {s.link + " angle", "°"}, .y = {label, ""}, .series = {}};
+  std::string si_unit;
+  for (const SteadyCycle& c : s.cycles)
+    if (const CycleTraces* cycle = whole_cycle(c))
+      for (const Trace& t : cycle->traces)
+        if (t.name == channel) {
+          if (plot.series.empty()) si_unit = t.unit;
+          plot.series.push_back({.name = c.label, .role = role_of(c), .x = t.x, .y = t.y});
+          for (double& x : plot.series.back().x) x *= degrees;
+        }
+  if (plot.series.empty()) return {};
+  return in_readable_unit(std::move(plot), si_unit);
+}
+
+Plot diagram_plot(const SteadyStudy& s) {
+  const OperatingDiagram& d = *s.diagram;
+  const auto rpm = [](const MeanTorques& m) { return m.omega * per_minute; };
+  Plot plot{
+      .title = "Operating points: where the drive's mean torque meets the loads'",
+      .x = {"speed of " + s.link, "1/min"},
+      .y = {"mean torque over a cycle", ""},
+      .series = {series_of("drive M_d", Role::green, d.curve, rpm, &MeanTorques::drive),
+                 series_of("loads M_c", Role::orange, d.curve, rpm, &MeanTorques::load)},
+      .note = "Mean over a cycle at constant speed, reduced to " + s.link + "; stable where the drive's falls below."};
+  const double largest = largest_of(plot);
+  for (const bool stable : {true, false}) {
+    std::vector<MeanTorques> points;
+    for (const OperatingPoint& p : d.points)
+      if (p.stable() == stable) points.push_back(p.mean);
+    if (!points.empty())
+      plot.series.push_back(marks(series_of(stable ? "stable" : "unstable", stable ? Role::elastic : Role::vermillion,
+                                            points, rpm, &MeanTorques::load)));
+  }
+  return in_readable_unit(std::move(plot), "N*m", largest);
+}
+
+Plot multiplier_plot(const SteadyStudy& s) {
+  const auto real = [](const std::complex<double>& z) { return z.real(); };
+  const auto imaginary = [](const std::complex<double>& z) { return z.imag(); };
+  std::vector<std::complex<double>> circle;
+  for (int i = 0; i <= 180; ++i)
+    circle.emplace_back(std::cos(i * std::numbers::pi / 90), std::sin(i * std::numbers::pi / 90));
+  Plot plot{.title = "Floquet multipliers: inside the unit circle deviations fade",
+            .x = {"real part", ""},
+            .y = {"imaginary part", ""},
+            .series = {dashed(series_of("unit circle", Role::reference, circle, real, imaginary))},
+            .equal_axes = true};
+  for (const SteadyCycle& c : s.cycles)
+    if (c.found) plot.series.push_back(marks(series_of(c.label, role_of(c), c.point.multipliers, real, imaginary)));
+  return plot;
+}
+
+Plot start_plot(const SteadyStudy& s) {
+  Series speed{.name = "rigid", .role = Role::rigid, .x = s.start->t, .y = s.start->w};
+  for (double& w : speed.y) w *= per_minute;
+  return {.title = "Start from rest to 95 % of the steady speed",
+          .x = {"time", "s"},
+          .y = {"speed of " + s.link, "1/min"},
+          .series = {speed}};
+}
+
+Plot ratio_plot(const RatioSearch& r) {
+  return {.title = fmt::format("Start time over the ratio of \"{}\"", r.gearbox),
+          .x = {"ratio", "", true},
+          .y = {"time to 95 % of the steady speed", "s"},
+          .series = {{.name = "simulated", .role = Role::rigid, .x = r.ratio, .y = r.time, .points = true},
+                     marks({.name = "fastest", .role = Role::vermillion, .x = {r.best}, .y = {r.best_time}})}};
+}
+
+std::vector<Plot> cycle_plots(const SteadyStudy& s) {
+  std::vector<Plot> plots;
+  const auto add = [&](const std::string& channel, const std::string& what, const std::string& label) {
+    if (auto plot = over_angle(s, channel, what + " over a steady cycle", label)) plots.push_back(std::move(*plot));
+  };
+  add("speed." + s.link, "Speed of " + s.link, "speed");
+  const SteadyCycle& last = s.cycles.back();
+  constexpr std::size_t most_plots = 8;
+  for (std::size_t i = 0; i < last.model->torque_joints.size() && i < most_plots; ++i) {
+    const std::string& name = last.model->torque_joints[i].component;
+    add("torque." + name, "Torque in " + name, "transmitted torque");
+  }
+  for (const MotorUse& m : last.motors) add("torque." + m.component, "Torque of " + m.component, "torque");
+  return plots;
+}
+
+// --- all of it ---
+
+void add_key_figures(Findings& f, const SteadyStudy& s) {
+  for (const SteadyCycle& c : s.cycles) {
+    if (!c.found) continue;
+    if (const Figure* mean = c.find("mean_speed." + s.link))
+      f.figures.push_back({"mean speed, " + c.label, mean->value * per_minute, "rpm",
+                           mean->error ? std::optional(*mean->error * per_minute) : std::nullopt});
+    if (const Figure* delta = c.find("delta." + s.link))
+      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error});
+    f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "", {}, c.stability, 4});
+  }
+  if (const SteadyCycle& last = s.cycles.back(); last.found)
+    for (const MotorUse& m : last.motors)
+      if (m.rated)
+        f.figures.push_back({"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4});
+}
+
+void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
+  for (const SteadyCycle& c : s.cycles) {
+    const Figure *delta = c.find("delta." + s.link), *max = c.find("max_speed." + s.link),
+                 *min = c.find("min_speed." + s.link);
+    if (!delta || !max || !min) continue;
+    f.show(in,
+           Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
+                   .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                   .numbers = fmt::format("δ = ({:.6g} − {:.6g}) rad/s / {:.6g} rad/s = {}", max->value, min->value,
+                                          0.5 * (max->value + min->value), with_error(delta->value, delta->error, "")),
+                   .note = ""});
+  }
+}
+
+void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
+  if (s.diagram) f.draw(in, [&s] { return diagram_plot(s); });
+  f.say(in, Words{.lines = words_of_diagram(s)});
+  if (s.start && s.start->t.size() > 1) f.draw(in, [&s] { return start_plot(s); });
+  for (const RatioSearch& r : s.ratios) f.draw(in, [&r] { return ratio_plot(r); });
+  f.say(in, Words{.lines = words_of_start(s)});
+  f.tell("operating_points",
+         s.diagram ? each(s.diagram->points, [&](const OperatingPoint& p) { return operating_point(*s.diagram, p); })
+                   : List{});
+  if (s.start)
+    f.tell("start", Record{{"reached", s.start->reached}, {"time", s.start->reached ? Value(s.start->time) : Value()}});
+  f.tell("fastest_ratios", each(s.ratios, ratio_record));
+}
+
+}  // namespace
+
+Findings findings_of(const SteadyStudy& s) {
+  Findings f{.title = s.title,
+             .subtitle = "Steady motion found directly: return map and its multipliers",
+             .scene_file = s.scene_file,
+             .conclusion = s.conclusion,
+             .complete = s.complete,
+             .diagnosis = s.diagnosis,
+             .opening = Findings::Opening::title_and_conclusion};
+  const Chapter cycle = f.chapter("Steady cycle"), operation = f.chapter("Operating points (theory 4.15)"),
+                stability = f.chapter("Stability (theory 11.4)"), figures = f.chapter("Figures"),
+                how = f.chapter("How it was found"), notes = f.chapter("Notes");
+  const bool any = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
+  add_key_figures(f, s);
+  for (const SteadyCycle& c : s.cycles)
+    f.say(how, Words{.lines = words_of(c),
+                     .title = c.label + " model",
+                     .heading = fmt::format("{} ({})", c.label,
+                                            c.effects == "none" ? "no effects on" : "effects: " + c.effects),
+                     .indent = "  ",
+                     .apart = &c == &s.cycles.front()});
+  f.tell("cycles", each(s.cycles, cycle_record));
+  say_operation(f, operation, s);
+  if (any) {
+    f.draw(cycle, [&s] { return cycle_plots(s); });
+    f.draw(stability, [&s] { return multiplier_plot(s); });
+    for (const SteadyCycle& c : s.cycles)
+      if (c.found) f.say(stability, multiplier_table(c));
+    f.say(figures, shaft_table(s));
+    show_formulas(f, figures, s);
+    f.say(figures, figure_table(s));
+  }
+  f.say(notes, Words{.lines = s.notes, .indent = "note: ", .key = "notes"});
+  add_files(f, s);
+  return f;
+}
+
+}  // namespace kurbel
