@@ -112,7 +112,7 @@ TEST(GearMesh, TakesItsNumbersFromTheTeeth) {
       free_drive, "module = \"3 mm\"\nbacklash = \"0.3 mm\"\nmesh_stiffness = \"2e8 N/m\"", "", "until = \"1 s\""));
   const auto model = compile(scene, scene.effects);
   const AnyConnection& mesh = *model->network.joints[0].element;
-  EXPECT_NEAR(mesh.stiffness(), 2e8 * base * base, 1e-6);
+  EXPECT_NEAR(mesh.stiffness, 2e8 * base * base, 1e-6);
   EXPECT_NEAR(mesh.twist_at(30), 0.5 * 0.3e-3 / base + 30 / (2e8 * base * base), 1e-12);
   EXPECT_EQ(model->elastic[0].gain_b, 2);
   GearPairData data;
