@@ -163,6 +163,10 @@ class Reading : public D {
     place_.messages->add(where(member), place_.what + ": " + text);
     return false;
   }
+  bool refuse(const std::string& key, const std::string& text) const {  // one of given_keys
+    place_.messages->add(place_.section->where(key), place_.what + ": " + text);
+    return false;
+  }
   bool refuse(const std::string& text) const {
     place_.messages->add(place_.section->at, place_.what + ": " + text);
     return false;
