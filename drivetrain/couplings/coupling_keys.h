@@ -42,8 +42,3 @@ const Fields<ShaftKeys>& shaft_fields();
 const Fields<Damping>& damping_fields();  // in its four forms
 
 }  // namespace kurbel
-// TEMPORARY
-namespace kurbel {
-inline const std::vector<Key>& damping_keys() { return damping_fields().keys(); }
-inline Damping damping_of(const Section& s, Messages& m) { return damping_fields().read(s, m); }
-}  // namespace kurbel

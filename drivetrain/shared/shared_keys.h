@@ -1,4 +1,4 @@
-// shared_keys.h — keys that several kinds of components share, and how they are read.
+// shared_keys.h — keys and fields that several kinds of components share.
 #pragma once
 
 #include <functional>
@@ -31,14 +31,4 @@ void put_curve(Network& net, int node, const std::string& component, const Torqu
 // One shaft that passes through.
 int single_shaft(const Section& section, double inertia, Network& net);
 
-}  // namespace kurbel
-// TEMPORARY
-namespace kurbel {
-inline std::vector<Key> joined(std::vector<Key> keys, const std::vector<Key>& more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
-inline const std::vector<Key>& window_keys() { return window_fields().keys(); }
-inline Window window_of(const Section& s, Messages& m) { return window_fields().read(s, m); }
-inline int single_shaft(const Section& s, Network& net) { return single_shaft(s, s.number_or("inertia", 0), net); }
 }  // namespace kurbel

@@ -4,9 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace kurbel::fields_detail {
+
+int whole(double number) {
+  using Int = std::numeric_limits<int>;
+  return static_cast<int>(std::clamp(number, static_cast<double>(Int::min()), static_cast<double>(Int::max())));
+}
+
+std::vector<int> wholes(const std::vector<double>& numbers) {
+  std::vector<int> all;
+  for (const double number : numbers) all.push_back(whole(number));
+  return all;
+}
 
 const Setting* found(const Key& key, const Section& section) {
   return key.required ? &section[key.name] : section.find(key.name);

@@ -93,6 +93,10 @@ constexpr KeyType type_of() {
     static_assert(!sizeof(M), "no key fills a member of this type: an enum needs its words, a struct its fields");
 }
 
+// The ints next to them.
+int whole(double number);
+std::vector<int> wholes(const std::vector<double>& numbers);
+
 template <class M>
 void set(M& member, const Setting& setting) {
   if constexpr (is_optional<M>)
@@ -100,7 +104,7 @@ void set(M& member, const Setting& setting) {
   else if constexpr (std::is_same_v<M, double>)
     member = setting.number;
   else if constexpr (std::is_same_v<M, int>)
-    member = static_cast<int>(setting.number);
+    member = whole(setting.number);
   else if constexpr (std::is_same_v<M, bool>)
     member = setting.flag;
   else if constexpr (std::is_same_v<M, std::string>)
@@ -108,7 +112,7 @@ void set(M& member, const Setting& setting) {
   else if constexpr (std::is_same_v<M, std::vector<double>>)
     member = setting.numbers;
   else if constexpr (std::is_same_v<M, std::vector<int>>)
-    member.assign(setting.numbers.begin(), setting.numbers.end());
+    member = wholes(setting.numbers);
   else if constexpr (std::is_same_v<M, CurveData>)
     member = setting.curve;
   else
