@@ -1,19 +1,44 @@
-// coupling_keys.h — keys that everything with two halves shares, and how its damping is read.
+// coupling_keys.h — fields that everything with two halves shares.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "drivetrain/couplings/coupling.h"
-#include "engine/scene/keys.h"
+#include "engine/model/network.h"
+#include "engine/scene/fields.h"
 
 namespace kurbel {
 
-std::vector<Key> side_inertia_keys();    // inertia_in, inertia_out
-Key application_factor_key();            // K_A
-std::vector<Key> coupling_limit_keys();  // what kurbel modes judges by, K_A among them
+struct SideInertias {
+  double in = 0, out = 0;  // [kg·m²]
+};
+const Fields<SideInertias>& side_inertia_fields();
+// The two shafts of a component, each with its inertia.
+std::array<int, 2> two_shafts(const Section& section, const SideInertias& inertia, Network& net);
 
-const std::vector<Key>& damping_keys();  // damping in its four forms
-// Faults go into the messages.
-Damping damping_of(const Section& section, Messages& messages);
+// What kurbel modes judges by, after DIN 740-2; 0: not given.
+struct CouplingLimits {
+  double nominal = 0, maximum = 0, vibratory = 0;  // T_KN, T_Kmax, T_KW [N·m]
+  double power = 0;                                // P_KW [W]
+  double application_factor = 1;                   // K_A
+};
+const Fields<CouplingLimits>& coupling_limit_fields();
+Key application_factor_key();
+
+// A shaft's data as a scene gives them.
+struct ShaftKeys {
+  std::optional<double> stiffness, length, diameter;  // k [N·m/rad], L, D [m]
+  double bore = 0, shear_modulus = 0, density = 0;    // d [m], G [Pa], ρ [kg/m³]
+  std::optional<double> inertia;                      // [kg·m²]
+  int segments = 1;
+  std::optional<double> allowable_shear_stress;  // [Pa]
+  Damping damping;
+  double application_factor = 1;
+
+  double polar_moment() const;  // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
+};
+const Fields<ShaftKeys>& shaft_fields();
+
+const Fields<Damping>& damping_fields();  // in its four forms
 
 }  // namespace kurbel

@@ -2,6 +2,7 @@
 // joint.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "drivetrain/couplings/coupling_keys.h"
@@ -9,7 +10,6 @@
 #include "drivetrain/couplings/progressive_coupling.h"
 #include "drivetrain/couplings/rubber_coupling.h"
 #include "drivetrain/couplings/universal_joint.h"
-#include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 #include "engine/scene/effects.h"
 
@@ -20,89 +20,153 @@ ConnectionForm rubber_under(const StaticRubberData& without_relaxation, const Ef
 }
 namespace {
 
-std::array<int, 2> halves(const Section& s, Network& net) {
-  const int in = net.add_node(s.name, "in", s.number("inertia_in"));
-  const int out = net.add_node(s.name, "out", s.number("inertia_out"));
-  net.ports[s.name] = {in, out, {}};
-  return {in, out};
+Key stiffness_key(const char* doc) {
+  return {.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = doc, .required = true};
+}
+
+// --- progressive coupling ---
+
+struct ProgressiveKeys {
+  CurveData table;  // torque over twist [N·m, rad]
+  SideInertias inertia;
+  Damping damping;
+  CouplingLimits limits;
+};
+
+const Fields<ProgressiveKeys>& progressive_fields() {
+  using Keys = ProgressiveKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "table",
+                .unit = "N*m",
+                .doc = "torque over twist through [0, 0], rising; points of positive twist alone count for both "
+                       "senses; beyond the last one it goes on straight",
+                .required = true,
+                .choices = {"twist"}},
+               &Keys::table)
+          .add(side_inertia_fields(), &Keys::inertia)
+          .add(damping_fields(), &Keys::damping)
+          .add(coupling_limit_fields(), &Keys::limits);
+  return made;
 }
 
 void build_progressive(const Section& s, Network& net, Messages& messages) {
-  const auto [in, out] = halves(s, net);
-  const CurveData& table = s["table"].curve;
-  const Damping damping = damping_of(s, messages);
-  if (table.period > 0)
-    messages.add(s.where("table"), fmt::format("progressive coupling \"{}\": a table over the twist has no period; "
-                                               "drop it",
-                                               s.name));
+  const auto coupling = progressive_fields().read(s, messages);
+  const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  const CurveData& table = coupling.table;
+  if (table.period > 0) coupling.refuse(&ProgressiveKeys::table, "a table over the twist has no period; drop it");
   try {
-    net.connect(in, out, 1, s.name, ProgressiveCouplingData{{table.x, table.y, table.form}, damping});
+    net.connect(in, out, 1, s.name, ProgressiveCouplingData{{table.x, table.y, table.form}, coupling.damping});
   } catch (const std::invalid_argument& error) {
-    messages.add(s.where("table"), fmt::format("progressive coupling \"{}\": {}", s.name, error.what()));
+    coupling.refuse(&ProgressiveKeys::table, error.what());
   }
 }
 
-const std::vector<Kind>& branch_kinds() {
-  static const std::vector<Kind> kinds = {{
-      .name = "branch",
-      .doc = "Maxwell branch: a spring in series with a damper",
-      .placement = Placement::nested,
-      .keys = {{.name = "stiffness",
-                .unit = "N*m/rad",
-                .domain = positive,
-                .doc = "k_j, in fast motion on top of the static stiffness",
-                .required = true},
-               {.name = "relaxation_time",
-                .unit = "s",
-                .domain = positive,
-                .doc = "T_j in which its torque falls to 1/e",
-                .required = true}},
-  }};
-  return kinds;
-}
+// --- rubber coupling ---
 
 constexpr int most_branches = 4;
 
+struct RubberKeys : CouplingData {
+  std::vector<MaxwellBranch> branches;
+  SideInertias inertia;
+  CouplingLimits limits;
+};
+
+const Tables<MaxwellBranch>& branches() {
+  static const auto made =
+      Tables<MaxwellBranch>().add("branch", "Maxwell branch: a spring in series with a damper",
+                                  Fields<MaxwellBranch>()
+                                      .add({.name = "stiffness",
+                                            .unit = "N*m/rad",
+                                            .domain = positive,
+                                            .doc = "k_j, in fast motion on top of the static stiffness",
+                                            .required = true},
+                                           &MaxwellBranch::stiffness)
+                                      .add({.name = "relaxation_time",
+                                            .unit = "s",
+                                            .domain = positive,
+                                            .doc = "T_j in which its torque falls to 1/e",
+                                            .required = true},
+                                           &MaxwellBranch::relaxation_time));
+  return made;
+}
+
+const Fields<RubberKeys>& rubber_fields() {
+  using Keys = RubberKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add(stiffness_key("static torsional stiffness k"), &Keys::stiffness)
+          .add({.name = "branches",
+                .doc = "1 … 4 Maxwell branches; with relaxation off their loss at ω_ref counts as viscous",
+                .effect = "relaxation"},
+               &Keys::branches, branches())
+          .add(side_inertia_fields(), &Keys::inertia)
+          .add(damping_fields(), &Keys::damping)
+          .add(coupling_limit_fields(), &Keys::limits);
+  return made;
+}
+
 template <int branches>
-void connect_rubber(const Section& s, Network& net, int in, int out, const CouplingData& spring) {
-  RubberCouplingData<branches> data{.spring = spring};
-  const std::vector<Section>& given = s["branches"].sections;
-  for (std::size_t j = 0; j < branches; ++j)
-    data.branch[j] = {given[j].number("stiffness"), given[j].number("relaxation_time")};
-  net.connect(in, out, 1, s.name, data);
+void connect_rubber(const std::string& name, Network& net, int in, int out, const RubberKeys& coupling) {
+  RubberCouplingData<branches> data{.spring = coupling};
+  std::copy_n(coupling.branches.begin(), branches, data.branch.begin());
+  net.connect(in, out, 1, name, data);
 }
 
 void build_rubber(const Section& s, Network& net, Messages& messages) {
-  const auto [in, out] = halves(s, net);
-  const CouplingData spring{s.number("stiffness"), damping_of(s, messages)};
-  if (!s.has("branches")) return net.connect(in, out, 1, s.name, spring);
-  const std::vector<Section>& branches = s["branches"].sections;
-  for (const Section& branch : branches)
-    if (!branch.sound) return;
-  switch (branches.size()) {
+  const auto coupling = rubber_fields().read(s, messages);
+  const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  if (!coupling.given(&RubberKeys::branches))
+    return net.connect(in, out, 1, s.name, static_cast<const CouplingData&>(coupling));
+  switch (coupling.branches.size()) {
     case 1:
-      return connect_rubber<1>(s, net, in, out, spring);
+      return connect_rubber<1>(s.name, net, in, out, coupling);
     case 2:
-      return connect_rubber<2>(s, net, in, out, spring);
+      return connect_rubber<2>(s.name, net, in, out, coupling);
     case 3:
-      return connect_rubber<3>(s, net, in, out, spring);
+      return connect_rubber<3>(s.name, net, in, out, coupling);
     case 4:
-      return connect_rubber<most_branches>(s, net, in, out, spring);
+      return connect_rubber<most_branches>(s.name, net, in, out, coupling);
     default:
-      messages.add(s.where("branches"), fmt::format("rubber coupling \"{}\": {} branches; must be 1 … {}", s.name,
-                                                    branches.size(), most_branches));
+      coupling.refuse(&RubberKeys::branches,
+                      fmt::format("{} branches; must be 1 … {}", coupling.branches.size(), most_branches));
   }
 }
 
-void build_universal_joint(const Section& s, Network& net, Messages& messages) {
-  const auto [in, out] = halves(s, net);
-  net.connect(
-      in, out, 1, s.name,
-      UniversalJointData{{s.number("stiffness"), damping_of(s, messages)}, {s.number("angle")}, s.number("phase")});
+// --- universal joint ---
+
+struct UniversalJointKeys : CouplingData, HookeJoint {
+  double phase = 0;  // [rad]
+  SideInertias inertia;
+  CouplingLimits limits;
+};
+
+const Fields<UniversalJointKeys>& universal_joint_fields() {
+  using Keys = UniversalJointKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add(stiffness_key("torsional stiffness k of the joint and its shaft"), &Keys::stiffness)
+          .add({.name = "angle",
+                .unit = "rad",
+                .domain = {.low = 0, .high = 1.4},
+                .doc = "angle β between the shafts, up to 80 deg",
+                .required = true},
+               &Keys::angle)
+          .add({.name = "phase",
+                .unit = "rad",
+                .fallback = "\"0 deg\"",
+                .doc = "angle of the driving fork past its position in the plane of the shafts, at φ = 0"},
+               &Keys::phase)
+          .add(side_inertia_fields(), &Keys::inertia)
+          .add(damping_fields(), &Keys::damping)
+          .add(coupling_limit_fields(), &Keys::limits);
+  return made;
 }
 
-Key stiffness_key(const char* doc) {
-  return {.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = doc, .required = true};
+void build_universal_joint(const Section& s, Network& net, Messages& messages) {
+  const auto coupling = universal_joint_fields().read(s, messages);
+  const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  net.connect(in, out, 1, s.name, UniversalJointData{coupling, coupling, coupling.phase});
 }
 
 }  // namespace
@@ -112,43 +176,19 @@ std::vector<Kind> flexible_kinds() {
       {.name = "progressive coupling",
        .doc = "spring by a table of torque over twist, and damper; rigid when its elasticity is off",
        .placement = Placement::inline_two,
-       .keys =
-           joined({{.name = "table",
-                    .type = KeyType::curve,
-                    .unit = "N*m",
-                    .doc = "torque over twist through [0, 0], rising; points of positive twist alone count for both "
-                           "senses; beyond the last one it goes on straight",
-                    .required = true,
-                    .choices = {"twist"}}},
-                  joined(joined(side_inertia_keys(), damping_keys()), coupling_limit_keys())),
+       .keys = progressive_fields().keys(),
        .build = build_progressive,
        .elastic = true},
       {.name = "rubber coupling",
        .doc = "static spring and damper, with Maxwell branches that relax; rigid when its elasticity is off",
        .placement = Placement::inline_two,
-       .keys = joined({stiffness_key("static torsional stiffness k"),
-                       {.name = "branches",
-                        .type = KeyType::sections,
-                        .doc = "1 … 4 Maxwell branches; with relaxation off their loss at ω_ref counts as viscous",
-                        .nested = &branch_kinds(),
-                        .effect = "relaxation"}},
-                      joined(joined(side_inertia_keys(), damping_keys()), coupling_limit_keys())),
+       .keys = rubber_fields().keys(),
        .build = build_rubber,
        .elastic = true},
       {.name = "universal joint",
        .doc = "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1",
        .placement = Placement::inline_two,
-       .keys = joined({stiffness_key("torsional stiffness k of the joint and its shaft"),
-                       {.name = "angle",
-                        .unit = "rad",
-                        .domain = {.low = 0, .high = 1.4},
-                        .doc = "angle β between the shafts, up to 80 deg",
-                        .required = true},
-                       {.name = "phase",
-                        .unit = "rad",
-                        .fallback = "\"0 deg\"",
-                        .doc = "angle of the driving fork past its position in the plane of the shafts, at φ = 0"}},
-                      joined(side_inertia_keys(), joined(damping_keys(), coupling_limit_keys()))),
+       .keys = universal_joint_fields().keys(),
        .build = build_universal_joint,
        .elastic = true},
   };

@@ -13,14 +13,39 @@
 namespace kurbel {
 namespace {
 
+struct FluidCouplingKeys {
+  double diameter = 0, density = 0;  // D [m], ρ [kg/m³]
+  CurveData lambda;                  // λ(ν) [1]
+  SideInertias inertia;
+};
+
+const Fields<FluidCouplingKeys>& fluid_coupling_fields() {
+  using Keys = FluidCouplingKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "diameter", .unit = "m", .domain = positive, .doc = "profile diameter D", .required = true},
+               &Keys::diameter)
+          .add({.name = "density",
+                .unit = "kg/m3",
+                .fallback = "\"870 kg/m3\"",
+                .domain = positive,
+                .doc = "ρ of the fluid; oil unless given"},
+               &Keys::density)
+          .add({.name = "lambda",
+                .unit = "1",
+                .doc = "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²",
+                .required = true,
+                .choices = {"speed ratio"}},
+               &Keys::lambda)
+          .add(side_inertia_fields(), &Keys::inertia);
+  return made;
+}
+
 void build_fluid_coupling(const Section& s, Network& net, Messages& messages) {
-  const int in = net.add_node(s.name, "in", s.number("inertia_in"));
-  const int out = net.add_node(s.name, "out", s.number("inertia_out"));
-  net.ports[s.name] = {in, out, {}};
-  const CurveData& table = s["lambda"].curve;
-  const auto refuse = [&](const std::string& text) {
-    messages.add(s.where("lambda"), fmt::format("fluid coupling \"{}\": lambda: {}", s.name, text));
-  };
+  const auto coupling = fluid_coupling_fields().read(s, messages);
+  const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  const CurveData& table = coupling.lambda;
+  const auto refuse = [&](const std::string& text) { coupling.refuse(&FluidCouplingKeys::lambda, "lambda: " + text); };
   if (table.period > 0) return refuse("a table over the speed ratio has no period; drop it");
   if (table.x.front() < -1 || table.x.back() != 1 || table.y.back() != 0)
     return refuse(
@@ -29,15 +54,38 @@ void build_fluid_coupling(const Section& s, Network& net, Messages& messages) {
                     table.x.front(), table.y.front(), table.x.back(), table.y.back()));
   if (*std::min_element(table.y.begin(), table.y.end()) < 0)
     return refuse("λ < 0; the faster side always drives the slower one");
-  net.connect(in, out, 1, s.name,
-              FluidCoupling{curve_of(table), s.number("density") * std::pow(s.number("diameter"), 5)});
+  net.connect(in, out, 1, s.name, FluidCoupling{curve_of(table), coupling.density * std::pow(coupling.diameter, 5)});
 }
 
-void build_viscous_damper(const Section& s, Network& net, Messages&) {
-  const int hub = single_shaft(s, net);
-  const int ring = net.add_node(s.name, "ring", s.number("ring_inertia"));
+struct ViscousDamperKeys : ViscousFilm {
+  double ring_inertia = 0, inertia = 0;  // [kg·m²]
+};
+
+const Fields<ViscousDamperKeys>& viscous_damper_fields() {
+  using Keys = ViscousDamperKeys;
+  static const auto made = Fields<Keys>()
+                               .add({.name = "ring_inertia",
+                                     .unit = "kg*m2",
+                                     .domain = positive,
+                                     .doc = "of the free ring",
+                                     .required = true},
+                                    &Keys::ring_inertia)
+                               .add({.name = "damping",
+                                     .unit = "N*m*s/rad",
+                                     .domain = positive,
+                                     .doc = "c of the film between ring and hub",
+                                     .required = true},
+                                    &Keys::damping)
+                               .add(own_inertia_key(), &Keys::inertia);
+  return made;
+}
+
+void build_viscous_damper(const Section& s, Network& net, Messages& messages) {
+  const auto damper = viscous_damper_fields().read(s, messages);
+  const int hub = single_shaft(s, damper.inertia, net);
+  const int ring = net.add_node(s.name, "ring", damper.ring_inertia);
   net.ports[s.name].others = {{"ring", ring}};
-  net.connect(hub, ring, 1, s.name, ViscousFilm{s.number("damping")});
+  net.connect(hub, ring, 1, s.name, static_cast<const ViscousFilm&>(damper));
 }
 
 }  // namespace
@@ -47,31 +95,11 @@ std::vector<Kind> fluid_kinds() {
       {.name = "fluid coupling",
        .doc = "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always",
        .placement = Placement::inline_two,
-       .keys =
-           joined({{.name = "diameter", .unit = "m", .domain = positive, .doc = "profile diameter D", .required = true},
-                   {.name = "density",
-                    .unit = "kg/m3",
-                    .fallback = "\"870 kg/m3\"",
-                    .domain = positive,
-                    .doc = "ρ of the fluid; oil unless given"},
-                   {.name = "lambda",
-                    .type = KeyType::curve,
-                    .unit = "1",
-                    .doc = "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²",
-                    .required = true,
-                    .choices = {"speed ratio"}}},
-                  side_inertia_keys()),
+       .keys = fluid_coupling_fields().keys(),
        .build = build_fluid_coupling},
       {.name = "viscous damper",
        .doc = "ring that hangs on the shaft by a viscous film (Houdaille)",
-       .keys =
-           {{.name = "ring_inertia", .unit = "kg*m2", .domain = positive, .doc = "of the free ring", .required = true},
-            {.name = "damping",
-             .unit = "N*m*s/rad",
-             .domain = positive,
-             .doc = "c of the film between ring and hub",
-             .required = true},
-            own_inertia_key()},
+       .keys = viscous_damper_fields().keys(),
        .build = build_viscous_damper},
   };
 }

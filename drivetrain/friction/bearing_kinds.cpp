@@ -28,48 +28,120 @@ std::string CreepingBearing::describe() const {
 
 namespace {
 
-constexpr const char* exact = "exact";
-constexpr const char* regularised = "regularised";
-constexpr const char* bristles = "LuGre";
+enum class Model { exact, regularised, bristles };
+const Words<Model>& models() {
+  static const Words<Model> words = {
+      {"exact", Model::exact}, {"regularised", Model::regularised}, {"LuGre", Model::bristles}};
+  return words;
+}
+const char* name_of(Model model) { return models()[static_cast<std::size_t>(model)].first; }
 
-void build_bearing(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  const std::string& model = s.text("model");
-  const auto refuse = [&](const char* key, const std::string& text) {
-    messages.add(s.where(key), fmt::format("bearing \"{}\": {}", s.name, text));
-  };
-  StribeckCurve curve{.kinetic = s.number("torque"),
-                      .breakaway = s.number_or("static_torque", s.number("torque")),
-                      .stribeck_speed = s.number_or("stribeck_speed", 1),
-                      .exponent = s.number("stribeck_exponent"),
-                      .viscous = s.number("damping")};
+struct BearingKeys {
+  double torque = 0;                     // M_c [N·m]
+  std::optional<double> static_torque;   // M_s [N·m]
+  std::optional<double> stribeck_speed;  // ω_s [rad/s]
+  double exponent = 2, damping = 0;      // n, b [N·m·s/rad]
+  Model model = Model::exact;
+  std::optional<double> creep_speed, bristle_stiffness, bristle_damping;  // ω_c, σ₀, σ₁
+  double inertia = 0;                                                     // [kg·m²]
+};
+
+const Fields<BearingKeys>& bearing_fields() {
+  using Keys = BearingKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "torque",
+                .unit = "N*m",
+                .domain = not_negative,
+                .doc = "kinetic friction torque M_c",
+                .required = true,
+                .effect = "bearing_friction"},
+               &Keys::torque)
+          .add({.name = "static_torque",
+                .unit = "N*m",
+                .domain = not_negative,
+                .doc = "M_s that it holds at standstill; default: M_c"},
+               &Keys::static_torque)
+          .add({.name = "stribeck_speed",
+                .unit = "rad/s",
+                .domain = positive,
+                .doc = "ω_s, over which friction falls from M_s to M_c; default: at once"},
+               &Keys::stribeck_speed)
+          .add({.name = "stribeck_exponent",
+                .fallback = "2",
+                .domain = {.low = 0.5, .high = 10},
+                .doc = "n in exp(−(ω/ω_s)ⁿ)"},
+               &Keys::exponent)
+          .add({.name = "damping",
+                .unit = "N*m*s/rad",
+                .fallback = "\"0 N*m*s/rad\"",
+                .domain = not_negative,
+                .doc = "viscous part b"},
+               &Keys::damping)
+          .add({.name = "model",
+                .fallback = "\"exact\"",
+                .doc = "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"},
+               &Keys::model, models())
+          .add({.name = "creep_speed",
+                .unit = "rad/s",
+                .domain = positive,
+                .doc = "ω_c of the regularised model, M = −g tanh(ω/ω_c)"},
+               &Keys::creep_speed)
+          .add({.name = "bristle_stiffness", .unit = "N*m/rad", .domain = positive, .doc = "σ₀ of LuGre"},
+               &Keys::bristle_stiffness)
+          .add({.name = "bristle_damping",
+                .unit = "N*m*s/rad",
+                .domain = not_negative,
+                .doc = "σ₁ of LuGre; default: 0"},
+               &Keys::bristle_damping)
+          .add(own_inertia_key(), &Keys::inertia);
+  return made;
+}
+
+// Without a Stribeck speed the exact model falls from M_s to M_c at once; the smooth ones need the way between.
+StribeckCurve curve_of(const Reading<BearingKeys>& b) {
+  StribeckCurve curve{.kinetic = b.torque,
+                      .breakaway = b.static_torque.value_or(b.torque),
+                      .stribeck_speed = b.stribeck_speed.value_or(1),
+                      .exponent = b.exponent,
+                      .viscous = b.damping};
   if (curve.breakaway < curve.kinetic)
-    refuse("static_torque",
-           fmt::format("static_torque = {:g} N·m; must be ≥ torque = {:g} N·m", curve.breakaway, curve.kinetic));
-  // Without a Stribeck speed the exact model falls from M_s to M_c at once; the smooth ones need the way between.
-  const bool falls = curve.breakaway > curve.kinetic;
-  if (falls && !s.given("stribeck_speed")) {
-    if (model != exact)
-      refuse("static_torque",
-             fmt::format("static_torque > torque needs \"stribeck_speed\" with model = \"{}\"", model));
+    b.refuse(&BearingKeys::static_torque,
+             fmt::format("static_torque = {:g} N·m; must be ≥ torque = {:g} N·m", curve.breakaway, curve.kinetic));
+  if (curve.breakaway > curve.kinetic && !b.stribeck_speed) {
+    if (b.model != Model::exact)
+      b.refuse(&BearingKeys::static_torque,
+               fmt::format("static_torque > torque needs \"stribeck_speed\" with model = \"{}\"", name_of(b.model)));
     curve.stribeck_speed = 0;
   }
-  const std::pair<const char*, const char*> keys_of_models[] = {
-      {"creep_speed", regularised}, {"bristle_stiffness", bristles}, {"bristle_damping", bristles}};
-  for (const auto& [key, owner] : keys_of_models)
-    if (s.given(key) && model != owner)
-      refuse(key, fmt::format("\"{}\" belongs to model = \"{}\"; here it is \"{}\"", key, owner, model));
-  if (model == exact) {
+  return curve;
+}
+
+void build_bearing(const Section& s, Network& net, Messages& messages) {
+  using Keys = BearingKeys;
+  const auto b = bearing_fields().read(s, messages);
+  const int node = single_shaft(s, b.inertia, net);
+  const StribeckCurve curve = curve_of(b);
+  const std::pair<std::optional<double> Keys::*, Model> owners[] = {{&Keys::creep_speed, Model::regularised},
+                                                                    {&Keys::bristle_stiffness, Model::bristles},
+                                                                    {&Keys::bristle_damping, Model::bristles}};
+  for (const auto& [member, owner] : owners)
+    if (b.*member && b.model != owner)
+      b.refuse(member, fmt::format("\"{}\" belongs to model = \"{}\"; here it is \"{}\"", b.key(member), name_of(owner),
+                                   name_of(b.model)));
+  if (b.model == Model::exact) {
     net.put(node, s.name, StickingBearing{curve});
-  } else if (model == regularised) {
-    if (!s.given("creep_speed"))
-      return refuse("model", "model = \"regularised\" needs \"creep_speed\": it creeps with about that speed");
-    net.put(node, s.name, CreepingBearing{curve, s.number("creep_speed"), s.name});
+  } else if (b.model == Model::regularised) {
+    if (b.creep_speed)
+      net.put(node, s.name, CreepingBearing{curve, *b.creep_speed, s.name});
+    else
+      b.refuse(&Keys::model, "model = \"regularised\" needs \"creep_speed\": it creeps with about that speed");
+  } else if (!b.bristle_stiffness) {
+    b.refuse(&Keys::model, "model = \"LuGre\" needs \"bristle_stiffness\", the stiffness of presliding");
+  } else if (curve.kinetic == 0) {
+    b.refuse(&Keys::torque, "torque = 0 N·m; must be > 0 with model = \"LuGre\"");
   } else {
-    if (!s.given("bristle_stiffness"))
-      return refuse("model", "model = \"LuGre\" needs \"bristle_stiffness\", the stiffness of presliding");
-    if (curve.kinetic == 0) return refuse("torque", "torque = 0 N·m; must be > 0 with model = \"LuGre\"");
-    net.put(node, s.name, BristleBearing{curve, s.number("bristle_stiffness"), s.number_or("bristle_damping", 0)});
+    net.put(node, s.name, BristleBearing{curve, *b.bristle_stiffness, b.bristle_damping.value_or(0)});
   }
 }
 
@@ -79,42 +151,7 @@ std::vector<Kind> bearing_kinds() {
   return {
       {.name = "bearing",
        .doc = "friction against the frame: Coulomb, Stribeck and viscous part; sticks at standstill",
-       .keys =
-           {{.name = "torque",
-             .unit = "N*m",
-             .domain = not_negative,
-             .doc = "kinetic friction torque M_c",
-             .required = true,
-             .effect = "bearing_friction"},
-            {.name = "static_torque",
-             .unit = "N*m",
-             .domain = not_negative,
-             .doc = "M_s that it holds at standstill; default: M_c"},
-            {.name = "stribeck_speed",
-             .unit = "rad/s",
-             .domain = positive,
-             .doc = "ω_s, over which friction falls from M_s to M_c; default: at once"},
-            {.name = "stribeck_exponent",
-             .fallback = "2",
-             .domain = {.low = 0.5, .high = 10},
-             .doc = "n in exp(−(ω/ω_s)ⁿ)"},
-            {.name = "damping",
-             .unit = "N*m*s/rad",
-             .fallback = "\"0 N*m*s/rad\"",
-             .domain = not_negative,
-             .doc = "viscous part b"},
-            {.name = "model",
-             .type = KeyType::text,
-             .fallback = "\"exact\"",
-             .doc = "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip",
-             .choices = {exact, regularised, bristles}},
-            {.name = "creep_speed",
-             .unit = "rad/s",
-             .domain = positive,
-             .doc = "ω_c of the regularised model, M = −g tanh(ω/ω_c)"},
-            {.name = "bristle_stiffness", .unit = "N*m/rad", .domain = positive, .doc = "σ₀ of LuGre"},
-            {.name = "bristle_damping", .unit = "N*m*s/rad", .domain = not_negative, .doc = "σ₁ of LuGre; default: 0"},
-            own_inertia_key()},
+       .keys = bearing_fields().keys(),
        .build = build_bearing},
   };
 }

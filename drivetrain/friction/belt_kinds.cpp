@@ -7,7 +7,6 @@
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/belt.h"
 #include "drivetrain/friction/kinds.h"
-#include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 #include "engine/scene/effects.h"
 
@@ -29,42 +28,111 @@ std::string BeltData::describe() const {
 
 namespace {
 
-void build_belt(const Section& s, Network& net, Messages& messages) {
-  const int in = net.add_node(s.name, "in", s.number("inertia_in"));
-  const int out = net.add_node(s.name, "out", s.number("inertia_out"));
-  net.ports[s.name] = {in, out, {}};
-  const auto refuse = [&](const char* key, const std::string& text) {
-    messages.add(s.where(key), fmt::format("belt \"{}\": {}", s.name, text));
-  };
-  const double d1 = s.number("diameter_in"), d2 = s.number("diameter_out");
-  const double distance = s.number_or("centre_distance", 0);
-  const bool has_distance = s.given("centre_distance");
-  if (has_distance && distance <= 0.5 * (d1 + d2))
-    return refuse("centre_distance", fmt::format("centre_distance = {:g} mm; the pulleys touch below {:g} mm",
-                                                 distance * 1e3, 500 * (d1 + d2)));
-  if (!s.given("wrap_angle") && !has_distance)
-    return refuse("wrap_angle", "\"wrap_angle\" is missing; give it, or \"centre_distance\"");
-  if (s.given("stiffness") && s.given("axial_stiffness"))
-    return refuse("axial_stiffness", "\"stiffness\" and \"axial_stiffness\" both given; keep one");
-  if (s.given("axial_stiffness") && !has_distance)
-    return refuse("axial_stiffness",
-                  "\"axial_stiffness\" needs \"centre_distance\", which gives the length of the strands");
-  const double wrap = s.number_or("wrap_angle", has_distance ? open_belt_wrap(d1, d2, distance) : 0);
-  double friction = s.number("friction_coefficient");
-  if (s.given("groove_angle")) friction /= std::sin(0.5 * s.number("groove_angle"));
-  BeltData data{.name = s.name, .ratio = d2 / d1, .radius = 0.5 * d1, .damping = damping_of(s, messages)};
-  data.limit = data.radius * eytelwein_force(s.number("pretension"), friction, wrap);
-  data.axial_stiffness = s.number_or("axial_stiffness", 0);
-  data.stiffness = s.number_or("stiffness", 0);
-  if (has_distance && data.axial_stiffness > 0) {
-    const double strand = std::sqrt(distance * distance - 0.25 * (d2 - d1) * (d2 - d1));
-    data.stiffness = 2 * data.axial_stiffness * data.radius * data.radius / strand;
+struct BeltKeys {
+  double diameter_in = 0, diameter_out = 0;                         // d₁, d₂ [m]
+  double pretension = 0, friction = 0;                              // F₀ [N], μ
+  std::optional<double> wrap_angle, centre_distance, groove_angle;  // α [rad], [m], γ [rad]
+  std::optional<double> stiffness, axial_stiffness;                 // k [N·m/rad], EA [N]
+  SideInertias inertia;
+  Damping damping;
+
+  // α on the pulley that the belt wraps less.
+  double wrap() const {
+    return wrap_angle ? *wrap_angle : open_belt_wrap(diameter_in, diameter_out, centre_distance.value());
   }
+  // Of one strand of the open drive [m].
+  double strand() const {
+    const double difference = diameter_out - diameter_in;
+    return std::sqrt(*centre_distance * *centre_distance - 0.25 * difference * difference);
+  }
+};
+
+const Fields<BeltKeys>& belt_fields() {
+  using Keys = BeltKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "diameter_in",
+                .unit = "m",
+                .domain = positive,
+                .doc = "d₁ of the driving pulley",
+                .required = true},
+               &Keys::diameter_in)
+          .add({.name = "diameter_out",
+                .unit = "m",
+                .domain = positive,
+                .doc = "d₂ of the driven pulley",
+                .required = true},
+               &Keys::diameter_out)
+          .add({.name = "pretension",
+                .unit = "N",
+                .domain = positive,
+                .doc = "F₀ in each strand, unloaded and at speed",
+                .required = true},
+               &Keys::pretension)
+          .add({.name = "friction_coefficient",
+                .domain = positive,
+                .doc = "μ between belt and pulley",
+                .required = true},
+               &Keys::friction)
+          .add({.name = "wrap_angle",
+                .unit = "rad",
+                .domain = {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
+                .doc = "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"},
+               &Keys::wrap_angle)
+          .add({.name = "centre_distance", .unit = "m", .domain = positive, .doc = "of the pulleys"},
+               &Keys::centre_distance)
+          .add({.name = "groove_angle",
+                .unit = "rad",
+                .domain = {.low = 0, .high = std::numbers::pi, .low_open = true},
+                .doc = "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"},
+               &Keys::groove_angle)
+          .add({.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = "k, referred to the driving pulley"},
+               &Keys::stiffness)
+          .add({.name = "axial_stiffness",
+                .unit = "N",
+                .domain = positive,
+                .doc = "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"},
+               &Keys::axial_stiffness)
+          .add(side_inertia_fields(), &Keys::inertia)
+          .add(damping_fields(), &Keys::damping);
+  return made;
+}
+
+bool fits(const Reading<BeltKeys>& b) {
+  using Keys = BeltKeys;
+  const double mean = 0.5 * (b.diameter_in + b.diameter_out);
+  if (b.centre_distance && *b.centre_distance <= mean)
+    return b.refuse(&Keys::centre_distance, fmt::format("centre_distance = {:g} mm; the pulleys touch below {:g} mm",
+                                                        *b.centre_distance * 1e3, mean * 1e3));
+  if (!b.wrap_angle && !b.centre_distance)
+    return b.refuse(&Keys::wrap_angle, "\"wrap_angle\" is missing; give it, or \"centre_distance\"");
+  if (!b.keep_one(&Keys::stiffness, &Keys::axial_stiffness)) return false;
+  if (b.axial_stiffness && !b.centre_distance)
+    return b.refuse(&Keys::axial_stiffness,
+                    "\"axial_stiffness\" needs \"centre_distance\", which gives the length of the strands");
+  if (!b.stiffness && !b.axial_stiffness)
+    for (const std::string& key : b.given_keys(&Keys::damping))
+      if (key != "damping_frequency")
+        return b.refuse(key, fmt::format("\"{}\" needs the belt's elasticity; give \"stiffness\" or "
+                                         "\"axial_stiffness\"",
+                                         key));
+  return true;
+}
+
+void build_belt(const Section& s, Network& net, Messages& messages) {
+  const auto b = belt_fields().read(s, messages);
+  const auto [in, out] = two_shafts(s, b.inertia, net);
+  if (!fits(b)) return;
+  const double friction = b.groove_angle ? b.friction / std::sin(0.5 * *b.groove_angle) : b.friction;
+  BeltData data{.name = s.name,
+                .ratio = b.diameter_out / b.diameter_in,
+                .radius = 0.5 * b.diameter_in,
+                .stiffness = b.stiffness.value_or(0),
+                .axial_stiffness = b.axial_stiffness.value_or(0),
+                .damping = b.damping};
+  data.limit = data.radius * eytelwein_force(b.pretension, friction, b.wrap());
+  if (b.axial_stiffness) data.stiffness = 2 * data.axial_stiffness * data.radius * data.radius / b.strand();
   if (data.stiffness > 0) return net.connect(in, out, data.ratio, s.name, data);
-  for (const char* key : {"damping", "damping_ratio", "relative_damping", "loss_factor"})
-    if (s.given(key))
-      return refuse(key,
-                    fmt::format("\"{}\" needs the belt's elasticity; give \"stiffness\" or \"axial_stiffness\"", key));
   net.connect(in, out, data.ratio, s.name, RigidBelt{data.limit, data.describe()});
 }
 
@@ -75,38 +143,7 @@ std::vector<Kind> belt_kinds() {
       {.name = "belt",
        .doc = "belt drive that slips at the limit of Euler and Eytelwein; elastic where a stiffness is given",
        .placement = Placement::inline_two,
-       .keys = joined(
-           {{.name = "diameter_in",
-             .unit = "m",
-             .domain = positive,
-             .doc = "d₁ of the driving pulley",
-             .required = true},
-            {.name = "diameter_out",
-             .unit = "m",
-             .domain = positive,
-             .doc = "d₂ of the driven pulley",
-             .required = true},
-            {.name = "pretension",
-             .unit = "N",
-             .domain = positive,
-             .doc = "F₀ in each strand, unloaded and at speed",
-             .required = true},
-            {.name = "friction_coefficient", .domain = positive, .doc = "μ between belt and pulley", .required = true},
-            {.name = "wrap_angle",
-             .unit = "rad",
-             .domain = {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
-             .doc = "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"},
-            {.name = "centre_distance", .unit = "m", .domain = positive, .doc = "of the pulleys"},
-            {.name = "groove_angle",
-             .unit = "rad",
-             .domain = {.low = 0, .high = std::numbers::pi, .low_open = true},
-             .doc = "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"},
-            {.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = "k, referred to the driving pulley"},
-            {.name = "axial_stiffness",
-             .unit = "N",
-             .domain = positive,
-             .doc = "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"}},
-           joined(side_inertia_keys(), damping_keys())),
+       .keys = belt_fields().keys(),
        .build = build_belt,
        .elastic = true},
   };

@@ -13,95 +13,181 @@ namespace kurbel {
 namespace {
 
 // Capacity as it is, or from plates and the force that presses them.
-std::vector<Key> capacity_keys() {
-  return {{.name = "torque", .unit = "N*m", .domain = positive, .doc = "torque M_k that it transmits while it slips"},
-          {.name = "static_torque",
-           .unit = "N*m",
-           .domain = positive,
-           .doc = "torque M_s that it holds without slipping; default: M_k"},
-          {.name = "slope",
-           .unit = "N*m*s/rad",
-           .fallback = "\"0 N*m*s/rad\"",
-           .doc = "change of M_k with the speed of slip; negative: falling"},
-          {.name = "force",
-           .unit = "N",
-           .domain = positive,
-           .doc = "axial force, with radii and friction, in place of torque"},
-          {.name = "plates",
-           .type = KeyType::integer,
-           .fallback = "2",
-           .domain = {.low = 1, .high = 200},
-           .doc = "number of friction faces"},
-          {.name = "friction_coefficient", .domain = positive, .doc = "μ while slipping"},
-          {.name = "static_friction_coefficient", .domain = positive, .doc = "μ₀ at rest; default: μ"},
-          {.name = "outer_radius", .unit = "m", .domain = positive, .doc = "of the friction faces"},
-          {.name = "inner_radius", .unit = "m", .domain = not_negative, .doc = "of the friction faces"}};
-}
-
 struct Capacity {
-  double kinetic = 0, breakaway = 0, slope = 0;
+  double kinetic = 0, breakaway = 0, slope = 0;  // M_k, M_s [N·m], [N·m·s/rad]
+};
+struct CapacityKeys : Capacity {
+  std::optional<double> torque, static_torque;       // M_k, M_s [N·m]
+  std::optional<double> force;                       // F [N]
+  int plates = 2;                                    // n
+  std::optional<double> friction, static_friction;   // μ, μ₀
+  std::optional<double> outer_radius, inner_radius;  // [m]
+
+  double outer() const { return outer_radius.value_or(1); }
+  double inner() const { return inner_radius.value_or(0); }
 };
 
 // M_k = n μ F r_m, r_m = ⅔ (r_o³ − r_i³)/(r_o² − r_i²): uniform pressure (Dubbel, G3).
-Capacity capacity_of(const Section& s, Messages& messages) {
-  const auto refuse = [&](const char* key, const std::string& text) {
-    messages.add(s.where(key), fmt::format("{} \"{}\": {}", s.kind->name, s.name, text));
-  };
-  Capacity c{.slope = s.number("slope")};
-  if (s.given("torque") == s.given("force")) {
-    refuse("torque", s.given("torque") ? "\"torque\" and \"force\" both given; keep one"
-                                       : "\"torque\" is missing; give it, or \"force\" with radii and friction");
-    return c;
-  }
-  if (s.given("torque")) {
-    for (const char* key : {"friction_coefficient", "static_friction_coefficient", "outer_radius", "inner_radius"})
-      if (s.given(key)) refuse(key, fmt::format("\"{}\" belongs to \"force\", which is not given; drop it", key));
-    c.kinetic = s.number("torque");
-    c.breakaway = s.number_or("static_torque", c.kinetic);
-  } else {
-    for (const char* key : {"friction_coefficient", "outer_radius", "inner_radius"})
-      if (!s.given(key)) refuse("force", fmt::format("\"{}\" is missing beside \"force\"", key));
-    if (s.given("static_torque")) refuse("static_torque", "give static_friction_coefficient with \"force\"");
-    const double outer = s.number_or("outer_radius", 1), inner = s.number_or("inner_radius", 0);
-    if (inner >= outer) {
-      refuse("inner_radius",
-             fmt::format("inner_radius = {:g} mm; must be < outer_radius = {:g} mm", inner * 1e3, outer * 1e3));
-      return c;
-    }
+void settle(CapacityKeys& c) {
+  if (c.torque) {
+    c.kinetic = *c.torque;
+    c.breakaway = c.static_torque.value_or(c.kinetic);
+  } else if (c.force && c.inner() < c.outer()) {
+    const double outer = c.outer(), inner = c.inner();
     const double mean = 2.0 / 3 * (std::pow(outer, 3) - std::pow(inner, 3)) / (outer * outer - inner * inner);
-    const double per_friction = s.number("plates") * s.number("force") * mean;
-    const double friction = s.number_or("friction_coefficient", 0);
-    c.kinetic = per_friction * friction;
-    c.breakaway = per_friction * s.number_or("static_friction_coefficient", friction);
+    const double per_friction = c.plates * *c.force * mean;
+    c.kinetic = per_friction * c.friction.value_or(0);
+    c.breakaway = per_friction * c.static_friction.value_or(c.friction.value_or(0));
   }
+}
+
+void check_plates(const Reading<CapacityKeys>& c) {
+  using Keys = CapacityKeys;
+  for (const auto member : {&Keys::friction, &Keys::outer_radius, &Keys::inner_radius})
+    if (!(c.*member)) c.refuse(&Keys::force, fmt::format("\"{}\" is missing beside \"force\"", c.key(member)));
+  if (c.static_torque) c.refuse(&Keys::static_torque, "give static_friction_coefficient with \"force\"");
+  if (c.inner() >= c.outer())
+    c.refuse(&Keys::inner_radius,
+             fmt::format("inner_radius = {:g} mm; must be < outer_radius = {:g} mm", c.inner() * 1e3, c.outer() * 1e3));
+}
+
+void check_capacity(const Reading<CapacityKeys>& c) {
+  using Keys = CapacityKeys;
+  if (c.torque.has_value() == c.force.has_value()) {
+    c.refuse(&Keys::torque, c.torque ? "\"torque\" and \"force\" both given; keep one"
+                                     : "\"torque\" is missing; give it, or \"force\" with radii and friction");
+    return;
+  }
+  if (c.force)
+    check_plates(c);
+  else
+    c.drop_without(&Keys::force, &Keys::friction, &Keys::static_friction, &Keys::outer_radius, &Keys::inner_radius);
   if (c.breakaway < c.kinetic)
-    refuse(s.given("torque") ? "static_torque" : "static_friction_coefficient",
-           fmt::format("it holds {:g} N·m at rest but {:g} N·m while it slips; static friction must be ≥ kinetic",
-                       c.breakaway, c.kinetic));
-  return c;
+    c.refuse(c.torque ? &Keys::static_torque : &Keys::static_friction,
+             fmt::format("it holds {:g} N·m at rest but {:g} N·m while it slips; static friction must be ≥ kinetic",
+                         c.breakaway, c.kinetic));
+}
+
+const Fields<CapacityKeys>& capacity_fields() {
+  using Keys = CapacityKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "torque",
+                .unit = "N*m",
+                .domain = positive,
+                .doc = "torque M_k that it transmits while it slips"},
+               &Keys::torque)
+          .add({.name = "static_torque",
+                .unit = "N*m",
+                .domain = positive,
+                .doc = "torque M_s that it holds without slipping; default: M_k"},
+               &Keys::static_torque)
+          .add({.name = "slope",
+                .unit = "N*m*s/rad",
+                .fallback = "\"0 N*m*s/rad\"",
+                .doc = "change of M_k with the speed of slip; negative: falling"},
+               &Keys::slope)
+          .add({.name = "force",
+                .unit = "N",
+                .domain = positive,
+                .doc = "axial force, with radii and friction, in place of torque"},
+               &Keys::force)
+          .add(
+              {.name = "plates", .fallback = "2", .domain = {.low = 1, .high = 200}, .doc = "number of friction faces"},
+              &Keys::plates)
+          .add({.name = "friction_coefficient", .domain = positive, .doc = "μ while slipping"}, &Keys::friction)
+          .add({.name = "static_friction_coefficient", .domain = positive, .doc = "μ₀ at rest; default: μ"},
+               &Keys::static_friction)
+          .add({.name = "outer_radius", .unit = "m", .domain = positive, .doc = "of the friction faces"},
+               &Keys::outer_radius)
+          .add({.name = "inner_radius", .unit = "m", .domain = not_negative, .doc = "of the friction faces"},
+               &Keys::inner_radius)
+          .derive(settle)
+          .check(check_capacity);
+  return made;
+}
+
+struct ClutchKeys {
+  Capacity capacity;
+  SideInertias inertia;
+};
+const Fields<ClutchKeys>& clutch_fields() {
+  static const auto made = Fields<ClutchKeys>()
+                               .add(capacity_fields(), &ClutchKeys::capacity)
+                               .add(side_inertia_fields(), &ClutchKeys::inertia);
+  return made;
+}
+
+struct LimiterKeys {
+  double torque = 0, slipping_part = 1;  // M_s [N·m]
+  SideInertias inertia;
+};
+const Fields<LimiterKeys>& limiter_fields() {
+  static const auto made =
+      Fields<LimiterKeys>()
+          .add({.name = "torque", .unit = "N*m", .domain = positive, .doc = "limit M_s", .required = true},
+               &LimiterKeys::torque)
+          .add({.name = "slipping_part",
+                .fallback = "1",
+                .domain = {.low = 0, .high = 1},
+                .doc = "torque while it slips over the limit"},
+               &LimiterKeys::slipping_part)
+          .add(side_inertia_fields(), &LimiterKeys::inertia);
+  return made;
+}
+
+struct OneWayKeys : OneWayClutch {
+  SideInertias inertia;
+};
+const Fields<OneWayKeys>& one_way_fields() {
+  static const auto made = Fields<OneWayKeys>()
+                               .add({.name = "drag",
+                                     .unit = "N*m",
+                                     .fallback = "\"0 N*m\"",
+                                     .domain = not_negative,
+                                     .doc = "torque while the driven side runs ahead"},
+                                    &OneWayKeys::drag)
+                               .add(side_inertia_fields(), &OneWayKeys::inertia);
+  return made;
+}
+
+struct BrakeKeys {
+  Capacity capacity;
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+const Fields<BrakeKeys>& brake_fields() {
+  static const auto made = Fields<BrakeKeys>()
+                               .add(capacity_fields(), &BrakeKeys::capacity)
+                               .add(own_inertia_key(), &BrakeKeys::inertia)
+                               .add(window_fields(), &BrakeKeys::window);
+  return made;
 }
 
 template <class Element>
-void join_by(const Section& s, Network& net, Element element) {
-  const int in = net.add_node(s.name, "in", s.number("inertia_in"));
-  const int out = net.add_node(s.name, "out", s.number("inertia_out"));
-  net.ports[s.name] = {in, out, {}};
+void join_by(const Section& s, const SideInertias& inertia, Network& net, Element element) {
+  const auto [in, out] = two_shafts(s, inertia, net);
   net.connect(in, out, 1, s.name, element);
 }
 
 void build_clutch(const Section& s, Network& net, Messages& messages) {
-  const Capacity c = capacity_of(s, messages);
-  join_by(s, net, FrictionClutch{c.kinetic, c.breakaway, c.slope});
+  const auto clutch = clutch_fields().read(s, messages);
+  const Capacity& c = clutch.capacity;
+  join_by(s, clutch.inertia, net, FrictionClutch{c.kinetic, c.breakaway, c.slope});
 }
-void build_limiter(const Section& s, Network& net, Messages&) {
-  const double limit = s.number("torque");
-  join_by(s, net, FrictionClutch{limit * s.number("slipping_part"), limit, 0});
+void build_limiter(const Section& s, Network& net, Messages& messages) {
+  const auto limiter = limiter_fields().read(s, messages);
+  join_by(s, limiter.inertia, net, FrictionClutch{limiter.torque * limiter.slipping_part, limiter.torque, 0});
 }
-void build_one_way(const Section& s, Network& net, Messages&) { join_by(s, net, OneWayClutch{s.number("drag")}); }
+void build_one_way(const Section& s, Network& net, Messages& messages) {
+  const auto clutch = one_way_fields().read(s, messages);
+  join_by(s, clutch.inertia, net, static_cast<const OneWayClutch&>(clutch));
+}
 
 void build_brake(const Section& s, Network& net, Messages& messages) {
-  const Capacity c = capacity_of(s, messages);
-  net.put(single_shaft(s, net), s.name, FrictionBrake{c.kinetic, c.breakaway, c.slope}, window_of(s, messages));
+  const auto brake = brake_fields().read(s, messages);
+  const Capacity& c = brake.capacity;
+  net.put(single_shaft(s, brake.inertia, net), s.name, FrictionBrake{c.kinetic, c.breakaway, c.slope}, brake.window);
 }
 
 }  // namespace
@@ -111,31 +197,21 @@ std::vector<Kind> clutch_kinds() {
       {.name = "clutch",
        .doc = "friction clutch between two half inertias; an operating sequence engages and releases it",
        .placement = Placement::inline_two,
-       .keys = joined(capacity_keys(), side_inertia_keys()),
+       .keys = clutch_fields().keys(),
        .build = build_clutch},
       {.name = "torque limiter",
        .doc = "slips at its limit, holds below it",
        .placement = Placement::inline_two,
-       .keys = joined({{.name = "torque", .unit = "N*m", .domain = positive, .doc = "limit M_s", .required = true},
-                       {.name = "slipping_part",
-                        .fallback = "1",
-                        .domain = {.low = 0, .high = 1},
-                        .doc = "torque while it slips over the limit"}},
-                      side_inertia_keys()),
+       .keys = limiter_fields().keys(),
        .build = build_limiter},
       {.name = "one-way clutch",
        .doc = "drives forwards only; the driven side may run ahead",
        .placement = Placement::inline_two,
-       .keys = joined({{.name = "drag",
-                        .unit = "N*m",
-                        .fallback = "\"0 N*m\"",
-                        .domain = not_negative,
-                        .doc = "torque while the driven side runs ahead"}},
-                      side_inertia_keys()),
+       .keys = one_way_fields().keys(),
        .build = build_one_way},
       {.name = "brake",
        .doc = "friction against the frame; an operating sequence applies it, without one it always brakes",
-       .keys = joined(joined(capacity_keys(), {own_inertia_key()}), window_keys()),
+       .keys = brake_fields().keys(),
        .build = build_brake},
   };
 }

@@ -1,18 +1,46 @@
-// gear_keys.h — keys of a gear stage that is given by its teeth's geometry, and how they are read.
+// gear_keys.h — fields of a gear stage that is given by its teeth's geometry.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "drivetrain/gears/gear_pair.h"
-#include "engine/scene/keys.h"
+#include "engine/scene/fields.h"
 
 namespace kurbel {
 
-const std::vector<Key>& gear_geometry_keys();
+// A list, where it is given, holds a value for each wheel; another number of them is refused.
+std::string two_wanted(const std::string& key, std::size_t count);
+template <class D, class B, class List>
+bool has_two(const Reading<D>& reading, List B::*member) {
+  std::size_t count = 2;
+  if constexpr (requires { (reading.*member).size(); })
+    count = (reading.*member).size();
+  else if (reading.*member)
+    count = (reading.*member)->size();
+  return count == 2 || reading.refuse(member, two_wanted(reading.key(member), count));
+}
 
-// The pair of a stage with a module; nothing where the stage has none. Faults go into the messages with their place;
-// `what` names the stage in them.
+Key teeth_key();  // of both wheels, driving wheel first
+
+struct GearGeometryKeys : GearPairData {
+  double width_of_both = 0;         // b [m]; 0: not known
+  std::optional<double> allowance;  // j_bn [m]
+  bool is_internal = false;         // the driven wheel
+  std::optional<std::vector<double>> shifts, tip_diameters, bores;
+
+  bool is_given() const { return module > 0; }
+};
+// `gap_effect`: that the allowance of the flanks gives the parameters for, where it is a gap in the motion.
+Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect = "");
+
+// The pair of a stage with a module; nothing where the stage has none, or one that cannot be. `refuse` is told why.
+std::optional<GearPair> gear_pair_of(const GearGeometryKeys& geometry, const std::vector<int>& teeth,
+                                     const std::function<void(const std::string&)>& refuse);
+// The same of a sound table with teeth and geometry. Faults go into the messages with their place; `what` names the
+// stage in them.
 std::optional<GearPair> gear_pair_of(const Section& stage, const std::string& what, Messages& messages);
 
 }  // namespace kurbel

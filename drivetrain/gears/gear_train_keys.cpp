@@ -9,57 +9,55 @@
 
 namespace kurbel {
 
-const std::vector<Key>& efficiency_keys() {
-  static const std::vector<Key> keys = {
-      {.name = "efficiency",
-       .domain = {.low = 0, .high = 1, .low_open = true},
-       .doc = "η, whichever side drives",
-       .effect = "gear_losses"},
-      {.name = "efficiency_forwards",
-       .domain = {.low = 0, .high = 1, .low_open = true},
-       .doc = "η₁ when the input drives, in place of efficiency",
-       .effect = "gear_losses"},
-      {.name = "efficiency_backwards",
-       .domain = {.high = 1},
-       .doc = "η₂ when the output drives; ≤ 0: self-locking",
-       .effect = "gear_losses"},
-      {.name = "bearing_torque",
-       .unit = "N*m",
-       .domain = not_negative,
-       .doc = "friction of the bearings b₁ on the input shaft while the input drives",
-       .effect = "gear_losses"},
-      {.name = "bearing_torque_backwards",
-       .unit = "N*m",
-       .domain = not_negative,
-       .doc = "b₂ on the input shaft while the output drives; default: b₁",
-       .effect = "gear_losses"},
-  };
-  return keys;
-}
+namespace {
 
-bool gives_efficiency(const Section& section) {
-  return std::any_of(efficiency_keys().begin(), efficiency_keys().end(),
-                     [&](const Key& key) { return section.given(key.name); });
-}
-
-GearEfficiency efficiency_of(const Section& s, const std::string& what, Messages& messages) {
-  if (s.given("efficiency"))
-    for (const char* key : {"efficiency_forwards", "efficiency_backwards"})
-      if (s.given(key))
-        messages.add(s.where(key), fmt::format("{}: \"efficiency\" and \"{}\" both given; keep one", what, key));
-  const double both = s.number_or("efficiency", 1);
-  GearEfficiency e;
-  e.forwards = s.number_or("efficiency_forwards", both);
-  e.backwards = s.number_or("efficiency_backwards", both);
-  e.bearing_driving = s.number_or("bearing_torque", 0);
-  e.bearing_driven = s.number_or("bearing_torque_backwards", e.bearing_driving);
+void check_efficiency(const Reading<EfficiencyKeys>& e) {
+  using Keys = EfficiencyKeys;
+  e.keep_one(&Keys::both, &Keys::forwards);
+  e.keep_one(&Keys::both, &Keys::backwards);
   if (e.bearing_driven != e.bearing_driving && (e.self_locking() || (e.forwards == 1 && e.backwards == 1)))
-    messages.add(s.where("bearing_torque_backwards"),
-                 fmt::format("{}: bearing_torque_backwards = {:g} N·m; must equal bearing_torque = {:g} N·m where the "
-                             "gear {}; leave it out",
-                             what, e.bearing_driven, e.bearing_driving,
-                             e.self_locking() ? "locks itself" : "has no other losses"));
-  return e;
+    e.refuse(
+        &Keys::bearing_driven,
+        fmt::format("bearing_torque_backwards = {:g} N·m; must equal bearing_torque = {:g} N·m where the gear {}; "
+                    "leave it out",
+                    e.bearing_driven, e.bearing_driving, e.self_locking() ? "locks itself" : "has no other losses"));
+}
+
+}  // namespace
+
+const Fields<EfficiencyKeys>& efficiency_fields() {
+  using Keys = EfficiencyKeys;
+  const auto of_both = [](const Keys& e) { return e.both.value_or(1); };
+  static const auto made = Fields<Keys>()
+                               .add({.name = "efficiency",
+                                     .domain = {.low = 0, .high = 1, .low_open = true},
+                                     .doc = "η, whichever side drives",
+                                     .effect = "gear_losses"},
+                                    &Keys::both)
+                               .add({.name = "efficiency_forwards",
+                                     .domain = {.low = 0, .high = 1, .low_open = true},
+                                     .doc = "η₁ when the input drives, in place of efficiency",
+                                     .effect = "gear_losses"},
+                                    &Keys::forwards, of_both)
+                               .add({.name = "efficiency_backwards",
+                                     .domain = {.high = 1},
+                                     .doc = "η₂ when the output drives; ≤ 0: self-locking",
+                                     .effect = "gear_losses"},
+                                    &Keys::backwards, of_both)
+                               .add({.name = "bearing_torque",
+                                     .unit = "N*m",
+                                     .domain = not_negative,
+                                     .doc = "friction of the bearings b₁ on the input shaft while the input drives",
+                                     .effect = "gear_losses"},
+                                    &Keys::bearing_driving)
+                               .add({.name = "bearing_torque_backwards",
+                                     .unit = "N*m",
+                                     .domain = not_negative,
+                                     .doc = "b₂ on the input shaft while the output drives; default: b₁",
+                                     .effect = "gear_losses"},
+                                    &Keys::bearing_driven, &Keys::bearing_driving)
+                               .check(check_efficiency);
+  return made;
 }
 
 void join_gear(Network& net, int a, int b, double ratio, const std::string& component, const GearEfficiency* losses) {

@@ -7,20 +7,22 @@
 namespace kurbel {
 namespace {
 
-void build_inertia(const Section& s, Network& net, Messages&) { single_shaft(s, net); }
+struct BodyKeys {
+  double inertia = 0;  // [kg·m²]
+};
+const Fields<BodyKeys>& body_fields() {
+  static const auto made = Fields<BodyKeys>().add(inertia_key("", "moment of inertia"), &BodyKeys::inertia);
+  return made;
+}
+
+void build_inertia(const Section& s, Network& net, Messages&) { single_shaft(s, body_fields().read(s).inertia, net); }
 
 }  // namespace
 
 std::vector<Kind> inertia_kinds() {
   return {
-      {.name = "inertia",
-       .doc = "rigid body on the shaft",
-       .keys = {inertia_key("", "moment of inertia")},
-       .build = build_inertia},
-      {.name = "flywheel",
-       .doc = "the same, by its usual name",
-       .keys = {inertia_key("", "moment of inertia")},
-       .build = build_inertia},
+      {.name = "inertia", .doc = "rigid body on the shaft", .keys = body_fields().keys(), .build = build_inertia},
+      {.name = "flywheel", .doc = "the same, by its usual name", .keys = body_fields().keys(), .build = build_inertia},
   };
 }
 

@@ -11,32 +11,97 @@
 namespace kurbel {
 namespace {
 
+struct DragKeys {
+  double damping = 0;  // b [N·m·s/rad]
+  double inertia = 0;  // [kg·m²]
+};
+const Fields<DragKeys>& drag_fields() {
+  static const auto made = Fields<DragKeys>()
+                               .add({.name = "damping",
+                                     .unit = "N*m*s/rad",
+                                     .domain = not_negative,
+                                     .doc = "b in M = −b ω",
+                                     .required = true},
+                                    &DragKeys::damping)
+                               .add(own_inertia_key(), &DragKeys::inertia);
+  return made;
+}
+
 void build_drag(const Section& s, Network& net, Messages&) {
-  net.put(single_shaft(s, net), s.name, SpeedLoad{Account::harmful, s.number("damping"), 0});
+  const DragKeys drag = drag_fields().read(s);
+  net.put(single_shaft(s, drag.inertia, net), s.name, SpeedLoad{Account::harmful, drag.damping, 0});
+}
+
+struct LoadKeys {
+  double torque = 0;  // M₀ [N·m]
+  bool always_backwards = false;
+  double viscous = 0, quadratic = 0;  // b [N·m·s/rad], q [N·m·s²/rad²]
+  std::optional<CurveData> table;     // [N·m]
+  Account work = Account::useful;
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+
+void check_load(const Reading<LoadKeys>& load) {
+  if (!load.given(&LoadKeys::torque) && !load.given(&LoadKeys::viscous) && !load.given(&LoadKeys::quadratic) &&
+      !load.table)
+    load.refuse("nothing given; allowed: \"torque\", \"damping\", \"quadratic\", \"table\"");
+  if (load.torque < 0 && !load.always_backwards)
+    load.refuse(&LoadKeys::torque, fmt::format("torque = {:g} N·m; a load against the motion must be ≥ 0 (with acts = "
+                                               "\"always\" it may be negative)",
+                                               load.torque));
+}
+
+const Fields<LoadKeys>& load_fields() {
+  using Keys = LoadKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "torque", .unit = "N*m", .doc = "constant part M₀"}, &Keys::torque)
+          .add({.name = "acts",
+                .fallback = "\"against motion\"",
+                .doc = "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"},
+               &Keys::always_backwards, {{"against motion", false}, {"always", true}})
+          .add({.name = "damping",
+                .unit = "N*m*s/rad",
+                .fallback = "\"0 N*m*s/rad\"",
+                .domain = not_negative,
+                .doc = "b in b ω"},
+               &Keys::viscous)
+          .add({.name = "quadratic",
+                .unit = "N*m*s2/rad2",
+                .fallback = "\"0 N*m*s2/rad2\"",
+                .domain = not_negative,
+                .doc = "q in q ω |ω|: fan, centrifugal pump"},
+               &Keys::quadratic)
+          .add({.name = "table",
+                .unit = "N*m",
+                .doc = "resisting torque over time, angle or speed",
+                .choices = any_abscissa()},
+               &Keys::table)
+          .add({.name = "work", .fallback = "\"useful\"", .doc = "line of the energy balance"}, &Keys::work,
+               {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
+          .add(own_inertia_key(), &Keys::inertia)
+          .add(window_fields(), &Keys::window)
+          .check(check_load);
+  return made;
 }
 
 void build_load(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  const Window window = window_of(s, messages);
-  const Account account = account_of(s, Account::useful);
-  const double torque = s.number_or("torque", 0), viscous = s.number("damping"), quadratic = s.number("quadratic");
-  if (!s.given("torque") && !s.given("damping") && !s.given("quadratic") && !s.has("table"))
-    messages.add(
-        s.at,
-        fmt::format("load \"{}\": nothing given; allowed: \"torque\", \"damping\", \"quadratic\", \"table\"", s.name));
-  if (s.text("acts") == "always") {
-    if (torque != 0) net.put(node, s.name, HarmonicTorque{account, -torque, 0, 0, 0}, window);
-    if (viscous > 0 || quadratic > 0) net.put(node, s.name, SpeedLoad{account, viscous, quadratic}, window);
-  } else if (torque > 0) {
-    net.put(node, s.name, OpposingLoad{account, torque, viscous, quadratic, 0}, window);
-  } else if (torque < 0) {
-    messages.add(s.where("torque"), fmt::format("load \"{}\": torque = {:g} N·m; a load against the motion must be ≥ 0 "
-                                                "(with acts = \"always\" it may be negative)",
-                                                s.name, torque));
-  } else if (viscous > 0 || quadratic > 0) {
-    net.put(node, s.name, SpeedLoad{account, viscous, quadratic}, window);
+  const auto load = load_fields().read(s, messages);
+  const int node = single_shaft(s, load.inertia, net);
+  const bool with_speed = load.viscous > 0 || load.quadratic > 0;
+  const SpeedLoad by_speed{load.work, load.viscous, load.quadratic};
+  if (load.always_backwards) {
+    if (load.torque != 0) net.put(node, s.name, HarmonicTorque{load.work, -load.torque, 0, 0, 0}, load.window);
+    if (with_speed) net.put(node, s.name, by_speed, load.window);
+  } else if (load.torque > 0) {
+    net.put(node, s.name, OpposingLoad{load.work, load.torque, load.viscous, load.quadratic, 0}, load.window);
+  } else if (with_speed) {
+    net.put(node, s.name, by_speed, load.window);
   }
-  if (s.has("table")) put_curve(net, node, s, s["table"].curve, -1, account, window, messages);
+  if (load.table)
+    put_curve(net, node, s.name, {*load.table, -1, load.work, load.window},
+              [&](const std::string& text) { load.refuse(&LoadKeys::table, text); });
 }
 
 }  // namespace
@@ -45,41 +110,11 @@ std::vector<Kind> load_kinds() {
   return {
       {.name = "bearing drag",
        .doc = "viscous friction against the frame",
-       .keys =
-           {{.name = "damping", .unit = "N*m*s/rad", .domain = not_negative, .doc = "b in M = −b ω", .required = true},
-            own_inertia_key()},
+       .keys = drag_fields().keys(),
        .build = build_drag},
       {.name = "load",
        .doc = "resistance on a shaft: constant, viscous, quadratic, table; several may be given",
-       .keys = joined(
-           {{.name = "torque", .unit = "N*m", .doc = "constant part M₀"},
-            {.name = "acts",
-             .type = KeyType::text,
-             .fallback = "\"against motion\"",
-             .doc = "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)",
-             .choices = {"against motion", "always"}},
-            {.name = "damping",
-             .unit = "N*m*s/rad",
-             .fallback = "\"0 N*m*s/rad\"",
-             .domain = not_negative,
-             .doc = "b in b ω"},
-            {.name = "quadratic",
-             .unit = "N*m*s2/rad2",
-             .fallback = "\"0 N*m*s2/rad2\"",
-             .domain = not_negative,
-             .doc = "q in q ω |ω|: fan, centrifugal pump"},
-            {.name = "table",
-             .type = KeyType::curve,
-             .unit = "N*m",
-             .doc = "resisting torque over time, angle or speed",
-             .choices = any_abscissa()},
-            {.name = "work",
-             .type = KeyType::text,
-             .fallback = "\"useful\"",
-             .doc = "line of the energy balance",
-             .choices = {"useful", "harmful", "driving"}},
-            own_inertia_key()},
-           window_keys()),
+       .keys = load_fields().keys(),
        .build = build_load},
   };
 }

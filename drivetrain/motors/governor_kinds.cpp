@@ -9,29 +9,68 @@
 namespace kurbel {
 namespace {
 
-void build_governor(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  const auto refuse = [&](const char* key, const std::string& text) {
-    messages.add(s.where(key), fmt::format("governor \"{}\": {}", s.name, text));
-  };
-  SpeedGovernor g{.reference = s.number("speed"),
-                  .proportional = s.number("proportional_gain"),
-                  .integral = s.number("integral_gain"),
-                  .droop = s.number("droop"),
-                  .most = s.number("max_torque"),
-                  .least = s.number("min_torque"),
-                  .tracking_time = s.number_or("tracking_time", 0),
-                  .initial_torque = s.number("initial_torque")};
+struct GovernorKeys : SpeedGovernor {
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+
+void check_governor(const Reading<GovernorKeys>& g) {
+  using Keys = GovernorKeys;
   if (g.least >= g.most)
-    refuse("min_torque", fmt::format("min_torque = {:g} N·m; must be below max_torque = {:g} N·m", g.least, g.most));
+    g.refuse(&Keys::least, fmt::format("min_torque = {:g} N·m; must be below max_torque = {:g} N·m", g.least, g.most));
   if (g.proportional == 0 && g.integral == 0)
-    refuse("proportional_gain", "proportional_gain and integral_gain are both 0: it governs nothing");
-  if (!s.given("tracking_time")) {
-    if (g.proportional == 0 && g.integral > 0)
-      refuse("integral_gain", "without a proportional_gain it needs \"tracking_time\"");
-    g.tracking_time = g.integral > 0 ? g.proportional / g.integral : 1;
-  }
-  net.put(node, s.name, g, window_of(s, messages));
+    g.refuse(&Keys::proportional, "proportional_gain and integral_gain are both 0: it governs nothing");
+  if (!g.given(&Keys::tracking_time) && g.proportional == 0 && g.integral > 0)
+    g.refuse(&Keys::integral, "without a proportional_gain it needs \"tracking_time\"");
+}
+
+const Fields<GovernorKeys>& governor_fields() {
+  using Keys = GovernorKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "speed",
+                .unit = "rad/s",
+                .doc = "reference speed; an operating sequence sets its part",
+                .required = true},
+               &Keys::reference)
+          .add({.name = "proportional_gain",
+                .unit = "N*m*s/rad",
+                .domain = not_negative,
+                .doc = "K_p, torque per error of speed",
+                .required = true},
+               &Keys::proportional)
+          .add({.name = "integral_gain",
+                .unit = "N*m/rad",
+                .fallback = "\"0 N*m/rad\"",
+                .domain = not_negative,
+                .doc = "K_i, torque per error of angle"},
+               &Keys::integral)
+          .add({.name = "droop",
+                .unit = "rad/s/N/m",
+                .fallback = "\"0 rad/s/N/m\"",
+                .domain = not_negative,
+                .doc = "fall of the steady speed per torque"},
+               &Keys::droop)
+          .add({.name = "max_torque", .unit = "N*m", .doc = "upper limit of its torque", .required = true}, &Keys::most)
+          .add(
+              {.name = "min_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "lower limit; negative: it brakes"},
+              &Keys::least)
+          .add({.name = "tracking_time",
+                .unit = "s",
+                .domain = positive,
+                .doc = "at a limit the integral follows the torque within this time; default: K_p/K_i"},
+               &Keys::tracking_time, [](const Keys& g) { return g.integral > 0 ? g.proportional / g.integral : 1; })
+          .add({.name = "initial_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "integral at the start"},
+               &Keys::initial_torque)
+          .add(own_inertia_key(), &Keys::inertia)
+          .add(window_fields(), &Keys::window)
+          .check(check_governor);
+  return made;
+}
+
+void build_governor(const Section& s, Network& net, Messages& messages) {
+  const auto governor = governor_fields().read(s, messages);
+  net.put(single_shaft(s, governor.inertia, net), s.name, static_cast<const SpeedGovernor&>(governor), governor.window);
 }
 
 }  // namespace
@@ -40,35 +79,7 @@ std::vector<Kind> governor_kinds() {
   return {
       {.name = "governor",
        .doc = "drive that holds a speed: proportional–integral on torque, with limits",
-       .keys = joined(
-           {{.name = "speed",
-             .unit = "rad/s",
-             .doc = "reference speed; an operating sequence sets its part",
-             .required = true},
-            {.name = "proportional_gain",
-             .unit = "N*m*s/rad",
-             .domain = not_negative,
-             .doc = "K_p, torque per error of speed",
-             .required = true},
-            {.name = "integral_gain",
-             .unit = "N*m/rad",
-             .fallback = "\"0 N*m/rad\"",
-             .domain = not_negative,
-             .doc = "K_i, torque per error of angle"},
-            {.name = "droop",
-             .unit = "rad/s/N/m",
-             .fallback = "\"0 rad/s/N/m\"",
-             .domain = not_negative,
-             .doc = "fall of the steady speed per torque"},
-            {.name = "max_torque", .unit = "N*m", .doc = "upper limit of its torque", .required = true},
-            {.name = "min_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "lower limit; negative: it brakes"},
-            {.name = "tracking_time",
-             .unit = "s",
-             .domain = positive,
-             .doc = "at a limit the integral follows the torque within this time; default: K_p/K_i"},
-            {.name = "initial_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "integral at the start"},
-            own_inertia_key()},
-           window_keys()),
+       .keys = governor_fields().keys(),
        .build = build_governor},
   };
 }

@@ -7,9 +7,28 @@
 namespace kurbel {
 namespace {
 
+struct MotorKeys {
+  CurveData torque;    // over speed [N·m]
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+const Fields<MotorKeys>& motor_fields() {
+  static const auto made = Fields<MotorKeys>()
+                               .add({.name = "torque",
+                                     .unit = "N*m",
+                                     .doc = "characteristic over speed",
+                                     .required = true,
+                                     .choices = {"speed"}},
+                                    &MotorKeys::torque)
+                               .add(inertia_key("", "rotor inertia"), &MotorKeys::inertia)
+                               .add(window_fields(), &MotorKeys::window);
+  return made;
+}
+
 void build_table_motor(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  put_curve(net, node, s, s["torque"].curve, 1, Account::driving, window_of(s, messages), messages);
+  const auto motor = motor_fields().read(s, messages);
+  put_curve(net, single_shaft(s, motor.inertia, net), s.name, {motor.torque, 1, Account::driving, motor.window},
+            [&](const std::string& text) { motor.refuse(&MotorKeys::torque, text); });
 }
 
 }  // namespace
@@ -18,14 +37,7 @@ std::vector<Kind> motor_kinds() {
   return {
       {.name = "motor",
        .doc = "motor, turbine or hydraulic drive by table M(ω)",
-       .keys = joined({{.name = "torque",
-                        .type = KeyType::curve,
-                        .unit = "N*m",
-                        .doc = "characteristic over speed",
-                        .required = true,
-                        .choices = {"speed"}},
-                       inertia_key("", "rotor inertia")},
-                      window_keys()),
+       .keys = motor_fields().keys(),
        .build = build_table_motor},
   };
 }

@@ -10,71 +10,122 @@
 namespace kurbel {
 namespace {
 
+// A constant that may rise from nothing, a sine and a table, of a torque or a speed.
+struct SourceKeys {
+  double constant = 0;                             // [N·m] or [rad/s]
+  std::optional<double> ramp;                      // [s]
+  double amplitude = 0, frequency = 0, phase = 0;  // [N·m] or [rad/s], [Hz], [rad]
+  std::optional<CurveData> table;
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+
+void check_rises(const Reading<SourceKeys>& s) {
+  if (s.amplitude != 0 && s.frequency == 0)
+    s.refuse(&SourceKeys::amplitude, "\"amplitude\" needs a \"frequency\" > 0, e.g. \"5 Hz\"");
+  if (s.ramp && !s.given(&SourceKeys::constant))
+    s.refuse(&SourceKeys::ramp,
+             fmt::format("\"ramp\" needs \"{}\", the value it rises to", s.key(&SourceKeys::constant)));
+}
+
+// --- torque source ---
+
+const Fields<SourceKeys>& torque_source_fields() {
+  using Keys = SourceKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "constant part M₀"}, &Keys::constant)
+          .add({.name = "ramp",
+                .unit = "s",
+                .domain = positive,
+                .doc = "time over which the constant part rises from 0"},
+               &Keys::ramp)
+          .add({.name = "amplitude", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "of M₁ sin(2π f t + ψ)"},
+               &Keys::amplitude)
+          .add({.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "f"},
+               &Keys::frequency)
+          .add({.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "ψ"}, &Keys::phase)
+          .add({.name = "table", .unit = "N*m", .doc = "torque over time, angle or speed", .choices = any_abscissa()},
+               &Keys::table)
+          .add(own_inertia_key(), &Keys::inertia)
+          .add(window_fields(), &Keys::window)
+          .check([](const Reading<Keys>& s) {
+            if (!s.given(&Keys::constant) && !s.given(&Keys::amplitude) && !s.table)
+              s.refuse("nothing given; allowed: \"torque\", \"amplitude\" with \"frequency\", \"table\"");
+          })
+          .check(check_rises);
+  return made;
+}
+
 void build_torque_source(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  Window window = window_of(s, messages);
-  const double torque = s.number("torque"), amplitude = s.number("amplitude"), frequency = s.number("frequency");
-  if (!s.given("torque") && !s.given("amplitude") && !s.has("table"))
-    messages.add(
-        s.at,
-        fmt::format(
-            "torque source \"{}\": nothing given; allowed: \"torque\", \"amplitude\" with \"frequency\", \"table\"",
-            s.name));
-  if (amplitude != 0 && frequency == 0)
-    messages.add(s.where("amplitude"),
-                 fmt::format("torque source \"{}\": \"amplitude\" needs a \"frequency\" > 0, e.g. \"5 Hz\"", s.name));
-  if (s.given("ramp") && !s.given("torque"))
-    messages.add(s.where("ramp"),
-                 fmt::format("torque source \"{}\": \"ramp\" needs \"torque\", the value it rises to", s.name));
-  if (s.given("ramp")) {
-    const double begin = s.given("start") ? window.start : 0;
-    net.put(
-        node, s.name,
-        TorqueOverTime{Account::driving, Curve({begin, begin + s.number("ramp")}, {0, torque}, Curve::Form::linear), 1},
-        window);
-    if (amplitude != 0)
-      net.put(node, s.name, HarmonicTorque{Account::driving, 0, amplitude, frequency, s.number("phase")}, window);
-  } else if (torque != 0 || amplitude != 0) {
-    net.put(node, s.name, HarmonicTorque{Account::driving, torque, amplitude, frequency, s.number("phase")}, window);
+  const auto source = torque_source_fields().read(s, messages);
+  const int node = single_shaft(s, source.inertia, net);
+  const auto put_sine = [&](double mean) {
+    if (mean != 0 || source.amplitude != 0)
+      net.put(node, s.name, HarmonicTorque{Account::driving, mean, source.amplitude, source.frequency, source.phase},
+              source.window);
+  };
+  if (source.ramp) {
+    const double begin = source.window.start > Window{}.start ? source.window.start : 0;
+    const Curve rise({begin, begin + *source.ramp}, {0, source.constant}, Curve::Form::linear);
+    net.put(node, s.name, TorqueOverTime{Account::driving, rise, 1}, source.window);
+    put_sine(0);
+  } else {
+    put_sine(source.constant);
   }
-  if (s.has("table")) put_curve(net, node, s, s["table"].curve, 1, Account::driving, window, messages);
+  if (source.table)
+    put_curve(net, node, s.name, {*source.table, 1, Account::driving, source.window},
+              [&](const std::string& text) { source.refuse(&SourceKeys::table, text); });
+}
+
+// --- prescribed speed ---
+
+const Fields<SourceKeys>& prescribed_speed_fields() {
+  using Keys = SourceKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "speed", .unit = "rad/s", .doc = "constant speed"}, &Keys::constant)
+          .add({.name = "ramp", .unit = "s", .domain = positive, .doc = "time over which it rises from 0"}, &Keys::ramp)
+          .add({.name = "amplitude", .unit = "rad/s", .fallback = "\"0 rad/s\"", .doc = "of an added sine"},
+               &Keys::amplitude)
+          .add(
+              {.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "of the sine"},
+              &Keys::frequency)
+          .add({.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "of the sine"}, &Keys::phase)
+          .add({.name = "table", .unit = "rad/s", .doc = "speed over time", .choices = {"time"}}, &Keys::table)
+          .add(own_inertia_key(), &Keys::inertia);
+  return made;
 }
 
 void build_prescribed_speed(const Section& s, Network& net, Messages& messages) {
-  const int node = single_shaft(s, net);
-  PrescribedSpeed given;
-  if (s.has("table") == s.given("speed")) {
-    if (s.has("table"))
-      messages.add(s.where("table"),
-                   fmt::format("prescribed speed \"{}\": \"speed\" and \"table\" both given; keep one", s.name));
-    if (!s.has("table"))
-      messages.add(s.at, fmt::format("prescribed speed \"{}\": \"speed\" is missing; give it, or \"table\"", s.name));
+  const auto source = prescribed_speed_fields().read(s, messages);
+  const int node = single_shaft(s, source.inertia, net);
+  const bool constant = source.given(&SourceKeys::constant);
+  if (source.table && constant) {
+    source.refuse(&SourceKeys::table, "\"speed\" and \"table\" both given; keep one");
     return;
   }
-  if (s.number("amplitude") != 0 && s.number("frequency") == 0)
-    messages.add(
-        s.where("amplitude"),
-        fmt::format("prescribed speed \"{}\": \"amplitude\" needs a \"frequency\" > 0, e.g. \"5 Hz\"", s.name));
-  if (s.given("ramp") && !s.given("speed"))
-    messages.add(s.where("ramp"),
-                 fmt::format("prescribed speed \"{}\": \"ramp\" needs \"speed\", the value it rises to", s.name));
-  if (s.has("table")) {
-    const CurveData& data = s["table"].curve;
-    if (data.form == Curve::Form::smooth || data.period > 0)
-      messages.add(s.where("table"),
-                   fmt::format("prescribed speed \"{}\": only linear tables without a period are allowed", s.name));
-    given.time = data.x;
-    given.speed = data.y;
-  } else if (s.given("ramp")) {
-    given.time = {0, s.number("ramp")};
-    given.speed = {0, s.number("speed")};
+  if (!source.table && !constant) {
+    source.refuse("\"speed\" is missing; give it, or \"table\"");
+    return;
+  }
+  check_rises(source);
+  PrescribedSpeed given;
+  given.amplitude = source.amplitude;
+  given.frequency = source.frequency;
+  given.phase = source.phase;
+  if (source.table) {
+    if (source.table->form == Curve::Form::smooth || source.table->period > 0)
+      source.refuse(&SourceKeys::table, "only linear tables without a period are allowed");
+    given.time = source.table->x;
+    given.speed = source.table->y;
+  } else if (source.ramp) {
+    given.time = {0, *source.ramp};
+    given.speed = {0, source.constant};
   } else {
     given.time = {0};
-    given.speed = {s.number("speed")};
+    given.speed = {source.constant};
   }
-  given.amplitude = s.number("amplitude");
-  given.frequency = s.number("frequency");
-  given.phase = s.number("phase");
   net.prescribe(node, given);
 }
 
@@ -84,30 +135,11 @@ std::vector<Kind> source_kinds() {
   return {
       {.name = "torque source",
        .doc = "torque as constant, ramp, sine or table",
-       .keys = joined(
-           {{.name = "torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "constant part M₀"},
-            {.name = "ramp", .unit = "s", .domain = positive, .doc = "time over which the constant part rises from 0"},
-            {.name = "amplitude", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "of M₁ sin(2π f t + ψ)"},
-            {.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "f"},
-            {.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "ψ"},
-            {.name = "table",
-             .type = KeyType::curve,
-             .unit = "N*m",
-             .doc = "torque over time, angle or speed",
-             .choices = any_abscissa()},
-            own_inertia_key()},
-           window_keys()),
+       .keys = torque_source_fields().keys(),
        .build = build_torque_source},
       {.name = "prescribed speed",
        .doc = "speed as constant, ramp, sine or table, whatever torque that takes",
-       .keys =
-           {{.name = "speed", .unit = "rad/s", .doc = "constant speed"},
-            {.name = "ramp", .unit = "s", .domain = positive, .doc = "time over which it rises from 0"},
-            {.name = "amplitude", .unit = "rad/s", .fallback = "\"0 rad/s\"", .doc = "of an added sine"},
-            {.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "of the sine"},
-            {.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "of the sine"},
-            {.name = "table", .type = KeyType::curve, .unit = "rad/s", .doc = "speed over time", .choices = {"time"}},
-            own_inertia_key()},
+       .keys = prescribed_speed_fields().keys(),
        .build = build_prescribed_speed},
   };
 }

@@ -4,21 +4,26 @@
 #include <optional>
 #include <vector>
 
-#include "engine/scene/keys.h"
+#include "engine/scene/fields.h"
 #include "mechanisms/slider_crank/joint_contact.h"
 #include "mechanisms/slider_crank/rod_flexibility.h"
 #include "mechanisms/slider_crank/slider_crank_dynamics.h"
 
 namespace kurbel {
 
-std::vector<Key> slider_crank_deformation_keys();
-
 // What of a slider-crank is not ideal.
 struct Deformation {
   std::vector<JointClearance> clearances = {};
   std::optional<RodFlexibility> flexibility = {};
 };
-// What is wrong goes into the messages.
-Deformation read_deformation(const Section& section, const SliderCrankData& data, Messages& messages);
+struct DeformationKeys {
+  std::vector<Reading<JointClearance>> clearances;
+  std::optional<RodFlexibility> flexibility;
+};
+Fields<DeformationKeys> deformation_fields();
+
+// What is wrong beside the slider-crank's data goes into the messages.
+Deformation deformation_of(const DeformationKeys& keys, const SliderCrankData& data, const Section& section,
+                           Messages& messages);
 
 }  // namespace kurbel

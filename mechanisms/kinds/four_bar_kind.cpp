@@ -1,24 +1,58 @@
 // four_bar_kind.cpp — the four-bar linkage's keys.
 #include "mechanisms/kinds/kinds.h"
-#include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 
 namespace kurbel {
 namespace {
 
+using FourBar = FourBarData;
+
+Fields<FourBar> linkage() {
+  return Fields<FourBar>()
+      .add({.name = "crank",
+            .unit = "m",
+            .domain = positive,
+            .doc = "crank length, from the crank axis to the crank pin",
+            .required = true,
+            .effect = "variable_inertia multibody"},
+           &FourBar::crank)
+      .add({.name = "coupler",
+            .unit = "m",
+            .domain = positive,
+            .doc = "coupler length, between crank and rocker",
+            .required = true},
+           &FourBar::coupler)
+      .add({.name = "rocker",
+            .unit = "m",
+            .domain = positive,
+            .doc = "rocker length, from its bearing to the coupler",
+            .required = true},
+           &FourBar::rocker)
+      .add({.name = "ground", .unit = "m", .domain = positive, .doc = "distance of the two bearings", .required = true},
+           &FourBar::ground)
+      .add({.name = "branch",
+            .fallback = "\"open\"",
+            .doc = "how the loop is assembled: rocker left of the line from crank axis to its bearing, or right"},
+           &FourBar::crossed, {{"open", false}, {"crossed", true}})
+      .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &FourBar::crank_body)
+      .add(floating_link("coupler", "from the crank pin"), &FourBar::coupler_body, in_the_middle_of(&FourBar::coupler))
+      .add(pivoted_link("rocker", "from its bearing towards the coupler; negative: counterweighted"),
+           &FourBar::rocker_body)
+      .add(gravity_key(), &FourBar::gravity)
+      .add({.name = "ground_angle",
+            .unit = "rad",
+            .fallback = "\"0 deg\"",
+            .doc = "direction from the crank axis to the rocker's bearing, above the horizontal"},
+           &FourBar::ground_angle);
+}
+
+const Fields<Mounted<FourBar>>& four_bar_fields() {
+  static const auto made = mounted(linkage(), mounting("torque on the rocker, or a list of them", rocker_loads()));
+  return made;
+}
+
 void build_four_bar(const Section& s, Network& net, Messages& messages) {
-  FourBarData d;
-  d.crank = s.number("crank");
-  d.coupler = s.number("coupler");
-  d.rocker = s.number("rocker");
-  d.ground = s.number("ground");
-  d.crossed = s.text("branch") == "crossed";
-  d.crank_body = read_link(s, "crank");
-  d.coupler_body = read_link(s, "coupler", d.coupler / 2);
-  d.rocker_body = read_link(s, "rocker");
-  d.gravity = s.number("gravity");
-  d.ground_angle = s.number("ground_angle");
-  build_mechanism(s, d, faults_of(d), net, messages);
+  build_mounted(four_bar_fields(), s, net, messages);
 }
 
 }  // namespace
@@ -28,43 +62,7 @@ Kind four_bar_kind() {
           .doc =
               "crank, coupler and rocker on the ground link (crank–rocker); the loads act on the rocker; φ = 0 with "
               "the crank towards the rocker's bearing",
-          .keys = joined(
-              {{{.name = "crank",
-                 .unit = "m",
-                 .domain = positive,
-                 .doc = "crank length, from the crank axis to the crank pin",
-                 .required = true,
-                 .effect = "variable_inertia multibody"},
-                {.name = "coupler",
-                 .unit = "m",
-                 .domain = positive,
-                 .doc = "coupler length, between crank and rocker",
-                 .required = true},
-                {.name = "rocker",
-                 .unit = "m",
-                 .domain = positive,
-                 .doc = "rocker length, from its bearing to the coupler",
-                 .required = true},
-                {.name = "ground",
-                 .unit = "m",
-                 .domain = positive,
-                 .doc = "distance of the two bearings",
-                 .required = true},
-                {.name = "branch",
-                 .type = KeyType::text,
-                 .fallback = "\"open\"",
-                 .doc = "how the loop is assembled: rocker left of the line from crank axis to its bearing, or right",
-                 .choices = {"open", "crossed"}}},
-               pivoted_link_keys("crank", "from the axis towards the pin; negative: counterweighted"),
-               floating_link_keys("coupler", "from the crank pin"),
-               pivoted_link_keys("rocker", "from its bearing towards the coupler; negative: counterweighted"),
-               {gravity_key(),
-                {.name = "ground_angle",
-                 .unit = "rad",
-                 .fallback = "\"0 deg\"",
-                 .doc = "direction from the crank axis to the rocker's bearing, above the horizontal"},
-                phase_key(),
-                load_key("torque on the rocker, or a list of them", rocker_load_kinds())}}),
+          .keys = four_bar_fields().keys(),
           .build = build_four_bar};
 }
 

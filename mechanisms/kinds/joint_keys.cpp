@@ -1,168 +1,124 @@
-// joint_keys.cpp — tables of keys of the joints, and from them to the joints' data.
+// joint_keys.cpp — fields of the joints.
 #include "mechanisms/kinds/joint_keys.h"
 
 #include <fmt/format.h>
 
-#include "mechanisms/kinds/mechanism_keys.h"
-
 namespace kurbel {
 namespace {
 
-std::vector<Key> friction_keys() {
-  return {{.name = "friction",
-           .fallback = "0",
-           .domain = not_negative,
-           .doc = "coefficient of kinetic friction; of a rolling bearing its equivalent one (0.001 … 0.005)",
-           .effect = "joint_friction"},
-          {.name = "static_friction", .domain = not_negative, .doc = "≥ friction; default: the same"},
-          {.name = "stribeck_speed",
-           .unit = "m/s",
-           .fallback = "\"0 m/s\"",
-           .domain = not_negative,
-           .doc = "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); 0: "
-                  "at once"},
-          {.name = "viscous_friction",
-           .unit = "s/m",
-           .fallback = "\"0 s/m\"",
-           .domain = not_negative,
-           .doc = "rise of the coefficient with sliding speed (fluid friction)"}};
+using Friction = FrictionCoefficient;
+
+void check_friction(const Reading<Friction>& f) {
+  if (f.resting < f.kinetic)
+    f.refuse(&Friction::resting,
+             fmt::format("static_friction = {:g}; must be ≥ friction = {:g}, else standing still would be easier to "
+                         "leave than to keep",
+                         f.resting, f.kinetic));
 }
 
-const std::vector<Kind>& revolute_kinds() {
-  static const std::vector<Kind> kinds = {
-      {.name = "journal",
-       .doc = "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of "
-              "the friction circle",
-       .placement = Placement::nested,
-       .keys = joined({{{.name = "radius",
-                         .unit = "m",
-                         .domain = positive,
-                         .doc = "of the journal; of a rolling bearing half its bore",
-                         .required = true}},
-                       friction_keys()})}};
-  return kinds;
+Fields<Friction> friction() {
+  return Fields<Friction>()
+      .add({.name = "friction",
+            .fallback = "0",
+            .domain = not_negative,
+            .doc = "coefficient of kinetic friction; of a rolling bearing its equivalent one (0.001 … 0.005)",
+            .effect = "joint_friction"},
+           &Friction::kinetic)
+      .add({.name = "static_friction", .domain = not_negative, .doc = "≥ friction; default: the same"},
+           &Friction::resting, &Friction::kinetic)
+      .add({.name = "stribeck_speed",
+            .unit = "m/s",
+            .fallback = "\"0 m/s\"",
+            .domain = not_negative,
+            .doc = "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); 0: "
+                   "at once"},
+           &Friction::stribeck_speed)
+      .add({.name = "viscous_friction",
+            .unit = "s/m",
+            .fallback = "\"0 s/m\"",
+            .domain = not_negative,
+            .doc = "rise of the coefficient with sliding speed (fluid friction)"},
+           &Friction::viscous)
+      .check(check_friction);
 }
 
-const std::vector<Kind>& guide_kinds() {
-  static const std::vector<Kind> kinds = {
-      {.name = "guide",
-       .doc = "of the slider: friction f N, from both edges where the reaction leaves the guide's length",
-       .placement = Placement::nested,
-       .keys = joined({friction_keys(),
-                       {{.name = "length",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .domain = not_negative,
-                         .doc = "bearing length of the slider; 0: its tilting is not considered"},
-                        {.name = "middle",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .doc = "of that length, from the slider pin towards the extended end"},
-                        {.name = "width",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .domain = not_negative,
-                         .doc = "between the two guiding surfaces (bore of a cylinder): lever of their friction"},
-                        {.name = "rolling_arm",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .domain = not_negative,
-                         .doc = "lever arm k_r of rolling friction, for a slider on rollers"},
-                        {.name = "roller_radius", .unit = "m", .domain = positive, .doc = "of these rollers"},
-                        {.name = "slider_com",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .doc = "slider's centre of mass from its pin towards the extended end"},
-                        {.name = "force_offset",
-                         .unit = "m",
-                         .fallback = "\"0 m\"",
-                         .doc = "of the load's line from the slider pin, positive 90° ahead of the stroke"}}})}};
-  return kinds;
+const Tables<RevoluteJoint>& journals() {
+  static const auto made = Tables<RevoluteJoint>().add(
+      "journal",
+      "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
+      "friction circle",
+      Fields<RevoluteJoint>()
+          .add({.name = "radius",
+                .unit = "m",
+                .domain = positive,
+                .doc = "of the journal; of a rolling bearing half its bore",
+                .required = true},
+               &RevoluteJoint::radius)
+          .add(friction(), &RevoluteJoint::friction));
+  return made;
 }
 
-// Null where the joint is not in the scene.
-const Section* table_of(const Section& section, const char* joint) {
-  if (!section.has(joint) || section[joint].sections.empty()) return nullptr;
-  return &section[joint].sections.front();
+void check_guide(const Reading<SliderGuide>& guide) {
+  if (guide.rolling_arm > 0 && guide.roller_radius == 0)
+    guide.refuse(&SliderGuide::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
 }
 
-FrictionCoefficient read_friction(const Section& s) {
-  const double kinetic = s.number("friction");
-  return {kinetic, s.number_or("static_friction", kinetic), s.number("stribeck_speed"), s.number("viscous_friction")};
+Fields<SliderGuide> guide() {
+  return Fields<SliderGuide>()
+      .add(friction(), &SliderGuide::friction)
+      .add({.name = "length",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .domain = not_negative,
+            .doc = "bearing length of the slider; 0: its tilting is not considered"},
+           &SliderGuide::length)
+      .add({.name = "middle",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .doc = "of that length, from the slider pin towards the extended end"},
+           &SliderGuide::middle)
+      .add({.name = "width",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .domain = not_negative,
+            .doc = "between the two guiding surfaces (bore of a cylinder): lever of their friction"},
+           &SliderGuide::width)
+      .add({.name = "rolling_arm",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .domain = not_negative,
+            .doc = "lever arm k_r of rolling friction, for a slider on rollers"},
+           &SliderGuide::rolling_arm)
+      .add({.name = "roller_radius", .unit = "m", .domain = positive, .doc = "of these rollers"},
+           &SliderGuide::roller_radius)
+      .add({.name = "slider_com",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .doc = "slider's centre of mass from its pin towards the extended end"},
+           &SliderGuide::com_x)
+      .add({.name = "force_offset",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .doc = "of the load's line from the slider pin, positive 90° ahead of the stroke"},
+           &SliderGuide::force_offset)
+      .check(check_guide);
 }
 
-RevoluteJoint read_revolute(const Section* s) {
-  return s ? RevoluteJoint{s->number("radius"), read_friction(*s)} : RevoluteJoint{};
-}
-
-SliderGuide read_guide(const Section* s) {
-  if (!s) return {};
-  return {.friction = read_friction(*s),
-          .length = s->number("length"),
-          .middle = s->number("middle"),
-          .width = s->number("width"),
-          .rolling_arm = s->number("rolling_arm"),
-          .roller_radius = s->number_or("roller_radius", 0),
-          .com_x = s->number("slider_com"),
-          .force_offset = s->number("force_offset")};
+const Tables<SliderGuide>& guides() {
+  static const auto made = Tables<SliderGuide>().add(
+      "guide", "of the slider: friction f N, from both edges where the reaction leaves the guide's length", guide());
+  return made;
 }
 
 }  // namespace
 
-std::vector<Key> slider_crank_joint_keys() {
-  const auto revolute = [](const char* name, const char* doc) {
-    return Key{.name = name, .type = KeyType::sections, .doc = doc, .nested = &revolute_kinds()};
-  };
-  return {revolute("main_bearing", "bearing of the crank"),
-          revolute("crank_pin", "pin between crank and rod"),
-          revolute("slider_pin", "pin between rod and slider"),
-          {.name = "guide", .type = KeyType::sections, .doc = "guide of the slider", .nested = &guide_kinds()}};
-}
-
-SliderCrankJoints slider_crank_joints(const Section& s) {
-  return {read_revolute(table_of(s, "main_bearing")), read_revolute(table_of(s, "crank_pin")),
-          read_revolute(table_of(s, "slider_pin")), read_guide(table_of(s, "guide"))};
-}
-
-SliderCrankData slider_crank_data(const Section& s) {
-  SliderCrankData d;
-  d.radius = s.number("radius");
-  d.rod_length = s.number("rod");
-  d.offset = s.number("offset");
-  d.crank_mass = s.number("crank_mass");
-  d.crank_com = s.number("crank_com");
-  d.crank_inertia = s.number("crank_inertia");
-  d.rod_mass = s.number("rod_mass");
-  d.rod_com = s.number_or("rod_com", d.rod_length / 2);
-  d.rod_inertia = s.number("rod_inertia");
-  d.slider_mass = s.number("slider_mass");
-  d.gravity = s.number("gravity");
-  d.stroke_angle = s.number("stroke_angle");
-  return d;
-}
-
-bool check_joints(const Section& s, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  bool sound = true;
-  for (const char* joint : {"main_bearing", "crank_pin", "slider_pin", "guide"}) {
-    if (!s.has(joint)) continue;
-    const std::string what = fmt::format("slider-crank \"{}\": {}", s.name, joint);
-    const std::vector<Section>& tables = s[joint].sections;
-    if (tables.size() != 1)
-      messages.add(s.where(joint), fmt::format("{} = a list of {} tables; must be one table", what, tables.size()));
-    sound = sound && tables.size() == 1 && tables.front().sound;
-    if (tables.size() != 1 || !tables.front().sound) continue;
-    const Section& table = tables.front();
-    if (table.has("static_friction") && table.number("static_friction") < table.number("friction"))
-      messages.add(table.where("static_friction"),
-                   fmt::format("{}: static_friction = {:g}; must be ≥ friction = {:g}, else standing still would be "
-                               "easier to leave than to keep",
-                               what, table.number("static_friction"), table.number("friction")));
-    if (std::string(joint) == "guide" && table.number("rolling_arm") > 0 && !table.has("roller_radius"))
-      messages.add(table.where("rolling_arm"),
-                   fmt::format("{}: rolling_arm without roller_radius; give the rollers' radius", what));
-  }
-  return sound && messages.all().size() == before;
+Fields<SliderCrankJoints> joint_fields() {
+  using Joints = SliderCrankJoints;
+  return Fields<Joints>()
+      .add({.name = "main_bearing", .doc = "bearing of the crank"}, &Joints::main_bearing, journals())
+      .add({.name = "crank_pin", .doc = "pin between crank and rod"}, &Joints::crank_pin, journals())
+      .add({.name = "slider_pin", .doc = "pin between rod and slider"}, &Joints::slider_pin, journals())
+      .add({.name = "guide", .doc = "guide of the slider"}, &Joints::guide, guides());
 }
 
 }  // namespace kurbel

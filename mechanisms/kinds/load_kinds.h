@@ -1,17 +1,45 @@
 // load_kinds.h — loads on a mechanism's output as a scene may name them.
 #pragma once
 
+#include <optional>
+#include <variant>
 #include <vector>
 
-#include "engine/scene/keys.h"
+#include "engine/scene/fields.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 
-const std::vector<Kind>& slider_load_kinds();  // outputs that slide
-const std::vector<Kind>& rocker_load_kinds();  // outputs that rock
+// A law, or what makes one once the ends of the output's travel are known, and the line of the energy balance.
+template <class Law>
+struct LoadKeys : Law {
+  Account account = Account::useful;
+};
+// The end of the travel that a law counts from, and the width that its edges are rounded over.
+struct EdgeKeys {
+  bool from_greatest = true;
+  std::optional<double> rounding, rounding_angle;  // [m] or [rad], [rad]
+};
+struct PressKeys : EdgeKeys {
+  double force = 0;                                         // F_n [N]
+  double travel = 0, rise = 0, breakthrough = 0, drop = 0;  // [m]
+};
+struct TableKeys : EdgeKeys {
+  CurveData force;  // [N] or [N·m]
+};
+struct CompressorKeys : CompressorForce {
+  bool from_greatest = true;
+  double bore = 0;  // [m]
+};
 
-// Reads the `load` of a mechanism's section; its ends of travel must be known.
-void read_loads(const Section& section, Mechanism& mechanism, Messages& messages);
+using LoadReading =
+    std::variant<Reading<LoadKeys<PressKeys>>, Reading<LoadKeys<ConstantForce>>, Reading<LoadKeys<OpposingForce>>,
+                 Reading<LoadKeys<MediumResistance>>, Reading<LoadKeys<TableKeys>>, Reading<LoadKeys<CompressorKeys>>>;
+
+const Tables<LoadReading>& slider_loads();  // on outputs that slide
+const Tables<LoadReading>& rocker_loads();  // on outputs that rock
+
+// Gives the mechanism its loads; its ends of travel must be known. What is wrong goes into the messages.
+void put_loads(const std::vector<LoadReading>& loads, Mechanism& mechanism);
 
 }  // namespace kurbel

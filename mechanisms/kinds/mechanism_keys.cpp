@@ -14,14 +14,16 @@
 namespace kurbel {
 namespace {
 
-std::vector<Key> link_keys(const std::string& name, const std::string& com_doc, const std::string& inertia_doc) {
-  return {mass_key(name + "_mass", "mass of the " + name),
-          {.name = name + "_com", .unit = "m", .doc = com_doc},
-          {.name = name + "_inertia",
-           .unit = "kg*m2",
-           .fallback = "\"0 kg*m2\"",
-           .domain = not_negative,
-           .doc = inertia_doc}};
+Fields<LinkBody> link(const std::string& name, const Key& com, const char* inertia_doc) {
+  return Fields<LinkBody>()
+      .add(mass_key(name + "_mass", "mass of the " + name), &LinkBody::mass)
+      .add(com, &LinkBody::com)
+      .add({.name = name + "_inertia",
+            .unit = "kg*m2",
+            .fallback = "\"0 kg*m2\"",
+            .domain = not_negative,
+            .doc = inertia_doc},
+           &LinkBody::inertia);
 }
 
 // "crank 2 kg, rod 1 kg"
@@ -61,18 +63,15 @@ Key mass_key(const std::string& name, const std::string& doc) {
   return {.name = name, .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = doc};
 }
 
-std::vector<Key> pivoted_link_keys(const std::string& name, const std::string& from) {
-  std::vector<Key> keys = link_keys(name, "its centre of mass " + from, "about its fixed bearing");
-  keys[1].fallback = "\"0 m\"";
-  return keys;
+Fields<LinkBody> pivoted_link(const std::string& name, const std::string& from) {
+  return link(name, {.name = name + "_com", .unit = "m", .fallback = "\"0 m\"", .doc = "its centre of mass " + from},
+              "about its fixed bearing");
 }
 
-std::vector<Key> floating_link_keys(const std::string& name, const std::string& from) {
-  return link_keys(name, "its centre of mass " + from + "; default: half the length", "about its centre of mass");
-}
-
-LinkBody read_link(const Section& s, const std::string& name, double default_com) {
-  return {s.number(name + "_mass"), s.number_or(name + "_com", default_com), s.number(name + "_inertia")};
+Fields<LinkBody> floating_link(const std::string& name, const std::string& from) {
+  return link(name,
+              {.name = name + "_com", .unit = "m", .doc = "its centre of mass " + from + "; default: half the length"},
+              "about its centre of mass");
 }
 
 Key gravity_key() {
@@ -83,24 +82,20 @@ Key gravity_key() {
           .doc = "0: weight is neglected",
           .effect = "gravity"};
 }
-Key phase_key() {
-  return {.name = "phase",
-          .unit = "rad",
-          .fallback = "\"0 deg\"",
-          .doc = "crank angle ahead of the shaft's angle (several cylinders)"};
-}
-Key load_key(const std::string& doc, const std::vector<Kind>& kinds) {
-  return {.name = "load", .type = KeyType::sections, .doc = doc, .nested = &kinds};
+
+Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads) {
+  return Fields<Mounting>()
+      .add({.name = "phase",
+            .unit = "rad",
+            .fallback = "\"0 deg\"",
+            .doc = "crank angle ahead of the shaft's angle (several cylinders)"},
+           &Mounting::phase)
+      .add({.name = "load", .doc = load_doc}, &Mounting::loads, loads);
 }
 
-std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts) {
-  std::vector<Key> keys;
-  for (const std::vector<Key>& part : parts) keys.insert(keys.end(), part.begin(), part.end());
-  return keys;
-}
-
-void build_mechanism(const Section& s, const MechanismData& data, const DataFaults& faults, Network& net,
-                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints, Deformation deformation) {
+void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
+                     Network& net, Messages& messages, std::shared_ptr<const SliderCrankStatics> joints,
+                     Deformation deformation) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
@@ -117,13 +112,12 @@ void build_mechanism(const Section& s, const MechanismData& data, const DataFaul
                                    s.kind->name, s.name, masses_of(s)));
     return;
   }
-  mechanism->phase = s.number("phase");
+  mechanism->phase = mounting.phase;
   mechanism->joints = std::move(joints);
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
-  read_loads(s, *mechanism, messages);
-  const double phase = mechanism->phase;
-  net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, phase);
+  put_loads(mounting.loads, *mechanism);
+  net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, mounting.phase);
 }
 
 }  // namespace kurbel

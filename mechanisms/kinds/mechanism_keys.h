@@ -1,31 +1,55 @@
-// mechanism_keys.h — keys that mechanisms share, and from a section's data to the element.
+// mechanism_keys.h — fields that mechanisms share, and from a mechanism's data to the element.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "engine/model/network.h"
-#include "engine/scene/keys.h"
+#include "engine/scene/fields.h"
 #include "mechanisms/kinds/deformation_keys.h"
+#include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 
 // NAME_mass, NAME_com, NAME_inertia of a link; `from` says where its centre of mass is measured from.
-std::vector<Key> pivoted_link_keys(const std::string& name, const std::string& from);   // inertia about its bearing
-std::vector<Key> floating_link_keys(const std::string& name, const std::string& from);  // central inertia
-LinkBody read_link(const Section& section, const std::string& name, double default_com = 0);
+Fields<LinkBody> pivoted_link(const std::string& name, const std::string& from);   // inertia about its bearing
+Fields<LinkBody> floating_link(const std::string& name, const std::string& from);  // central inertia
+// What a floating link starts as.
+template <class D>
+auto in_the_middle_of(double D::*length) {
+  return [length](const D& data) { return LinkBody{.com = data.*length / 2}; };
+}
 
 Key mass_key(const std::string& name, const std::string& doc);
 Key gravity_key();
-Key phase_key();
-Key load_key(const std::string& doc, const std::vector<Kind>& kinds);
-std::vector<Key> joined(std::initializer_list<std::vector<Key>> parts);
+
+// What every mechanism has beside its linkage.
+struct Mounting {
+  double phase = 0;  // crank angle ahead of the shaft's [rad]
+  std::vector<LoadReading> loads;
+};
+Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads);
+
+template <class Linkage>
+struct Mounted {
+  Linkage linkage;
+  Mounting mounting;
+};
+template <class Linkage>
+Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mounting>& mounting) {
+  return Fields<Mounted<Linkage>>().add(linkage, &Mounted<Linkage>::linkage).add(mounting, &Mounted<Linkage>::mounting);
+}
 
 // Adds the component: its node first, so that others may refer to it, then the element with its loads. What `faults`
 // holds, and what Simbody refuses, goes into the messages. Joints, deformation: of a slider-crank.
-void build_mechanism(const Section& section, const MechanismData& data, const DataFaults& faults, Network& net,
-                     Messages& messages, std::shared_ptr<const SliderCrankStatics> joints = nullptr,
-                     Deformation deformation = {});
+void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
+                     const DataFaults& faults, Network& net, Messages& messages,
+                     std::shared_ptr<const SliderCrankStatics> joints = nullptr, Deformation deformation = {});
+template <class Linkage>
+void build_mounted(const Fields<Mounted<Linkage>>& fields, const Section& section, Network& net, Messages& messages) {
+  const auto mechanism = fields.read(section, messages);
+  build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net, messages);
+}
 
 }  // namespace kurbel

@@ -6,11 +6,12 @@
 #include "mechanisms/kinds/deformation_keys.h"
 #include "mechanisms/kinds/joint_keys.h"
 #include "mechanisms/kinds/kinds.h"
-#include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 
 namespace kurbel {
 namespace {
+
+using Crank = SliderCrankData;
 
 // The rod must pass both dead centres, and no body may have less inertia than its mass demands.
 DataFaults faults_of(const SliderCrankData& d) {
@@ -29,74 +30,88 @@ DataFaults faults_of(const SliderCrankData& d) {
   return faults;
 }
 
-void build_slider_crank(const Section& s, Network& net, Messages& messages) {
-  const SliderCrankData d = slider_crank_data(s);
-  const DataFaults faults = faults_of(d);
-  std::shared_ptr<const SliderCrankStatics> joints;
-  if (check_joints(s, messages) && faults.empty())
-    if (const SliderCrankJoints given = slider_crank_joints(s); !given.frictionless())
-      joints = std::make_shared<SliderCrankStatics>(d, given);
-  build_mechanism(s, d, faults, net, messages, std::move(joints), read_deformation(s, d, messages));
+Key inertia_key(const char* name, const char* doc) {
+  return {.name = name, .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = doc};
 }
 
-}  // namespace
-
-Kind slider_crank_kind() {
-  Kind kind{
-      .name = "slider-crank",
-      .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
-      .keys =
-          {{.name = "radius",
+Fields<Crank> linkage() {
+  return Fields<Crank>()
+      .add({.name = "radius",
             .unit = "m",
             .domain = positive,
             .doc = "crank radius r",
             .required = true,
             .effect = "variable_inertia multibody"},
-           {.name = "rod",
+           &Crank::radius)
+      .add({.name = "rod",
             .unit = "m",
             .domain = positive,
             .doc = "rod length l, > radius + |offset|",
             .required = true},
-           {.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
-           {.name = "crank_mass",
-            .unit = "kg",
-            .fallback = "\"0 kg\"",
-            .domain = not_negative,
-            .doc = "mass of the crank"},
-           {.name = "crank_com",
+           &Crank::rod_length)
+      .add({.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
+           &Crank::offset)
+      .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
+      .add({.name = "crank_com",
             .unit = "m",
             .fallback = "\"0 m\"",
             .doc = "its centre of mass from the axis towards the pin; negative: counterweighted"},
-           {.name = "crank_inertia",
-            .unit = "kg*m2",
-            .fallback = "\"0 kg*m2\"",
-            .domain = not_negative,
-            .doc = "about the crank's axis"},
-           {.name = "rod_mass", .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = "mass of the rod"},
-           {.name = "rod_com",
+           &Crank::crank_com)
+      .add(inertia_key("crank_inertia", "about the crank's axis"), &Crank::crank_inertia)
+      .add(mass_key("rod_mass", "mass of the rod"), &Crank::rod_mass)
+      .add({.name = "rod_com",
             .unit = "m",
             .doc = "its centre of mass from the crank pin along the rod; default: half the rod"},
-           {.name = "rod_inertia",
-            .unit = "kg*m2",
-            .fallback = "\"0 kg*m2\"",
-            .domain = not_negative,
-            .doc = "about its centre of mass"},
-           {.name = "slider_mass",
-            .unit = "kg",
-            .fallback = "\"0 kg\"",
-            .domain = not_negative,
-            .doc = "mass of slider and what moves with it"},
-           gravity_key(),
-           {.name = "stroke_angle",
+           &Crank::rod_com, [](const Crank& d) { return d.rod_length / 2; })
+      .add(inertia_key("rod_inertia", "about its centre of mass"), &Crank::rod_inertia)
+      .add(mass_key("slider_mass", "mass of slider and what moves with it"), &Crank::slider_mass)
+      .add(gravity_key(), &Crank::gravity)
+      .add({.name = "stroke_angle",
             .unit = "rad",
             .fallback = "\"0 deg\"",
             .doc = "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg "
                    "top-driven press"},
-           phase_key(),
-           load_key("force on the slider, or a list of them", slider_load_kinds())},
-      .build = build_slider_crank};
-  kind.keys = joined({kind.keys, slider_crank_joint_keys(), slider_crank_deformation_keys()});
-  return kind;
+           &Crank::stroke_angle);
+}
+
+struct SliderCrankKeys : Mounted<SliderCrankData> {
+  SliderCrankJoints joints;
+  DeformationKeys deformation;
+};
+
+const Fields<SliderCrankKeys>& slider_crank_fields() {
+  static const auto made =
+      Fields<SliderCrankKeys>()
+          .add(linkage(), &SliderCrankKeys::linkage)
+          .add(mounting("force on the slider, or a list of them", slider_loads()), &SliderCrankKeys::mounting)
+          .add(joint_fields(), &SliderCrankKeys::joints)
+          .add(deformation_fields(), &SliderCrankKeys::deformation);
+  return made;
+}
+
+void build_slider_crank(const Section& s, Network& net, Messages& messages) {
+  const std::size_t before = messages.all().size();
+  const auto mechanism = slider_crank_fields().read(s, messages);
+  const bool sound = messages.all().size() == before;
+  const SliderCrankData& d = mechanism.linkage;
+  const DataFaults faults = faults_of(d);
+  std::shared_ptr<const SliderCrankStatics> joints;
+  if (sound && faults.empty() && !mechanism.joints.frictionless())
+    joints = std::make_shared<SliderCrankStatics>(d, mechanism.joints);
+  build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),
+                  deformation_of(mechanism.deformation, d, s, messages));
+}
+
+}  // namespace
+
+SliderCrankData slider_crank_data(const Section& section) { return slider_crank_fields().read(section).linkage; }
+SliderCrankJoints slider_crank_joints(const Section& section) { return slider_crank_fields().read(section).joints; }
+
+Kind slider_crank_kind() {
+  return {.name = "slider-crank",
+          .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
+          .keys = slider_crank_fields().keys(),
+          .build = build_slider_crank};
 }
 
 }  // namespace kurbel

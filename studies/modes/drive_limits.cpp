@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "drivetrain/couplings/coupling_keys.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -18,17 +19,13 @@ constexpr double pi = std::numbers::pi;
 double rpm(double speed) { return speed * 30 / pi; }
 
 DriveLimits stated_limits(const Section* s) {
-  DriveLimits limits;
-  if (!s || !s->kind) return limits;
-  limits.nominal = s->number_or("nominal_torque", 0);
-  limits.maximum = s->number_or("maximum_torque", 0);
-  limits.vibratory = s->number_or("vibratory_torque", 0);
-  limits.power = s->number_or("dissipated_power", 0);
-  limits.application_factor = s->number_or("application_factor", 1);
-  limits.shear_stress = s->number_or("allowable_shear_stress", 0);
-  if (limits.shear_stress > 0) {
-    const double outer = s->number_or("diameter", 0), bore = s->number_or("bore", 0);
-    limits.polar_modulus = pi / 16 * (std::pow(outer, 4) - std::pow(bore, 4)) / outer;
+  if (!s || !s->kind) return {};
+  const CouplingLimits given = coupling_limit_fields().read(*s);
+  DriveLimits limits = {given.nominal, given.maximum, given.vibratory, given.power, given.application_factor};
+  if (s->kind->name == "shaft") {
+    const ShaftKeys shaft = shaft_fields().read(*s);
+    limits.shear_stress = shaft.allowable_shear_stress.value_or(0);
+    if (limits.shear_stress > 0) limits.polar_modulus = 2 * shaft.polar_moment() / *shaft.diameter;
   }
   return limits;
 }
