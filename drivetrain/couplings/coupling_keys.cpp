@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "engine/model/network.h"
+
 namespace kurbel {
 
 const Fields<SideInertias>& side_inertia_fields() {

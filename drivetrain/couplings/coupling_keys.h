@@ -4,10 +4,11 @@
 #include <array>
 
 #include "drivetrain/couplings/coupling.h"
-#include "engine/model/network.h"
 #include "engine/scene/fields.h"
 
 namespace kurbel {
+
+class Network;
 
 struct SideInertias {
   double in = 0, out = 0;  // [kg·m²]
