@@ -1,0 +1,132 @@
+// summary_schema_test.cpp — what every command tells programs is what docs/summary.schema.json says, nothing more.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "drivetrain/gears/bevel_worm.h"
+#include "studies/accuracy/accuracy_findings.h"
+#include "studies/advise/advise_findings.h"
+#include "studies/effects/effect_study_findings.h"
+#include "studies/forces/forces_findings.h"
+#include "studies/gears/bevel_worm.h"
+#include "studies/gears/gears.h"
+#include "studies/modes/modes_findings.h"
+#include "studies/reduce/reduce.h"
+#include "studies/run/run_findings.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json& schema() {
+  static const Json read = Json::parse(std::ifstream(KURBEL_SOURCE_DIR "/docs/summary.schema.json"));
+  return read;
+}
+
+bool is_of_type(const Json& value, const std::string& type) {
+  if (type == "null") return value.is_null();
+  if (type == "number") return value.is_number();
+  if (type == "integer") return value.is_number_integer();
+  if (type == "string") return value.is_string();
+  if (type == "boolean") return value.is_boolean();
+  return type == "array" ? value.is_array() : value.is_object();
+}
+
+// The part of JSON Schema that the file uses. Returns the first place that does not fit.
+std::string misfit(const Json& rule, const Json& value, const std::string& at) {
+  if (rule.contains("$ref"))
+    return misfit(schema().at(Json::json_pointer(rule["$ref"].get<std::string>().substr(1))), value, at);
+  if (rule.contains("const") && value != rule["const"]) return at + " is not " + rule["const"].dump();
+  if (rule.contains("type")) {
+    const Json types = rule["type"].is_array() ? rule["type"] : Json::array({rule["type"]});
+    bool fits = false;
+    for (const Json& type : types) fits = fits || is_of_type(value, type);
+    if (!fits) return at + " is " + value.dump().substr(0, 40) + ", not " + types.dump();
+  }
+  for (const Json& key : rule.value("required", Json::array()))
+    if (!value.contains(key)) return at + "/" + key.get<std::string>() + " is missing";
+  const Json known = rule.value("properties", Json::object()), others = rule.value("additionalProperties", Json(true));
+  if (value.is_object())
+    for (const auto& [key, item] : value.items()) {
+      if (!known.contains(key) && others == false) return at + "/" + key + " is not in the schema";
+      if (known.contains(key) || others.is_object())
+        if (std::string place = misfit(known.contains(key) ? known[key] : others, item, at + "/" + key); !place.empty())
+          return place;
+    }
+  if (value.is_array() && rule.contains("items"))
+    for (const Json& item : value)
+      if (std::string place = misfit(rule["items"], item, at + "[]"); !place.empty()) return place;
+  return {};
+}
+
+void expect_met(const std::string& verb, const Findings& findings) {
+  EXPECT_EQ(misfit(schema().at("$defs").at(verb), Json::parse(summary_json(findings)), verb), "");
+}
+template <class Study>
+void expect_told(const std::string& verb, const Study& study) {
+  expect_met(verb, findings_of(study));
+}
+
+Scene short_press() {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 1;
+  return scene;
+}
+
+TEST(SummarySchema, HoldsForRunsAndComparisons) {
+  const Scene scene = short_press();
+  expect_told("run", simulate(scene, scene.effects, "elastic", {}));
+  SimulateOptions unsure;
+  unsure.measure_error = false;
+  expect_told("run", simulate(test::scene_file("scenes/stick_slip.toml"), {}, "rigid", unsure));
+  expect_told("compare", compare(scene, {}, "rigid", scene.effects, "elastic", unsure));
+}
+
+TEST(SummarySchema, HoldsForStudiesOfTheCycle) {
+  const Scene scene = short_press();
+  expect_told("steady", steady(scene, {Effects{}, scene.effects}, {}));
+  expect_told("modes", find_modes(scene, scene.effects, {.torque = "main_coupling"}));
+  expect_told("forces", find_forces(scene, {}));
+  SizeOptions size;
+  size.delta = 0.05;
+  size.simulate = false;
+  expect_told("size", size_flywheel(scene, size));
+  expect_told("reduce", reduce(scene, {}));
+  expect_told("reduce", reduce(scene, {.to = "press.slider"}));
+}
+
+TEST(SummarySchema, HoldsForGears) {
+  expect_told("gears", find_gears(test::scene_file("scenes/gear_pair.toml"), {.speed = 100}));
+  expect_told("bevel_pair", BevelPair{.teeth = {19, 40}, .module = 0.004, .shaft_angle = 1.5});
+  expect_met("worm_pair", findings_of(WormPair{.starts = 1, .teeth = 40, .module = 0.004, .worm_diameter = 0.05}, 150));
+}
+
+TEST(SummarySchema, HoldsForStudiesOfTheModel) {
+  Scene scene = test::scene_file("scenes/stick_slip.toml");
+  scene.run.until = 1;
+  expect_told("effects", study_effects(scene, {}));
+  expect_told("advise", advise(scene, {}));
+  AccuracyOptions brief;
+  brief.time = 0.1;
+  expect_told("accuracy", measure_accuracy(scene, brief));
+}
+
+// The check itself finds what is missing, unknown, or of another type.
+TEST(SummarySchema, IsNotMetByWhatIsElse) {
+  const Json& rule = schema().at("$defs").at("figure");
+  const Json sound = {{"name", "a"}, {"value", 1.5}, {"unit", "m"}, {"error", nullptr}};
+  EXPECT_EQ(misfit(rule, sound, ""), "");
+  Json less = sound, more = sound, other = sound;
+  less.erase("unit");
+  more["colour"] = "red";
+  other["value"] = "1.5 m";
+  EXPECT_EQ(misfit(rule, less, ""), "/unit is missing");
+  EXPECT_EQ(misfit(rule, more, ""), "/colour is not in the schema");
+  EXPECT_NE(misfit(rule, other, ""), "");
+}
+
+}  // namespace
+}  // namespace kurbel
