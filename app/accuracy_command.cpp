@@ -22,11 +22,8 @@ struct AccuracyArguments {
 };
 
 AccuracyOptions options_of(const AccuracyArguments& arguments, Progress& progress) {
-  const SimulateOptions common = simulate_options(arguments.study, progress);
   AccuracyOptions options;
-  options.interrupted = common.interrupted;
-  options.progress = common.progress;
-  options.log = common.log;
+  options.watch = watch_of(arguments.study, progress);
   options.figure = arguments.figure;
   options.multibody = !arguments.no_multibody;
   for (const std::string& method : arguments.methods) {

@@ -145,12 +145,16 @@ void check_folder(const StudyOptions& options) {
       throw std::invalid_argument(fmt::format("--out {}: {}", folder.string(), why));
 }
 
+Watch watch_of(const StudyOptions& options, Progress& progress) {
+  return {.interrupted = &interrupt_seen,
+          .progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); },
+          .log = make_log(options.verbose)};
+}
+
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress) {
   SimulateOptions simulation;
   simulation.traces = !options.no_files;
-  simulation.interrupted = &interrupt_seen;
-  simulation.log = make_log(options.verbose);
-  simulation.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
+  simulation.watch = watch_of(options, progress);
   return simulation;
 }
 

@@ -61,7 +61,10 @@ SceneError placed(const SceneError& error);
 // Before anything runs: hours of work must not end at a folder that cannot be written. Throws std::invalid_argument.
 void check_folder(const StudyOptions& options);
 
-// Options of a simulation within a study: interrupt, progress, log, traces for the report.
+// Ctrl-C, the line of progress, and what --verbose says.
+Watch watch_of(const StudyOptions& options, Progress& progress);
+
+// Options of a simulation within a study: the same, and traces for the report.
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
 
 // A quantity in SI from an option; the example shows its unit: quantity_of("--until", "3 s", "a time > 0", "3 s",

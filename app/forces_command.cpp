@@ -30,9 +30,7 @@ int forces(const ForcesArguments& arguments) {
   if (!arguments.speed.empty())
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
-  options.interrupted = &interrupted();
-  options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
-  options.log = make_log(arguments.study.verbose);
+  options.watch = watch_of(arguments.study, progress);
   const Forces found = find_forces(scene, options);
   return present(output_of(found), arguments.study);
 }

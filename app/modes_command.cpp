@@ -40,9 +40,7 @@ int modes(const ModesArguments& arguments) {
     options.fastest = speed_of("--range", arguments.range[1], positive);
   }
   Progress progress(arguments.study.quiet);
-  options.interrupted = &interrupted();
-  options.progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); };
-  options.log = make_log(arguments.study.verbose);
+  options.watch = watch_of(arguments.study, progress);
   Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
   if (arguments.effects.empty() && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
   const ModesStudy found = find_modes(scene, effects, options);

@@ -22,9 +22,7 @@ struct SteadyArguments {
 SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   const SimulateOptions common = simulate_options(arguments.study, progress);
   SteadyOptions options;
-  options.interrupted = common.interrupted;
-  options.progress = common.progress;
-  options.log = common.log;
+  options.watch = common.watch;
   options.traces = common.traces;
   options.start_search = !arguments.no_start;
   if (arguments.periods < 1 || arguments.periods > 64)

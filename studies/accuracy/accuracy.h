@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "studies/findings/watch.h"
 
 namespace kurbel {
 
@@ -24,9 +25,7 @@ struct AccuracyOptions {
   std::optional<double> budget = {};  // "how exact is what this much processor time buys?" [s]
   double time = 60;                   // processor time that the whole study may take, about [s]
   int most_repetitions = 9;
-  const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& what, double fraction)> progress = {};
-  std::function<void(const std::string&)> log = {};
+  Watch watch = {};
 };
 
 // A figure whose error is followed; all errors of figures are relative to the reference's value.

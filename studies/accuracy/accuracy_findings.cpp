@@ -200,7 +200,7 @@ void show_measured(Findings& f, const AccuracyStudy& study) {
   std::vector<std::string> sentences;
   for (const auto* list : {&study.findings, &study.answers})
     for (const std::string& sentence : *list) sentences.push_back(sentence + ".");
-  f.say(words, Words{.lines = sentences, .terminal = false});
+  f.say(words, Sentences{.lines = sentences, .terminal = false});
   f.draw(plane, [&study] { return total_plots(study); });
   f.draw(motion, [&study] { return motion_cost_plots(study); });
   f.draw(figures, [&study] { return figure_cost_plots(study); });
@@ -226,7 +226,7 @@ Findings findings_of(const AccuracyStudy& study) {
              .footer = machine_info() + " · " + report_footer()};
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page
-  const auto say = [&](Words words) {
+  const auto say = [&](Sentences words) {
     words.page = false;
     f.say(terminal, std::move(words));
   };

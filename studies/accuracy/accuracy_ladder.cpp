@@ -41,7 +41,7 @@ bool time_runs(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& 
                  .method = s.method,
                  .until = level.model->scene.run.until,
                  .budget = work.options.time,
-                 .interrupted = work.options.interrupted,
+                 .interrupted = work.options.watch.interrupted,
                  .progress = {},
                  .work_tables = level.tables};
     const RunOutcome outcome = integrate(equations, o, {&extremes, &cycles});

@@ -17,13 +17,9 @@ AccuracyWork::AccuracyWork(const Scene& of, const AccuracyOptions& asked)
   study.scene_text = of.text;
 }
 
-void AccuracyWork::log(const std::string& text) const {
-  if (options.log) options.log(text);
-}
+void AccuracyWork::log(const std::string& text) const { options.watch.say(text); }
 
-void AccuracyWork::progress(const std::string& what, double fraction) const {
-  if (options.progress) options.progress(what, fraction);
-}
+void AccuracyWork::progress(const std::string& what, double fraction) const { options.watch.at(what, fraction); }
 
 void AccuracyWork::omit(const std::string& what, const std::string& why) {
   study.omissions.push_back({what, why});
@@ -35,7 +31,7 @@ SimulateOptions AccuracyWork::simulate_options(const std::string& method, double
   o.measure_error = false;
   o.method = method;
   o.accuracy = 10 * tolerance;  // a single run takes a tenth of the accuracy as its local tolerance
-  o.interrupted = options.interrupted;
+  o.watch.interrupted = options.watch.interrupted;
   return o;
 }
 

@@ -29,7 +29,7 @@ struct LevelAtWork {
 struct AccuracyWork {
   AccuracyWork(const Scene& of, const AccuracyOptions& asked);
 
-  bool interrupted() const { return options.interrupted && options.interrupted->load(); }
+  bool interrupted() const { return options.watch.stopped(); }
   double spent() const { return processor_time() - begin; }
   void log(const std::string& text) const;
   void progress(const std::string& what, double fraction) const;

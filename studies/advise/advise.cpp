@@ -25,7 +25,7 @@ class Adviser {
  public:
   Adviser(const Scene& scene, const AdviseOptions& options) : scene_(scene), options_(options) {
     simulate_ = options.simulate;
-    simulate_.progress = {};
+    simulate_.watch.progress = {};
     simulate_.traces = false;
   }
 
@@ -61,9 +61,7 @@ class Adviser {
   }
 
  private:
-  void say(const std::string& what, double part) const {
-    if (options_.simulate.progress) options_.simulate.progress(what, part);
-  }
+  void say(const std::string& what, double part) const { options_.simulate.watch.at(what, part); }
   void check_figures() const {
     for (const std::string& name : options_.figures) {
       const bool known = std::any_of(a_.full.figures.begin(), a_.full.figures.end(),

@@ -139,7 +139,7 @@ Findings findings_of(const Advice& a) {
   f.say(runs, tried_table(a));
   f.tell("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
   f.say(advice, held_out_table(a));
-  f.say(advice, Words{.lines = a.warnings, .title = "Warnings", .indent = "warning: ", .key = "warnings"});
+  f.say(advice, Sentences{.lines = a.warnings, .title = "Warnings", .indent = "warning: ", .key = "warnings"});
   f.show(lean, Text{.title = "The scene with these effects", .body = a.lean_scene, .verbatim = true, .folded = true});
   return f;
 }

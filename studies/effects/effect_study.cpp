@@ -54,11 +54,10 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
         "this scene has parameters for no effect: nothing is elastic, nothing has friction, losses or a gap. Give a "
         "coupling a stiffness, or a gear its efficiency");
   const auto say = [&](const std::string& what, std::size_t done) {
-    if (options.progress)
-      options.progress(what, static_cast<double>(done) / (1.0 + static_cast<double>(study.units.size())));
+    options.watch.at(what, static_cast<double>(done) / (1.0 + static_cast<double>(study.units.size())));
   };
   SimulateOptions quiet = options;
-  quiet.progress = {};
+  quiet.watch.progress = {};
   quiet.traces = false;
   EffectSet on(study.units.size(), true);
   say("all effects", 0);

@@ -133,7 +133,7 @@ Findings findings_of(const EffectStudy& s) {
                            "% off in " + l.changes.front().figure,
                            3});
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
-  f.say(ranked, Words{.lines = {full_model(s)}, .page = false, .apart = true});
+  f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});
   f.draw(ranked, [&s] { return plane(s); });
   f.say(ranked, ranking(s));
   f.say(ranked, matrix(s));

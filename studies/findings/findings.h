@@ -29,7 +29,7 @@ struct CsvFile {
 };
 
 // Sentences, a line each.
-struct Words {
+struct Sentences {
   std::vector<std::string> lines;
   std::string title = {};    // of the card on the page
   std::string heading = {};  // on the terminal, above
@@ -50,7 +50,7 @@ struct Drawn {
 
 struct Statement {
   std::optional<Chapter> chapter;  // of the page; none: not on it
-  std::variant<Rows, Words, Field, Drawn> what;
+  std::variant<Rows, Sentences, Field, Drawn> what;
 };
 
 struct Findings {
@@ -81,7 +81,7 @@ struct Findings {
     return static_cast<Chapter>(chapters.size() - 1);
   }
   void say(Chapter in, Rows rows) { statements.push_back({in, std::move(rows)}); }
-  void say(Chapter in, Words words) { statements.push_back({in, std::move(words)}); }
+  void say(Chapter in, Sentences words) { statements.push_back({in, std::move(words)}); }
   // On the page alone.
   void show(Chapter in, Card card) {
     statements.push_back({in, Drawn{[cards = Cards{std::move(card)}] { return cards; }}});

@@ -1,7 +1,7 @@
 // render_json.cpp — findings for programs: summary.json.
 #include <nlohmann/json.hpp>
 
-#include "studies/findings/json_text.h"
+#include "engine/scene/printable.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
@@ -40,7 +40,7 @@ Json json_of(const Value& value) {
 void tell(Json& j, const Rows& rows) {
   if (!rows.key.empty()) j[rows.key] = json_of(Value(rows.list()));
 }
-void tell(Json& j, const Words& words) {
+void tell(Json& j, const Sentences& words) {
   if (!words.key.empty()) j[words.key] = words.lines;
 }
 void tell(Json& j, const Field& field) { j[field.key] = json_of(field.value); }
@@ -67,7 +67,8 @@ std::string summary_json(const Findings& f) {
   if (!f.complete && f.tells_diagnosis) j["diagnosis"] = f.diagnosis;
   if (f.tells_conclusion) j["conclusion"] = f.conclusion;
   for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(j, what); }, s.what);
-  return json_text(j);
+  // What is no UTF-8 is replaced, and no terminal obeys it.
+  return printable_json(j.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace kurbel

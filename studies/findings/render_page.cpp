@@ -23,7 +23,7 @@ void show(Cards& cards, const Rows& rows) {
                           .tones = rows.tones,
                           .hints = rows.hints});
 }
-void show(Cards& cards, const Words& words) {
+void show(Cards& cards, const Sentences& words) {
   if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
 }
 void show(Cards& cards, const Drawn& drawn) {
@@ -64,12 +64,12 @@ Rows words_table(const std::string& title, const std::vector<std::string>& headi
 }
 
 void Findings::note(Chapter in, const std::vector<std::string>& notes, const std::string& indent) {
-  say(in, Words{.lines = notes, .indent = indent + "note: ", .key = "notes", .page = complete});
+  say(in, Sentences{.lines = notes, .indent = indent + "note: ", .key = "notes", .page = complete});
   if (complete) return;
-  statements.push_back({std::nullopt, Words{.lines = {diagnosis}, .indent = indent + "INCOMPLETE: "}});
+  statements.push_back({std::nullopt, Sentences{.lines = {diagnosis}, .indent = indent + "INCOMPLETE: "}});
   std::vector<std::string> lines = notes;
   lines.push_back("incomplete: " + diagnosis);
-  say(in, Words{.lines = lines, .terminal = false});
+  say(in, Sentences{.lines = lines, .terminal = false});
 }
 
 void Findings::show_scene(const std::string& file, const std::string& text) {

@@ -40,7 +40,7 @@ void say(std::string& text, const Rows& rows) {
   text += aligned(lines, rows.text_columns_on_terminal);
 }
 
-void say(std::string& text, const Words& words) {
+void say(std::string& text, const Sentences& words) {
   if (!words.terminal || words.lines.empty()) return;
   say(text, words.heading, words.apart);
   for (const std::string& line : words.lines) text += words.indent + line + "\n";

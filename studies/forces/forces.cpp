@@ -167,10 +167,8 @@ class SecondProblem {
             .method = settings_.model == "reduced" ? settings_.method : "auto",
             .until = settings_.until,
             .budget = settings_.budget,
-            .interrupted = options_.interrupted,
-            .progress = [this](double fraction) {
-              if (options_.progress) options_.progress("simulating", fraction);
-            }};
+            .interrupted = options_.watch.interrupted,
+            .progress = [this](double fraction) { options_.watch.at("simulating", fraction); }};
   }
   WholeRun whole_run(double tolerance) const {
     Equations equations(model_, false);
@@ -285,12 +283,12 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   double speed = options.speed.value_or(machine.start_speed());
   std::string source = options.speed ? "as asked for" : "the scene's start speed";
   if (speed == 0) speed = machine.rated_speed(), source = "rated speed, as the scene starts from rest";
-  if (options.log)
-    options.log(fmt::format("first problem: {} at {} ({})", section.name, with_unit(speed * 60 / turn, "rpm"), source));
+  options.watch.say(
+      fmt::format("first problem: {} at {} ({})", section.name, with_unit(speed * 60 / turn, "rpm"), source));
   first_problem(statics, loads, options.positions, speed, out);
   out.prescribed->description += ", " + source;
   if (options.simulate) {
-    if (options.log) options.log("second problem: running the rigid machine");
+    options.watch.say("second problem: running the rigid machine");
     out.simulated = machine.solve(statics, loads, out);
   }
   return out;

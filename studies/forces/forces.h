@@ -13,6 +13,7 @@
 
 #include "engine/scene/scene.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "studies/findings/watch.h"
 
 namespace kurbel {
 
@@ -21,9 +22,7 @@ struct ForcesOptions {
   std::optional<double> speed;  // of the crank in the first problem [rad/s], ≠ 0; default: start speed, else rated
   std::string mechanism;        // empty: the first slider-crank
   bool simulate = true;         // the second problem, too
-  const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& what, double fraction)> progress = {};
-  std::function<void(const std::string&)> log = {};
+  Watch watch = {};
 };
 
 // Powers that enter the mechanism [W].

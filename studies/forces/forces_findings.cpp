@@ -334,7 +334,7 @@ void say_positions(Findings& to, Chapter in, const Forces& f) {
   to.say(in, peak_table(f));
   for (const ForceCycle* c : problems_of(f)) {
     to.say(in, position_table(*c));
-    to.say(in, Words{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
+    to.say(in, Sentences{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
     to.show(in, Text{.title = "", .body = fmt::format("Check: {}.", checks_of(*c))});
     to.tell(c->label, cycle_record(*c));
   }

@@ -292,7 +292,7 @@ void say_stage(Findings& f, const GearStage& s) {
   std::vector<std::string> verdicts;
   for (const GearVerdict& v : s.verdicts) verdicts.push_back(fmt::format("{}: {}", word_of(v.finding), v.text));
   f.draw(in, [&s] { return Cards{drawing_of(s)}; });
-  f.say(in, Words{.lines = verdicts, .title = "Verdict", .terminal = false});
+  f.say(in, Sentences{.lines = verdicts, .title = "Verdict", .terminal = false});
   f.draw(in, [&s] { return plots_of(s); });
   for (const Formula& formula : formulas_of(s)) f.show(in, formula);
   Rows wheels = wheels_of(s.pair).rows();
@@ -302,8 +302,8 @@ void say_stage(Findings& f, const GearStage& s) {
   Rows path = path_table(s);
   path.key = "";
   f.say(in, std::move(path));
-  f.say(in, Words{.lines = {""}, .page = false});
-  f.say(in, Words{.lines = verdicts, .indent = "  ", .page = false});
+  f.say(in, Sentences{.lines = {""}, .page = false});
+  f.say(in, Sentences{.lines = verdicts, .indent = "  ", .page = false});
   f.csv.push_back({fmt::format("{}.path.csv", s.name), [&p = s.pair] { return path_csv(p); }});
   for (const std::size_t i : {0, 1})
     f.csv.push_back({fmt::format("{}.wheel{}.csv", s.name, i + 1), [&w = s.pair.wheel[i]] { return outline_csv(w); }});

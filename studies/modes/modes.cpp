@@ -71,10 +71,10 @@ class Study {
 
  private:
   void say(const std::string& what, double fraction) const {
-    if (options_.progress) options_.progress(what, fraction);
-    if (options_.log) options_.log(what);
+    options_.watch.at(what, fraction);
+    options_.watch.say(what);
   }
-  bool stopped() const { return options_.interrupted && *options_.interrupted; }
+  bool stopped() const { return options_.watch.stopped(); }
 
   void check_options() const {
     if (options_.count < 1) throw std::invalid_argument(fmt::format("--count {}: must be ≥ 1", options_.count));
@@ -315,7 +315,7 @@ class Study {
       Deadline::check();
       if (speeds[i] == 0) continue;
       const double fraction = static_cast<double>(i) / static_cast<double>(speeds.size());
-      if (options_.progress) options_.progress("forced response", 0.2 + 0.6 * fraction);
+      options_.watch.at("forced response", 0.2 + 0.6 * fraction);
       found_.sweep.push_back(respond(drive_at(speeds[i]), x));
       found_.sweep.back().speed = speeds[i];
     }

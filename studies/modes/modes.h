@@ -13,6 +13,7 @@
 
 #include "engine/analysis/eigen_modes.h"
 #include "engine/scene/scene.h"
+#include "studies/findings/watch.h"
 #include "studies/modes/forced_response.h"
 #include "studies/modes/rainflow.h"
 #include "studies/modes/spectrum.h"
@@ -27,9 +28,7 @@ struct ModesOptions {
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
   double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its mean
   std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
-  const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& what, double fraction)> progress = {};
-  std::function<void(const std::string&)> log = {};
+  Watch watch = {};
 };
 
 struct Mode {

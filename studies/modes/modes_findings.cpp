@@ -320,7 +320,7 @@ Formula half_width(const ModesStudy& m) {
 
 void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, mode_table(m));
-  f.say(in, Words{.lines = {method_text(m)}, .indent = "  ", .page = false});
+  f.say(in, Sentences{.lines = {method_text(m)}, .indent = "  ", .page = false});
   f.tell("shafts", m.shaft_names);
   f.tell("joints", joint_list(m));
   f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
@@ -357,7 +357,7 @@ Findings findings_of(const ModesStudy& m) {
                 notes = f.chapter("Notes");
   add_key_figures(f, m);
   f.tell("operating_point", operating_point(m));
-  f.say(modes, Words{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
+  f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
   say_modes(f, modes, m);
   const bool is_shaken = is_forced(m);
   if (is_shaken) f.draw(campbell, [&m] { return campbell_plot(m); });

@@ -18,10 +18,8 @@ constexpr double pi = std::numbers::pi;
 SimulateOptions simulate_options(const ModesOptions& asked) {
   SimulateOptions options;
   options.measure_error = false;
-  options.interrupted = asked.interrupted;
-  options.log = asked.log;
-  if (asked.progress)
-    options.progress = [&asked](const std::string& what, double f) { asked.progress(what, 0.8 + 0.2 * f); };
+  options.watch = asked.watch;
+  options.watch.progress = [&asked](const std::string& what, double f) { asked.watch.at(what, 0.8 + 0.2 * f); };
   return options;
 }
 

@@ -261,13 +261,13 @@ Findings findings_of(const MachineReduction& r) {
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);
-  f.say(cycle, Words{.lines = {speed_text(r)}, .page = false});
+  f.say(cycle, Sentences{.lines = {speed_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
   f.say(cycle, positions_table(r));
   for (const Formula& formula : formulas_of(r)) f.show(cycle, formula);
   if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r); });
   f.say(drive, chain_table(r));
-  f.say(drive, Words{.lines = {""}, .page = false});
+  f.say(drive, Sentences{.lines = {""}, .page = false});
   if (!r.spectra.empty()) {
     f.draw(spectra, [&r] { return harmonics_plots(r); });
     f.say(spectra, harmonics_table(r));

@@ -143,7 +143,8 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
   const auto run_at = [&](double accuracy) {
     problem.accuracy = accuracy;
     ++result.runs;
-    const Deadline deadline(std::min(settings.budget, options.budget.value_or(settings.budget)), options.interrupted);
+    const Deadline deadline(std::min(settings.budget, options.budget.value_or(settings.budget)),
+                            options.watch.interrupted);
     return run_multibody(problem);
   };
   try {

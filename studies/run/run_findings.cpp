@@ -156,15 +156,15 @@ Findings findings_of(const Result& r) {
   add_key_figures(f, r);
   show_motion(f, {&r});
   const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
-  f.say(figures, Words{.lines = model_words(r), .page = false});
+  f.say(figures, Sentences{.lines = model_words(r), .page = false});
   f.say(figures, figures_table(r, true));
-  f.say(figures, Words{.lines = balance_words(r), .page = false});
+  f.say(figures, Sentences{.lines = balance_words(r), .page = false});
   f.say(figures, figures_table(r, false));
   show_delta_formulas(f, figures, {&r});
   std::vector<std::string> lines = r.notes;
   if (r.complete && !r.periods.verdict.empty())
     lines.push_back(fmt::format("{}: {}", r.periods.steady ? "steady motion" : "no steady motion", r.periods.verdict));
-  f.say(notes, Words{.lines = lines, .terminal = false});
+  f.say(notes, Sentences{.lines = lines, .terminal = false});
   show_background(f, {&r});
   if (r.begins_at > 0) f.tell("goes_on_from", r.begins_at);
   for (Field& field : result_record(r)) f.tell(std::move(field.key), std::move(field.value));
@@ -186,8 +186,8 @@ Findings findings_of(const Comparison& c) {
   show_motion(f, results);
   const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
   for (const Result* r : results) {
-    f.say(figures, Words{.lines = model_words(*r), .page = false, .apart = r == &c.a});
-    f.say(figures, Words{.lines = balance_words(*r), .page = false});
+    f.say(figures, Sentences{.lines = model_words(*r), .page = false, .apart = r == &c.a});
+    f.say(figures, Sentences{.lines = balance_words(*r), .page = false});
   }
   f.tell("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
   const Rows table = comparison_table(c);
@@ -198,11 +198,11 @@ Findings findings_of(const Comparison& c) {
          }));
   show_amplification(f, figures, c);
   show_delta_formulas(f, figures, results);
-  f.say(notes, Words{.lines = c.notes, .indent = "note: ", .key = "notes", .page = false});
+  f.say(notes, Sentences{.lines = c.notes, .indent = "note: ", .key = "notes", .page = false});
   std::vector<std::string> lines = c.notes;
   for (const Result* r : results)
     for (const std::string& note : r->notes) lines.push_back(r->label + ": " + note);
-  f.say(notes, Words{.lines = lines, .terminal = false});
+  f.say(notes, Sentences{.lines = lines, .terminal = false});
   show_background(f, results);
   return f;
 }

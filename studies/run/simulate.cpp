@@ -76,9 +76,7 @@ class Simulation {
         fmt::format("goes on from a state at {:.9g} s: figures are of what follows it", checkpoint_->state.t));
   }
 
-  void log(const std::string& text) const {
-    if (options_.log) options_.log(text);
-  }
+  void log(const std::string& text) const { options_.watch.say(text); }
 
   // Work and edges over the angle, made once for all runs of the ladder.
   std::shared_ptr<WorkTables> work_tables() {
@@ -111,7 +109,7 @@ class Simulation {
     return coarse_ && elsewhere_ && error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy &&
            fine_->energy->relative() <= settings_.accuracy;
   }
-  bool interrupted() const { return options_.interrupted && options_.interrupted->load(); }
+  bool interrupted() const { return options_.watch.stopped(); }
 
   static constexpr double weight_of_elsewhere = 2;  // measured_errors.h says why
   std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
@@ -228,16 +226,16 @@ class Simulation {
                        .method = elsewhere ? confirming_method() : settings_.method,
                        .until = settings_.until,
                        .budget = settings_.budget,
-                       .interrupted = options_.interrupted,
+                       .interrupted = options_.watch.interrupted,
                        .progress = {},
                        .work_tables = work_tables(),
                        .checkpoint = checkpoint_ ? &*checkpoint_ : nullptr,
                        .to_go_on = options_.keep_state,
                        .accuracy = settings_.accuracy,
                        .elsewhere = elsewhere};
-    if (options_.progress)
+    if (options_.watch.progress)
       options.progress = [&](double fraction) {
-        options_.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
+        options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
                                         run->energy.get()};

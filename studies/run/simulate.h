@@ -7,6 +7,7 @@
 
 #include "engine/model/model.h"
 #include "studies/findings/result.h"
+#include "studies/findings/watch.h"
 
 namespace kurbel {
 
@@ -15,11 +16,9 @@ struct SimulateOptions {
   bool traces = false;                // follow everything along the steps, for a report's plots
   std::optional<std::string> method;  // overrides the scene's
   std::optional<double> accuracy, until;
-  const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& what, double fraction)> progress;
-  std::function<void(const std::string&)> log = {};  // what was compiled, chosen, run
-  std::optional<double> first_tolerance = {};        // the ladder begins there; default: accuracy/10
-  std::string chosen_because = {};                   // for people: who says so
+  Watch watch = {};
+  std::optional<double> first_tolerance = {};  // the ladder begins there; default: accuracy/10
+  std::string chosen_because = {};             // for people: who says so
   std::string go_on_from = {};        // text of a checkpoint (engine/run/checkpoint.h): figures are of what follows it
   bool keep_state = false;            // the result's checkpoint is wanted: no method over the angle
   std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's

@@ -73,7 +73,7 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
   rows.apart = false;
   rows.even_if_empty = true;
   f.say(in, std::move(rows));
-  f.say(in, Words{.lines = {""}, .page = false});
+  f.say(in, Sentences{.lines = {""}, .page = false});
 }
 
 Rows methods_table(const Sizing& s) {
@@ -213,7 +213,7 @@ Rows scales_table(const Sizing& s) {
   return table;
 }
 
-Words basis_words(const Sizing& s) {
+Sentences basis_words(const Sizing& s) {
   return {.lines = {fmt::format("demanded: δ = {:g} ({}), mean speed {:.6g} rpm of {} ({})", s.delta, s.delta_source,
                                 rpm(s.mean_speed), s.link, s.mean_speed_source),
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
@@ -327,7 +327,7 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
   for (const std::string& why : {s.soft_why, s.dimensions_why})
     if (!why.empty()) notes.push_back(why);
   notes.insert(notes.end(), s.notes.begin(), s.notes.end());
-  f.say(in, Words{.lines = notes, .indent = "note: "});
+  f.say(in, Sentences{.lines = notes, .indent = "note: "});
   f.tell("notes", s.notes);
 }
 
@@ -350,7 +350,7 @@ Findings findings_of(const Sizing& s) {
   show_all(f, cycle, cycle_formulas(s));
   f.say(cycle, positions_table(s));
   f.say(cycle, basis_words(s));
-  f.say(cycle, Words{.lines = {""}, .page = false});
+  f.say(cycle, Sentences{.lines = {""}, .page = false});
   f.draw(synthesis, [&s] { return energy_mass_plots(s); });
   show_all(f, synthesis, method_formulas(s));
   show_all(f, synthesis, flywheel_formulas(s));
@@ -369,7 +369,7 @@ Findings findings_of(const Sizing& s) {
     f.tell("dimensions", dimensions_record(*s.dimensions));
   }
   if (s.punch) {
-    f.say(synthesis, Words{.lines = {punch_words(*s.punch)}, .page = false});
+    f.say(synthesis, Sentences{.lines = {punch_words(*s.punch)}, .page = false});
     f.tell("punch_press", punch_record(*s.punch));
   }
   if (s.sheet) say_titled(f, scales, scales_table(s));

@@ -83,7 +83,7 @@ class Search {
             .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
             .cycles = options_.periods,
             .budget = scene_.run.budget,
-            .interrupted = options_.interrupted};
+            .interrupted = options_.watch.interrupted};
   }
 
   void prepare(std::shared_ptr<const Model> model) {
@@ -292,7 +292,7 @@ class Search {
                    .method = "auto",
                    .until = map_->start_time() + 2.05 * out_.point.time * (map_->periodicity().by_time ? 1 : 1.5),
                    .budget = 60,
-                   .interrupted = options_.interrupted,
+                   .interrupted = options_.watch.interrupted,
                    .progress = {}};
     run.from = {map_->start_time(), y};
     run.stop = map_->round_end(equations, y, 2.05);

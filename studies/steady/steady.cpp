@@ -76,12 +76,8 @@ class Study {
   }
 
  private:
-  void progress(const std::string& what, double fraction) const {
-    if (options_.progress) options_.progress(what, fraction);
-  }
-  void log(const std::string& text) const {
-    if (options_.log) options_.log(text);
-  }
+  void progress(const std::string& what, double fraction) const { options_.watch.at(what, fraction); }
+  void log(const std::string& text) const { options_.watch.say(text); }
 
   void find_diagram() {
     if (rigid_->free_shafts != 1) {
@@ -113,7 +109,7 @@ class Study {
 
   // Steady motion is that of the machine coupled: clutches locked, brakes released.
   void find_cycle(const Effects& effects) {
-    const bool stopped = options_.interrupted && options_.interrupted->load();
+    const bool stopped = options_.watch.stopped();
     if (stopped) return incomplete("interrupted");
     progress("steady cycle with effects: " + effects.describe(), 0);
     Effects running = effects;
@@ -175,9 +171,9 @@ class Study {
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
-    out_.start = start_from_rest(rigid_, target, limit, options_.interrupted);
+    out_.start = start_from_rest(rigid_, target, limit, options_.watch.interrupted);
     const double search_limit = out_.start->reached ? 4 * out_.start->time : limit;
-    out_.ratios = fastest_ratios(scene_, target, search_limit, options_.interrupted);
+    out_.ratios = fastest_ratios(scene_, target, search_limit, options_.watch.interrupted);
   }
 
   void conclude() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/analysis/return_map.h"
+#include "studies/findings/watch.h"
 #include "studies/run/simulate.h"
 #include "studies/steady/operating_points.h"
 
@@ -20,9 +21,7 @@ struct SteadyOptions {
   int periods = 1;                        // cycles after which the motion repeats
   bool traces = false;                    // for plots
   bool start_search = true;               // start from rest and the gearbox ratio that starts fastest
-  const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& what, double fraction)> progress = {};
-  std::function<void(const std::string&)> log = {};
+  Watch watch = {};
 };
 
 // δ of one shaft (theory 2.6).

@@ -367,10 +367,10 @@ void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
 
 void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
   if (s.diagram) f.draw(in, [&s] { return diagram_plot(s); });
-  f.say(in, Words{.lines = words_of_diagram(s)});
+  f.say(in, Sentences{.lines = words_of_diagram(s)});
   if (s.start && s.start->t.size() > 1) f.draw(in, [&s] { return start_plot(s); });
   for (const RatioSearch& r : s.ratios) f.draw(in, [&r] { return ratio_plot(r); });
-  f.say(in, Words{.lines = words_of_start(s)});
+  f.say(in, Sentences{.lines = words_of_start(s)});
   f.tell("operating_points",
          s.diagram ? each(s.diagram->points, [&](const OperatingPoint& p) { return operating_point(*s.diagram, p); })
                    : List{});
@@ -395,12 +395,12 @@ Findings findings_of(const SteadyStudy& s) {
   const bool any = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
   add_key_figures(f, s);
   for (const SteadyCycle& c : s.cycles)
-    f.say(how, Words{.lines = words_of(c),
-                     .title = c.label + " model",
-                     .heading = fmt::format("{} ({})", c.label,
-                                            c.effects == "none" ? "no effects on" : "effects: " + c.effects),
-                     .indent = "  ",
-                     .apart = &c == &s.cycles.front()});
+    f.say(how, Sentences{.lines = words_of(c),
+                         .title = c.label + " model",
+                         .heading = fmt::format("{} ({})", c.label,
+                                                c.effects == "none" ? "no effects on" : "effects: " + c.effects),
+                         .indent = "  ",
+                         .apart = &c == &s.cycles.front()});
   f.tell("cycles", each(s.cycles, cycle_record));
   say_operation(f, operation, s);
   if (any) {
@@ -412,7 +412,7 @@ Findings findings_of(const SteadyStudy& s) {
     show_formulas(f, figures, s);
     f.say(figures, figure_table(s));
   }
-  f.say(notes, Words{.lines = s.notes, .indent = "note: ", .key = "notes"});
+  f.say(notes, Sentences{.lines = s.notes, .indent = "note: ", .key = "notes"});
   add_files(f, s);
   return f;
 }

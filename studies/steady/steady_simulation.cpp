@@ -127,12 +127,12 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
                    .method = options.method.value_or("auto"),
                    .until = (cycles + 0.5) * period,
                    .budget = scene.run.budget,
-                   .interrupted = options.interrupted,
+                   .interrupted = options.watch.interrupted,
                    .progress = {}};
     return integrate(equations, run, {&speeds});
   };
   for (int cycles = 10;; cycles *= 2) {
-    if (options.log) options.log(fmt::format("sized machine, effects {}: {} cycles", effects.describe(), cycles));
+    options.watch.say(fmt::format("sized machine, effects {}: {} cycles", effects.describe(), cycles));
     CycleSpeeds speeds(*model, cycle, model->reduction_node, motor_node);
     const RunOutcome outcome = once(tolerance, cycles, speeds);
     result.complete = outcome.complete;

@@ -102,7 +102,7 @@ struct Figures {
 Figures figures_of(Scene scene, double angle, double until) {
   scene.run.start.angle = angle;
   scene.run.until = until;
-  SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .progress = {}};
+  SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}};
   options.first_tolerance = 1e-10;
   const Result r = simulate(scene, scene.effects, "shifted", options);
   EXPECT_TRUE(r.complete) << scene.file << " from " << angle << ": " << r.diagnosis;

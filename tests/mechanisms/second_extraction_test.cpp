@@ -165,7 +165,7 @@ TEST(SecondExtraction, TwoRunsDifferByTheTrueErrorNearTheChangePoint) {
     for (const Extraction from : {Extraction::first, Extraction::second}) {
       const auto model = compiled(scene, from);
       data = *mechanism_of(model->network.elements.front())->mechanism().data.as<SliderCrankData>();
-      SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .progress = {}};
+      SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}};
       options.first_tolerance = 1e-14;
       const Result r = simulate(model, "free", options);
       ASSERT_TRUE(r.complete) << r.diagnosis;

@@ -147,7 +147,7 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
         if (s.numerical_error[i] > study.levels[s.level].floor[i]) error = std::max(error, s.numerical_error[i]);
       EXPECT_TRUE(error > accuracy || s.seconds >= known.seconds) << study.name_of(s);
     }
-    SimulateOptions options{.method = known.method, .accuracy = accuracy, .until = {}, .progress = {}};
+    SimulateOptions options{.method = known.method, .accuracy = accuracy, .until = {}};
     options.first_tolerance = known.tolerance;
     options.chosen_because = known.describe();
     const Result r = simulate(scene, scene.effects, "known", options);

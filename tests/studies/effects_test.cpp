@@ -77,9 +77,7 @@ TEST_P(OfExample, AnyPairOfEffectsComposes) {
       }
 }
 
-SimulateOptions plain() {
-  return {.measure_error = true, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}};
-}
+SimulateOptions plain() { return {.measure_error = true, .method = {}, .accuracy = {}, .until = {}}; }
 
 // A light branch with a mode at the frequency that shakes it: it carries some 10⁻³ of the energy and sets the peak.
 const char* const resonant_branch = R"(

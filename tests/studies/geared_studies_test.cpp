@@ -211,9 +211,7 @@ const Screen* screen_of(const std::vector<Screen>& screens, const std::string& n
   return nullptr;
 }
 Result run_with_elasticity(const Scene& scene) {
-  return simulate(
-      scene, scene.effects, "full",
-      {.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}});
+  return simulate(scene, scene.effects, "full", {.measure_error = false, .method = {}, .accuracy = {}, .until = {}});
 }
 
 // A free swing of ±θ̂: ∫|τ dθ| is ½ k θ̂² in each quarter of a period. Nothing drives: it counts over the energy of the
@@ -275,9 +273,8 @@ run = {{ start = {{ speed = "{:.17g} rad/s" }}, until = "0.1 ms", accuracy = 1e-
                                                      own / times));
     Effects effects = scene.effects;
     effects.flexible_rod = true;
-    const Result full = simulate(
-        scene, effects, "full",
-        {.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .interrupted = nullptr, .progress = {}});
+    const Result full =
+        simulate(scene, effects, "full", {.measure_error = false, .method = {}, .accuracy = {}, .until = {}});
     const double more = times > 2 ? 1 / (1 - 4 / (times * times)) - 1 : HUGE_VAL;
     for (const double within : {0.004, 0.005}) {
       const auto screens = screens_of(scene, {{"flexible_rod", "flexible rod"}}, full, within);

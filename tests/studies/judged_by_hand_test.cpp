@@ -226,9 +226,8 @@ b = { kind = "inertia", inertia = "0.9 kg*m2" }
 push = { kind = "torque source", on = "a", torque = "8 N*m" }
 run = { until = "2 s" }
 )");
-  const Result r = simulate(
-      scene, scene.effects, "short",
-      {.measure_error = false, .method = {}, .accuracy = {}, .until = 0.3, .interrupted = nullptr, .progress = {}});
+  const Result r =
+      simulate(scene, scene.effects, "short", {.measure_error = false, .method = {}, .accuracy = {}, .until = 0.3});
   EXPECT_NEAR(test::figure(r, "rms_torque.c"), 6, 1e-8);
 }
 

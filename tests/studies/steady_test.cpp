@@ -198,7 +198,8 @@ TEST(Steady, PeakLoadThatStopsALightMachineIsAStallWithinTheCycle) {
 
 TEST(Steady, InterruptedStudyIsMarked) {
   const std::atomic<bool> interrupted = true;
-  const SteadyStudy study = steady(scene_file("scenes/crank_press.toml"), {Effects{}}, {.interrupted = &interrupted});
+  const SteadyStudy study =
+      steady(scene_file("scenes/crank_press.toml"), {Effects{}}, {.watch = {.interrupted = &interrupted}});
   EXPECT_FALSE(study.complete);
   EXPECT_EQ(study.diagnosis, "interrupted");
 }

@@ -19,12 +19,7 @@ inline Scene scene_file(const std::string& relative) { return read_scene(source_
 // Runs with the scene's own effects; errors measured unless told otherwise.
 inline Result run(const Scene& scene, bool measure_error = true) {
   return simulate(scene, scene.effects, "test",
-                  SimulateOptions{.measure_error = measure_error,
-                                  .method = {},
-                                  .accuracy = {},
-                                  .until = {},
-                                  .interrupted = nullptr,
-                                  .progress = {}});
+                  SimulateOptions{.measure_error = measure_error, .method = {}, .accuracy = {}, .until = {}});
 }
 inline Result run(const std::string& text, bool measure_error = true) { return run(scene_from(text), measure_error); }
 
