@@ -81,23 +81,23 @@ List each(const Items& items, F&& value) {
 // --- readings, for people ---
 
 // How people read a number.
-struct Reading {
+struct ReadAs {
   double factor = 1;  // from SI
   int digits = 6;
   const char* otherwise = "—";  // what is not finite, or is not there
 };
 
-inline std::string read_as(double v, const Reading& r = {}) {
+inline std::string read_as(double v, const ReadAs& r = {}) {
   const double x = r.factor * v;
   return std::isfinite(x) ? fmt::format("{:.{}g}", x == 0 ? 0.0 : x, r.digits) : std::string(r.otherwise);
 }
-inline std::string read_as(const std::string& text, const Reading& = {}) { return text; }
+inline std::string read_as(const std::string& text, const ReadAs& = {}) { return text; }
 template <std::integral T>
-std::string read_as(T v, const Reading& = {}) {
+std::string read_as(T v, const ReadAs& = {}) {
   return fmt::format("{}", v);
 }
 template <class T>
-std::string read_as(const std::optional<T>& v, const Reading& r = {}) {
+std::string read_as(const std::optional<T>& v, const ReadAs& r = {}) {
   return v ? read_as(*v, r) : std::string(r.otherwise);
 }
 template <class T, std::invocable<const T&> InWords>
@@ -143,8 +143,8 @@ class RowsOf : public Rows {
     key = std::move(of_key), title = std::move(of_title), count = rows.size();
   }
 
-  // `get` is a member or a function of a row; `read` a Reading, or a function that makes words of what `get` gives.
-  template <class Get, class Read = Reading>
+  // `get` is a member or a function of a row; `read` a ReadAs, or a function that makes words of what `get` gives.
+  template <class Get, class Read = ReadAs>
   RowsOf& column(std::string its_key, std::string its_heading, Get get, Read read = {}) {
     Column& made = columns.emplace_back(Column{std::move(its_key), std::move(its_heading)});
     for (const T& row : rows_) {
@@ -155,18 +155,18 @@ class RowsOf : public Rows {
     return *this;
   }
   template <class Get>
-  RowsOf& column(std::string its_key, std::string its_heading, Get get, Reading read) {
-    return column<Get, Reading>(std::move(its_key), std::move(its_heading), std::move(get), read);
+  RowsOf& column(std::string its_key, std::string its_heading, Get get, ReadAs read) {
+    return column<Get, ReadAs>(std::move(its_key), std::move(its_heading), std::move(get), read);
   }
-  template <class Get, class Read = Reading>
+  template <class Get, class Read = ReadAs>
   RowsOf& only_for_people(std::string its_heading, Get get, Read read = {}) {
     Column& made = columns.emplace_back(Column{"", std::move(its_heading)});
     for (const T& row : rows_) made.texts.push_back(read_as(std::invoke(get, row), read));
     return *this;
   }
   template <class Get>
-  RowsOf& only_for_people(std::string its_heading, Get get, Reading read) {
-    return only_for_people<Get, Reading>(std::move(its_heading), std::move(get), read);
+  RowsOf& only_for_people(std::string its_heading, Get get, ReadAs read) {
+    return only_for_people<Get, ReadAs>(std::move(its_heading), std::move(get), read);
   }
   template <class Get>
   RowsOf& only_for_programs(std::string its_key, Get get) {
@@ -227,7 +227,7 @@ class QuantitiesOf {
  public:
   QuantitiesOf(std::string title, std::vector<std::string> headings, std::span<const T> things)
       : title_(std::move(title)), headings_(std::move(headings)), things_(things), records_(things.size()) {}
-  template <class Get, class Read = Reading>
+  template <class Get, class Read = ReadAs>
   QuantitiesOf& quantity(const std::string& key, std::string name, std::string symbol, std::string unit, Get get,
                          Read read = {}) {
     std::vector<std::string>& line = lines_.emplace_back();

@@ -66,7 +66,7 @@ QuantitiesOf<MeshedWheel> wheels_of(const GearPair& p) {
       .quantity("shift", "profile shift", "x", "", &MeshedWheel::shift)
       .quantity("generating_shift", "generating shift", "x_E", "", &MeshedWheel::generating_shift)
       .quantity("least_shift", "least shift without undercut", "x_min", "", &MeshedWheel::least_shift_generated,
-                Reading{.digits = 5})
+                ReadAs{.digits = 5})
       .only_for_programs("undercut", &MeshedWheel::undercut)
       .quantity("reference_diameter", "reference diameter", "d", "mm", &MeshedWheel::reference_diameter, length)
       .quantity("working_diameter", "working diameter", "d_w", "mm", &MeshedWheel::working_diameter, length)
@@ -98,7 +98,7 @@ QuantitiesOf<MeshedWheel> wheels_of(const GearPair& p) {
 
 QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
   using P = const GearPair&;
-  constexpr Reading five{.digits = 5}, stiffness{.factor = 1e-9, .digits = 5}, mrad{.factor = 1e3, .digits = 5};
+  constexpr ReadAs five{.digits = 5}, stiffness{.factor = 1e-9, .digits = 5}, mrad{.factor = 1e3, .digits = 5};
   QuantitiesOf<GearPair> q("Mesh", {"of the mesh", "symbol", "value", "unit"}, std::span(&s.pair, 1));
   q.quantity("ratio", "ratio", "u = z₂/z₁", "", &GearPair::ratio)
       .quantity(
@@ -136,8 +136,8 @@ QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
       "", "least teeth without undercut, x = 0", "z_min", "",
       [](P p) { return least_teeth(p.data.rack, p.data.helix); }, five);
   if (s.pair.internal())
-    q.quantity("", "margin against tip fouling", "", "rad", tip_fouling_margin, Reading{.digits = 4})
-        .quantity("", "margin of radial assembly", "", "rad", radial_assembly_margin, Reading{.digits = 4});
+    q.quantity("", "margin against tip fouling", "", "rad", tip_fouling_margin, ReadAs{.digits = 4})
+        .quantity("", "margin of radial assembly", "", "rad", radial_assembly_margin, ReadAs{.digits = 4});
   if (s.speed)
     q.quantity("mesh_frequency", "gear-mesh frequency", "f_z", "Hz", [&](P p) { return p.mesh_frequency(*s.speed); });
   return q;

@@ -17,8 +17,8 @@ using namespace modes;
 constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.
-Reading digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
-Reading in_rpm(int count = 5) { return {.factor = rpm(1), .digits = count, .otherwise = "unbounded"}; }
+ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
+ReadAs in_rpm(int count = 5) { return {.factor = rpm(1), .digits = count, .otherwise = "unbounded"}; }
 
 // Worst barred range: the one that exceeds its limit most.
 const BarredRange* worst_of(const ModesStudy& m) {

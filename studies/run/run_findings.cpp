@@ -70,7 +70,7 @@ Rows comparison_table(const Comparison& c) {
       .column("unit", "unit", &ComparisonRow::unit, [](const std::string& unit) { return pretty_unit(unit); })
       .only_for_programs("difference", &ComparisonRow::difference);
   return table.column("ratio", c.b.label + "/" + c.a.label, &ComparisonRow::ratio,
-                      Reading{.digits = 4, .otherwise = ""});
+                      ReadAs{.digits = 4, .otherwise = ""});
 }
 
 // On the terminal the amplification of torques stands below the figures.

@@ -370,7 +370,7 @@ class Sizer {
 
   void run(const std::string& name, const std::string& sized_by, double flywheel, const Scene& sized,
            const Effects& effects, const SteadyRigidCycle& cycle) {
-    if (options_.simulation.progress) options_.simulation.progress(name + ", " + sized_by, 0);
+    options_.simulation.watch.at(name + ", " + sized_by, 0);
     SteadySimulation sim;
     try {
       sim = simulate_steady(sized, effects, cycle.speed.value(0), machine_->cycle(), motor_node(), options_.simulation);
