@@ -67,7 +67,7 @@ class RigidMachine {
  private:
   struct Mechanism {
     const AnyShaftElement* element;  // belongs to the model
-    double ratio, phase;           // own angle = ratio · φ + phase
+    double ratio, phase;             // own angle = ratio · φ + phase
   };
   class EdgeSearch;
   void look_ahead(double phi, double omega, double distance);

@@ -290,7 +290,8 @@ class Fields {
     return *this;
   }
 
-  const std::vector<Key>& keys() const { return keys_; }
+  const std::vector<Key>& keys() const& { return keys_; }
+  std::vector<Key> keys() && { return std::move(keys_); }  // of one that does not last
 
   // Of a sound section; faults go into the messages, under the section's kind and name unless `what` is given.
   Reading<D> read(const Section& section, Messages& messages, std::string what = "") const {

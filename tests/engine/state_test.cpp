@@ -218,7 +218,7 @@ TEST(State, RecordersGoOnWithTheRun) {
     for (std::size_t i = 0; i < whole.extremes.found().size(); ++i) {
       const double a = second.extremes.found()[i].value, b = whole.extremes.found()[i].value;
       EXPECT_NEAR(a, b, 1e-6 * std::max(whole.extremes.wanted()[i].scale, std::abs(b)))
-          << whole.extremes.wanted()[i].name;
+          << whole.extremes.wanted()[i].name.text;
     }
     EXPECT_LT(second.energy.relative(), 1e-7);
     EXPECT_EQ(second.energy.checked, whole.energy.checked);

@@ -95,11 +95,15 @@ TEST(SummarySchema, HoldsForStudiesOfTheCycle) {
   size.simulate = false;
   expect_told("size", size_flywheel(scene, size));
   expect_told("reduce", reduce(scene, {}));
-  expect_told("reduce", reduce(scene, {.to = "press.slider"}));
+  ReduceOptions to_the_slider;
+  to_the_slider.to = "press.slider";
+  expect_told("reduce", reduce(scene, to_the_slider));
 }
 
 TEST(SummarySchema, HoldsForGears) {
-  expect_told("gears", find_gears(test::scene_file("scenes/gear_pair.toml"), {.speed = 100}));
+  GearsOptions turning;
+  turning.speed = 100;
+  expect_told("gears", find_gears(test::scene_file("scenes/gear_pair.toml"), turning));
   expect_told("bevel_pair", BevelPair{.teeth = {19, 40}, .module = 0.004, .shaft_angle = 1.5});
   expect_met("worm_pair", findings_of(WormPair{.starts = 1, .teeth = 40, .module = 0.004, .worm_diameter = 0.05}, 150));
 }

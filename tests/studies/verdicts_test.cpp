@@ -235,6 +235,13 @@ TEST(ForcePeaks, AreThoseOfADenseScan) {
 
 // --- effects ---
 
+Figure figure(QuantityKind what, const std::string& of, double value, const std::string& unit, double error,
+              double scale) {
+  Figure made = Figure::of_name(Name::make(what, of), value, unit, scale);
+  made.error = error;
+  return made;
+}
+
 Result with_figures(std::vector<Figure> figures) {
   Result r;
   r.tolerance = 1e-8;
@@ -244,9 +251,9 @@ Result with_figures(std::vector<Figure> figures) {
 
 // δ of 0.004 that becomes 0.005 is a quarter off, not 2 % of 0.05.
 TEST(Effects, ChangeIsOfTheFigureItselfHoweverSmallBesideTheRatedOne) {
-  const std::vector<Figure> full = {{"delta.crank", 0.004, "", 1e-7, {}, 1, 0},
-                                    {"peak_torque.pump", 3, "N*m", 1e-5, {}, 4000, 0},
-                                    {"work.harmful", -2, "J", 1e-6, {}, 1e4, 0}};
+  const std::vector<Figure> full = {figure(QuantityKind::delta, "crank", 0.004, "", 1e-7, 1),
+                                    figure(QuantityKind::peak_torque, "pump", 3, "N*m", 1e-5, 4000),
+                                    figure(QuantityKind::work, "harmful", -2, "J", 1e-6, 1e4)};
   std::vector<Figure> other = full;
   other[0].value = 0.005, other[1].value = -2.4, other[2].value = -2.02;
   const std::vector<FigureChange> changes = changes_between(with_figures(full), with_figures(other));
@@ -259,7 +266,7 @@ TEST(Effects, ChangeIsOfTheFigureItselfHoweverSmallBesideTheRatedOne) {
 
 TEST(Effects, FiguresThatAreZeroButForRoundingAreNotCompared) {
   const auto torque = [](double value) {
-    return with_figures({{"peak_torque.pump", value, "N*m", 1e-9, {}, 4000, 0}});
+    return with_figures({figure(QuantityKind::peak_torque, "pump", value, "N*m", 1e-9, 4000)});
   };
   EXPECT_TRUE(changes_between(torque(1e-7), torque(-3e-6)).empty());
   const std::vector<FigureChange> appeared = changes_between(torque(1e-7), torque(5));
