@@ -86,9 +86,10 @@ void TraceRecorder::follow_cycle(double t, double angle) {
   const double turn = std::floor(angle / model_->cycle + 1e-12);
   const auto start = [&] {
     open_ = {t, t, {}};
-    for (const std::size_t i : over_angle_) open_.traces.push_back(traces_->over_time[i]);
-    open_.traces.back().x.clear();
-    open_.traces.back().y.clear();
+    for (const std::size_t i : over_angle_) {
+      const Trace& like = traces_->over_time[i];
+      open_.traces.push_back({like.name, like.unit, {}, {}, like.what, like.of});
+    }
   };
   const auto add = [&](double within) {
     for (std::size_t k = 0; k < over_angle_.size(); ++k) push(open_.traces[k], within, now_[over_angle_[k]]);

@@ -160,6 +160,35 @@ TEST(Trace, PlotsReachThePeaksThatTheFiguresTell) {
 }
 
 // T + V − Σ work stays the same along the traces.
+// Every curve over the angle is of the last whole cycle alone: from 0 to the cycle's end, without a way back, and as high
+// as the same quantity over time between the cycle's begin and end.
+TEST(Trace, CurvesOverTheAngleAreOfOneCycle) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 4;
+  SimulateOptions options;
+  options.traces = true;
+  options.measure_error = false;
+  const Result r = simulate(scene, scene.effects, "elastic", options);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  ASSERT_EQ(r.traces->last_cycles.size(), 2u);
+  for (const CycleTraces& cycle : r.traces->last_cycles) {
+    ASSERT_GE(cycle.traces.size(), 4u);
+    for (const Trace& over_angle : cycle.traces) {
+      SCOPED_TRACE(over_angle.name);
+      EXPECT_TRUE(std::is_sorted(over_angle.x.begin(), over_angle.x.end()));
+      EXPECT_NEAR(over_angle.x.front(), 0, 1e-6);
+      EXPECT_NEAR(over_angle.x.back(), r.model->cycle, 1e-6);
+      const Trace& over_time = *r.traces->find(over_angle.name);
+      double highest = -HUGE_VAL, largest = 0;
+      for (const double y : over_time.y) largest = std::max(largest, std::abs(y));
+      for (std::size_t i = 0; i < over_time.x.size(); ++i)
+        if (over_time.x[i] >= cycle.begin && over_time.x[i] <= cycle.end) highest = std::max(highest, over_time.y[i]);
+      const double found = *std::max_element(over_angle.y.begin(), over_angle.y.end());
+      EXPECT_NEAR(found, highest, 1e-6 * largest);
+    }
+  }
+}
+
 TEST(Trace, EnergyTracesBalance) {
   const Comparison c = compared(geared_train);
   const auto last = [&](const char* name) {
