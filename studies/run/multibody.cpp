@@ -83,15 +83,11 @@ std::shared_ptr<const Traces> traces_of(const Model& model, const Mechanism& cra
   return traces;
 }
 
-}  // namespace
-
-Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string& label,
-                          const SimulateOptions& options) {
-  const Model& model = *shared;
-  const RunSettings& settings = model.scene.run;
+// The mechanism that the machine has, or why there is no such run of it.
+const Mechanism& crank_of(const Model& model) {
   const MechanismElement* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
-    throw SceneError({{model.scene.file, settings.model_at,
+    throw SceneError({{model.scene.file, model.scene.run.model_at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
   if (!mechanism || !mechanism->mechanism().data.as<SliderCrankData>())
@@ -100,108 +96,145 @@ Result simulate_multibody(std::shared_ptr<const Model> shared, const std::string
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");
-  const Mechanism& crank = mechanism->mechanism();
-  const auto torque = std::make_shared<ShaftTorque>(shared);
-  Equations equations(shared, false);
-  const std::vector<double> start = equations.start(0);
+  return mechanism->mechanism();
+}
 
-  MultibodyProblem problem;
-  problem.mechanism = *crank.data.as<SliderCrankData>();
-  problem.shaft_inertia = model.shafts.front().inertia;
-  const auto phi_now = std::make_shared<double>(0);
-  problem.shaft_torque = [torque, phi_now, phase = crank.phase, &options](double t, double phi, double omega) {
-    Deadline::check();
-    *phi_now = phi;
-    return (*torque)(t, phi - phase, omega);
-  };
-  if (!crank.loads.empty())
-    problem.slider_force = [&crank, phi_now](double, double x, double v) {
-      return slider_force(crank, *phi_now, x, v);
+class MultibodySimulation {
+ public:
+  MultibodySimulation(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options)
+      : model_(std::move(model)), settings_(model_->scene.run), options_(options), crank_(crank_of(*model_)) {
+    pose();
+    result_.model = model_;
+    result_.title = model_->scene.heading();
+    result_.label = label;
+    result_.scene_file = model_->scene.file;
+    result_.effects = model_->effects.describe();
+    result_.coordinates = 1;
+    result_.states = 2;
+    result_.explanation = model_->explain() + "model: multibody, the loop closed by Simbody at every step\n";
+    result_.until = problem_.t_end;
+    result_.accuracy = options_.accuracy.value_or(settings_.accuracy);
+  }
+
+  Result run() {
+    const double begin = processor_time();
+    try {
+      confirm();
+      collect();
+    } catch (const OutOfTime& over) {
+      result_.complete = false;
+      result_.diagnosis = over.interrupted() ? over.what()
+                                             : fmt::format(
+                                                   "the multibody run was stopped: {}. Raise `budget`, loosen "
+                                                   "`accuracy`, or shorten `until`",
+                                                   over.what());
+    } catch (const std::runtime_error& error) {
+      result_.complete = false;
+      result_.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy",
+                                      error.what(), listed(multibody_integrators()));
+    }
+    result_.statistics.method = "Simbody " + problem_.integrator;
+    result_.statistics.reason = "model = \"multibody\"";
+    result_.cpu_total = processor_time() - begin;
+    return std::move(result_);
+  }
+
+ private:
+  // What Simbody is told: bodies, torque and force from scratch at each call, start, times.
+  void pose() {
+    const auto torque = std::make_shared<ShaftTorque>(model_);
+    Equations equations(model_, false);
+    const std::vector<double> start = equations.start(0);
+    problem_.mechanism = *crank_.data.as<SliderCrankData>();
+    problem_.shaft_inertia = model_->shafts.front().inertia;
+    const auto phi_now = std::make_shared<double>(0);
+    problem_.shaft_torque = [torque, phi_now, phase = crank_.phase](double t, double phi, double omega) {
+      Deadline::check();
+      *phi_now = phi;
+      return (*torque)(t, phi - phase, omega);
     };
-  problem.phi0 = equations.angle_with_turns(at(model.reduction_angle), start) + crank.phase;
-  problem.omega0 = start[equations.speed_index(0)];
-  problem.t_end = options.until.value_or(settings.until);
-  const std::vector<std::string> integrators = multibody_integrators();
-  const std::string method = options.method.value_or(settings.method);
-  problem.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
-  // Each report time ends a step of Simbody's: only a report's plots are worth that.
-  const int rows = options.traces ? std::clamp(settings.samples, 2, 1001) : 2;
-  for (int i = 0; i < rows; ++i) problem.times.push_back(problem.t_end * i / (rows - 1));
+    if (!crank_.loads.empty())
+      problem_.slider_force = [this, phi_now](double, double x, double v) {
+        return slider_force(crank_, *phi_now, x, v);
+      };
+    problem_.phi0 = equations.angle_with_turns(at(model_->reduction_angle), start) + crank_.phase;
+    problem_.omega0 = start[equations.speed_index(0)];
+    problem_.t_end = options_.until.value_or(settings_.until);
+    const std::vector<std::string> integrators = multibody_integrators();
+    const std::string method = options_.method.value_or(settings_.method);
+    problem_.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
+    // Each report time ends a step of Simbody's: only a report's plots are worth that.
+    const int rows = options_.traces ? std::clamp(settings_.samples, 2, 1001) : 2;
+    for (int i = 0; i < rows; ++i) problem_.times.push_back(problem_.t_end * i / (rows - 1));
+  }
 
-  Result result;
-  result.model = shared;
-  result.title = model.scene.heading();
-  result.label = label;
-  result.scene_file = model.scene.file;
-  result.effects = model.effects.describe();
-  result.coordinates = 1;
-  result.states = 2;
-  result.explanation = model.explain() + "model: multibody, the loop closed by Simbody at every step\n";
-  result.until = problem.t_end;
-  result.accuracy = options.accuracy.value_or(settings.accuracy);
-  const double begin = processor_time();
-  const auto run_at = [&](double accuracy) {
-    problem.accuracy = accuracy;
-    ++result.runs;
-    const Deadline deadline(std::min(settings.budget, options.budget.value_or(settings.budget)),
-                            options.watch.interrupted);
-    return run_multibody(problem);
-  };
-  try {
-    const auto scaled_difference = [&](const MultibodyResult& a, const MultibodyResult& b) {
-      return std::max(std::abs(a.samples.back().phi - b.samples.back().phi),
-                      std::abs(a.samples.back().omega - b.samples.back().omega) / model.speed_scale);
+  MultibodyResult run_at(double accuracy) {
+    problem_.accuracy = accuracy;
+    ++result_.runs;
+    const Deadline deadline(std::min(settings_.budget, options_.budget.value_or(settings_.budget)),
+                            options_.watch.interrupted);
+    return run_multibody(problem_);
+  }
+
+  // Ever tighter, until two runs agree.
+  void confirm() {
+    const auto difference = [&] {
+      return std::max(std::abs(coarse_.samples.back().phi - fine_.samples.back().phi),
+                      std::abs(coarse_.samples.back().omega - fine_.samples.back().omega) / model_->speed_scale);
     };
     double last_begin = processor_time();
-    MultibodyResult coarse, fine = run_at(std::clamp(result.accuracy, tightest_accuracy, 1e-3));
-    while (options.measure_error && problem.accuracy / 10 >= tightest_accuracy) {
-      coarse = std::move(fine);
+    fine_ = run_at(std::clamp(result_.accuracy, tightest_accuracy, 1e-3));
+    while (options_.measure_error && problem_.accuracy / 10 >= tightest_accuracy) {
+      coarse_ = std::move(fine_);
       last_begin = processor_time();
-      fine = run_at(problem.accuracy / 10);
-      if (scaled_difference(coarse, fine) <= result.accuracy) break;
+      fine_ = run_at(problem_.accuracy / 10);
+      if (difference() <= result_.accuracy) break;
     }
-    if (coarse.samples.empty()) coarse = fine;
-    result.tolerance = problem.accuracy;
-    result.statistics.cpu_seconds = processor_time() - last_begin;
-    result.statistics.stepper.steps = fine.steps;
-    result.statistics.stepper.rejected = fine.rejected;
-    result.statistics.stepper.flow_calls = fine.evaluations;
-    const MultibodySample &a = coarse.samples.back(), &b = fine.samples.back();
-    const auto add = [&](QuantityKind what, double value, double other, const std::string& unit, double scale) {
-      Figure figure = Figure::of_name(Name::make(what, crank.name), value, unit, scale);
-      figure.at = b.t;
-      if (options.measure_error) {
-        figure.error = std::abs(value - other);
-        result.measured_accuracy = std::max(result.measured_accuracy, *figure.error / scale);
-      }
-      result.figures.push_back(figure);
-    };
-    add(QuantityKind::final_angle, b.phi - crank.phase, a.phi - crank.phase, "rad", 1);
-    add(QuantityKind::final_speed, b.omega, a.omega, "rad/s", model.speed_scale);
-    result.errors_measured = result.confirmation_asked = options.measure_error;
-    result.accuracy_confirmed = options.measure_error && result.measured_accuracy <= result.accuracy;
-    result.final_state[crank.name] = {b.phi - crank.phase, b.omega, {}, {}};
-    result.energy.kinetic_start = fine.samples.front().kinetic_energy;
-    result.energy.kinetic_end = b.kinetic_energy;
-    if (options.traces) result.traces = traces_of(model, crank, fine);
-    result.notes.push_back(fmt::format(
-        "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say"));
-  } catch (const OutOfTime& over) {
-    result.complete = false;
-    result.diagnosis = over.interrupted() ? over.what()
-                                          : fmt::format(
-                                                "the multibody run was stopped: {}. Raise `budget`, loosen "
-                                                "`accuracy`, or shorten `until`",
-                                                over.what());
-  } catch (const std::runtime_error& error) {
-    result.complete = false;
-    result.diagnosis = fmt::format("the multibody run failed: {}. Try another method ({}) or a looser accuracy",
-                                   error.what(), listed(integrators));
+    if (coarse_.samples.empty()) coarse_ = fine_;
+    result_.statistics.cpu_seconds = processor_time() - last_begin;
   }
-  result.statistics.method = "Simbody " + problem.integrator;
-  result.statistics.reason = "model = \"multibody\"";
-  result.cpu_total = processor_time() - begin;
-  return result;
+
+  void add(QuantityKind what, double value, double other, const std::string& unit, double scale) {
+    Figure figure = Figure::of_name(Name::make(what, crank_.name), value, unit, scale);
+    figure.at = fine_.samples.back().t;
+    if (options_.measure_error) {
+      figure.error = std::abs(value - other);
+      result_.measured_accuracy = std::max(result_.measured_accuracy, *figure.error / scale);
+    }
+    result_.figures.push_back(std::move(figure));
+  }
+  void collect() {
+    result_.tolerance = problem_.accuracy;
+    result_.statistics.stepper.steps = fine_.steps;
+    result_.statistics.stepper.rejected = fine_.rejected;
+    result_.statistics.stepper.flow_calls = fine_.evaluations;
+    const MultibodySample &a = coarse_.samples.back(), &b = fine_.samples.back();
+    add(QuantityKind::final_angle, b.phi - crank_.phase, a.phi - crank_.phase, "rad", 1);
+    add(QuantityKind::final_speed, b.omega, a.omega, "rad/s", model_->speed_scale);
+    result_.errors_measured = result_.confirmation_asked = options_.measure_error;
+    result_.accuracy_confirmed = options_.measure_error && result_.measured_accuracy <= result_.accuracy;
+    result_.final_state[crank_.name] = {b.phi - crank_.phase, b.omega, {}, {}};
+    result_.energy.kinetic_start = fine_.samples.front().kinetic_energy;
+    result_.energy.kinetic_end = b.kinetic_energy;
+    if (options_.traces) result_.traces = traces_of(*model_, crank_, fine_);
+    result_.notes.push_back(
+        "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say");
+  }
+
+  std::shared_ptr<const Model> model_;
+  const RunSettings& settings_;
+  const SimulateOptions& options_;
+  const Mechanism& crank_;
+  MultibodyProblem problem_;
+  MultibodyResult coarse_, fine_;
+  Result result_;
+};
+
+}  // namespace
+
+Result simulate_multibody(std::shared_ptr<const Model> model, const std::string& label,
+                          const SimulateOptions& options) {
+  return MultibodySimulation(std::move(model), label, options).run();
 }
 
 }  // namespace kurbel
