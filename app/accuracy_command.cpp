@@ -75,7 +75,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = accuracy(*arguments); });
 }
 
-const Verb verb{{.place = 11,
+const Verb verb{{.place = 110,
                  .name = "accuracy",
                  .arguments = "scene.toml",
                  .help = "what accuracy costs: error per time over methods, tolerances and models",

@@ -55,7 +55,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = run_advise(*arguments); });
 }
 
-const Verb verb{{.place = 10,
+const Verb verb{{.place = 100,
                  .name = "advise",
                  .arguments = "scene.toml --within 1%",
                  .help = "the cheapest set of effects whose figures stay within a tolerance",

@@ -41,7 +41,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = study(*arguments); });
 }
 
-const Verb verb{{.place = 9,
+const Verb verb{{.place = 90,
                  .name = "effects",
                  .arguments = "scene.toml",
                  .help = "what each effect changes and costs; without a scene: the list",

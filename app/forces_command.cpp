@@ -47,7 +47,7 @@ void set_up(CLI::App& command, int& code) {
 }
 
 const Verb verb{
-    {.place = 5,
+    {.place = 50,
      .name = "forces",
      .arguments = "scene.toml",
      .help =

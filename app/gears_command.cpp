@@ -129,7 +129,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, a] { code = gears(*a); });
 }
 
-const Verb verb{{.place = 6,
+const Verb verb{{.place = 60,
                  .name = "gears",
                  .arguments = "scene.toml",
                  .help = "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing",

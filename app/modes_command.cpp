@@ -69,7 +69,7 @@ void set_up(CLI::App& command, int& code) {
 }
 
 const Verb verb{
-    {.place = 7,
+    {.place = 70,
      .name = "modes",
      .arguments = "scene.toml",
      .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",

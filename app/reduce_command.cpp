@@ -34,7 +34,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = reduce_scene(*arguments); });
 }
 
-const Verb verb{{.place = 3,
+const Verb verb{{.place = 30,
                  .name = "reduce",
                  .arguments = "scene.toml",
                  .help = "inertia, torques and drive reduced to one shaft or slider",

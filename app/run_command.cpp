@@ -172,7 +172,7 @@ void set_up_compare(CLI::App& command, int& code) {
 }
 
 const Verb run_verb{
-    {.place = 1,
+    {.place = 10,
      .name = "run",
      .arguments = "scene.toml",
      .help = "simulate a scene",
@@ -185,7 +185,7 @@ const Verb run_verb{
          "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
          "time"}}};
 
-const Verb compare_verb{{.place = 2,
+const Verb compare_verb{{.place = 20,
                          .name = "compare",
                          .arguments = "scene.toml",
                          .help = "the rigid against the elastic model, or any two sets of effects",

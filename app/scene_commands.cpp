@@ -185,21 +185,21 @@ void set_up_commands(CLI::App& command, int& code) {
   });
 }
 
-const Verb check_verb{{.place = 12,
+const Verb check_verb{{.place = 120,
                        .name = "check",
                        .arguments = "scene.toml",
                        .help = "validate a scene",
                        .does = "validates only; all errors at once as `file:line:col: what, got, allowed, next step`",
                        .set_up = set_up_with_scene<check>,
                        .of_scene = false}};
-const Verb figures_verb{{.place = 13,
+const Verb figures_verb{{.place = 130,
                          .name = "figures",
                          .arguments = "scene.toml",
                          .help = "list the figures that runs of a scene yield",
                          .does = "names of the figures that runs of the scene yield",
                          .set_up = set_up_with_scene<figures>,
                          .of_scene = false}};
-const Verb new_verb{{.place = 14,
+const Verb new_verb{{.place = 140,
                      .name = "new",
                      .arguments = "press",
                      .help = "write a commented scene to start from",
@@ -208,7 +208,7 @@ const Verb new_verb{{.place = 14,
                              "which editors complete and check keys",
                      .set_up = set_up_new,
                      .of_scene = false}};
-const Verb keys_verb{{.place = 15,
+const Verb keys_verb{{.place = 150,
                       .name = "keys",
                       .arguments = "coupling",
                       .help = "print the keys of one kind, or of a whole scene (Markdown)",
@@ -217,14 +217,14 @@ const Verb keys_verb{{.place = 15,
                           "and domain (docs/keys.md)",
                       .set_up = set_up_keys,
                       .of_scene = false}};
-const Verb schema_verb{{.place = 16,
+const Verb schema_verb{{.place = 160,
                         .name = "schema",
                         .help = "print the JSON Schema of a scene, for editors",
                         .does = "JSON Schema of a scene (docs/scene.schema.json): editors complete and check by its "
                                 "`#:schema` line",
                         .set_up = set_up_schema,
                         .of_scene = false}};
-const Verb commands_verb{{.place = 17,
+const Verb commands_verb{{.place = 170,
                           .name = "commands",
                           .arguments = "run",
                           .help = "list the commands, or the options of one, for completion and manual",

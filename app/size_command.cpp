@@ -55,7 +55,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = size_scene(*arguments); });
 }
 
-const Verb verb{{.place = 4,
+const Verb verb{{.place = 40,
                  .name = "size",
                  .arguments = "scene.toml --delta 0.05",
                  .help = "the flywheel that keeps the speed's fluctuation δ within bounds",

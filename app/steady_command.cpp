@@ -68,7 +68,7 @@ void set_up(CLI::App& command, int& code) {
   command.callback([&code, arguments] { code = steady(*arguments); });
 }
 
-const Verb verb{{.place = 8,
+const Verb verb{{.place = 80,
                  .name = "steady",
                  .arguments = "scene.toml",
                  .help = "the steady cycle directly: its figures, its stability, operating points",

@@ -1,7 +1,7 @@
 // verb.h — a command says all of itself in its own file: name, purpose, options, action. Help, completion, manual page
 // and docs/commands.md ask here.
 //
-//     const Verb modes{{.place = 7, .name = "modes", .arguments = "scene.toml",
+//     const Verb modes{{.place = 70, .name = "modes", .arguments = "scene.toml",
 //                       .help = "natural frequencies, …", .does = "natural frequencies, shapes, damping; …",
 //                       .set_up = [](CLI::App& command, int& code) { … }}};
 #pragma once

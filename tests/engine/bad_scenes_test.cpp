@@ -60,9 +60,18 @@ std::string repeated(const std::string& text, int times) {
 
 class BadScene : public testing::TestWithParam<std::string> {};
 
-TEST_P(BadScene, SaysWhatIsWrongAndWhere) {
-  EXPECT_EQ(messages_of(GetParam()), text_of(folder + GetParam() + ".expected"));
+// An expectation says {all kinds} where a message lists them.
+std::string expected_of(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Kind& kind : all_kinds()) names.push_back(kind.name);
+  std::string text = text_of(folder + name + ".expected");
+  const std::string mark = "{all kinds}";
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos;)
+    text.replace(at, mark.size(), listed(names, "or"));
+  return text;
 }
+
+TEST_P(BadScene, SaysWhatIsWrongAndWhere) { EXPECT_EQ(messages_of(GetParam()), expected_of(GetParam())); }
 
 INSTANTIATE_TEST_SUITE_P(All, BadScene, testing::ValuesIn(bad_scenes()), [](const auto& info) { return info.param; });
 
