@@ -37,16 +37,21 @@ using Record = std::vector<Field>;  // in this order
 // What JSON can say. A number that is not finite is null there.
 class Value {
  public:
-  Value() = default;  // null
+  Value();  // null
+  Value(const Value&);
+  Value(Value&&) noexcept;
+  Value& operator=(const Value&);
+  Value& operator=(Value&&) noexcept;
+  ~Value();
   template <std::same_as<bool> T>
   Value(T v) : what_(v) {}
   template <std::integral T>
-  requires(!std::same_as<T, bool>) Value(T v) : what_(static_cast<std::int64_t>(v)) {}
-  Value(double v) : what_(v) {}
-  Value(const char* v) : what_(std::string(v)) {}
-  Value(std::string v) : what_(std::move(v)) {}
-  Value(List v) : what_(std::move(v)) {}
-  Value(Record v) : what_(std::move(v)) {}
+  requires(!std::same_as<T, bool>) Value(T v) : Value(Whole{static_cast<std::int64_t>(v)}) {}
+  Value(double v);
+  Value(const char* v);
+  Value(std::string v);
+  Value(List v);
+  Value(Record v);
   template <class T>
   Value(const std::optional<T>& v) {
     if (v) *this = Value(*v);
@@ -54,7 +59,7 @@ class Value {
   template <std::ranges::input_range R>
   requires(!std::convertible_to<R, std::string> && !std::same_as<R, List> && !std::same_as<R, Record>)
       Value(const R& range)
-      : what_(List(std::begin(range), std::end(range))) {}
+      : Value(List(std::begin(range), std::end(range))) {}
 
   template <class F>
   decltype(auto) visit(F&& f) const {
@@ -62,6 +67,10 @@ class Value {
   }
 
  private:
+  struct Whole {
+    std::int64_t number;
+  };
+  explicit Value(Whole v);
   std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Record> what_;
 };
 
@@ -69,6 +78,20 @@ struct Field {
   std::string key;
   Value value;
 };
+
+// Where a field is whole.
+inline Value::Value() = default;
+inline Value::Value(const Value&) = default;
+inline Value::Value(Value&&) noexcept = default;
+inline Value& Value::operator=(const Value&) = default;
+inline Value& Value::operator=(Value&&) noexcept = default;
+inline Value::~Value() = default;
+inline Value::Value(Whole v) : what_(v.number) {}
+inline Value::Value(double v) : what_(v) {}
+inline Value::Value(const char* v) : what_(std::string(v)) {}
+inline Value::Value(std::string v) : what_(std::move(v)) {}
+inline Value::Value(List v) : what_(std::move(v)) {}
+inline Value::Value(Record v) : what_(std::move(v)) {}
 
 // One value for each item.
 template <class Items, class F>
