@@ -379,11 +379,7 @@ bool Contacts::stop_jam(double t, std::span<double> y, std::span<const std::size
     lost += 0.5 * flow_.inertia()[s] * (speed[s] * speed[s] - std::pow(speed_of(s), 2));
   const int account = account_of_friction(list()[changes.stopped.front()]);
   if (flow_.audit() && account >= 0) y[flow_.work_index(at(account))] -= lost;
-  for (const std::size_t c : changes.stopped)
-    log.push_back({.t = t,
-                   .component = list()[c].name,
-                   .what = "jams: no acceleration satisfies its friction; it stops at once",
-                   .kind = EventKind::jam});
+  for (const std::size_t c : changes.stopped) log.push_back(jam_event(t, list()[c]));
   settle(t, y, changes, &log);
   for (const auto& pool : m.pools) pool->follow_directions(flow_.instant(t, y), modes().piece.data());
   return true;

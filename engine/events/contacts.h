@@ -13,6 +13,7 @@
 
 #include "engine/equations/flow.h"
 #include "engine/events/event.h"
+#include "engine/events/event_words.h"
 
 namespace kurbel {
 
@@ -81,10 +82,10 @@ class Contacts {
                          const std::vector<std::pair<std::size_t, int>>& released);
   std::vector<std::size_t> jammed_contacts(std::span<const std::size_t> guards) const;
   int account_of_friction(const Contact& contact) const;
-  // words (contact_words.cpp)
+  // words (contacts_told.cpp)
   void tell(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
             const std::vector<std::size_t>& always, EventLog& log) const;
-  std::string sharing(const Contact& contact) const;
+  Shares sharing(const Contact& contact) const;
   std::string holders(const Contact& contact) const;
 
   Flow& flow_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/events/event_words.h"
 #include "engine/numerics/fp_traps.h"
 
 namespace kurbel {
@@ -105,12 +106,7 @@ void Equations::fire_piece(const PoolGuard& guard, double t, std::span<const dou
   const GuardLabel label = pool.label(guard.local, instant(t, y));
   const bool edge = pool.guards_are_of_angle();
   if (label.what.empty() || (!edge && label.what == before.what)) return;
-  const bool impact = label.kind == EventKind::touch && before.kind == EventKind::flight;
-  log.push_back({.t = t,
-                 .component = label.component,
-                 .what = label.what,
-                 .from = edge ? "" : before.what,
-                 .kind = impact ? EventKind::impact : label.kind});
+  log.push_back(law_event(t, before, label, edge));
 }
 
 void Equations::pass_edge(double t, std::span<double> y, EventLog& log) {

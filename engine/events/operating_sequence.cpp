@@ -1,12 +1,11 @@
 // operating_sequence.cpp — steps are armed, fall due, and set commands.
 #include "engine/events/operating_sequence.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/events/event_words.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -16,8 +15,6 @@ constexpr double never = 1e300;
 
 // A ramp that ends at the moment at which it begins is a jump.
 bool takes_time(double over, double t) { return over > 1e-13 * std::max(1.0, std::abs(t)); }
-
-std::string value_text(double to) { return to == 0 ? "off" : to == 1 ? "on" : fmt::format("{:.4g}", to); }
 
 }  // namespace
 
@@ -58,14 +55,7 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
         command = {value, (step.to - value) / step.over, t, t + step.over, step.to};
       else
         command = {.value = step.to, .to = step.to};
-      if (log)
-        log->push_back({.t = t,
-                        .component = component,
-                        .what = step.over > 0
-                                    ? fmt::format("goes to {} within {:.4g} s", value_text(step.to), step.over)
-                                    : fmt::format("is set {}", value_text(step.to)),
-                        .from = value_text(value),
-                        .kind = EventKind::command});
+      if (log) log->push_back(command_event(t, component, value, step.to, step.over));
     }
     modes.last_step_time = t;
     ++modes.next_step;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/events/event_words.h"
+
 namespace kurbel {
 
 void Switching::begin(double t, std::span<double> y) {
@@ -46,11 +48,7 @@ void Switching::pass_edge(double t, std::span<double> y, EventLog& log) {
   set_timed_modes(t);
   for (std::size_t e = 0; e < modes.active.size(); ++e)
     if (modes.active[e] != before[e])
-      log.push_back({.t = t,
-                     .component = flow_.model().network.elements[e].component,
-                     .what = modes.active[e] ? "on" : "off",
-                     .from = before[e] ? "on" : "off",
-                     .kind = EventKind::window});
+      log.push_back(window_event(t, flow_.model().network.elements[e].component, modes.active[e] != 0));
   tell_switched(t, y, before);
   if (modes.armed_time <= t) take_steps(t, y, &log);
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/events/event_words.h"
 #include "engine/numerics/deadline.h"
 #include "engine/rigid/work_stepper.h"
 #include "engine/run/checkpoint.h"
@@ -353,9 +354,7 @@ class Loop {
     memory_.recent.clear();
     const std::string what = equations_.regularise(restless);
     if (what.empty()) return;
-    out_.events.push_back({time, what,
-                           fmt::format("{} events within {:.2g} s find no rest: a law without events from here on",
-                                       restless_events, span)});
+    out_.events.push_back(restless_event(time, what, restless_events, span));
     out_.regularised.push_back(what);
     std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
   }

@@ -143,7 +143,8 @@ struct RunOutcome {
 };
 
 // Never throws for a run that fails on its way: the outcome says so and keeps what was computed.
-// Throws std::invalid_argument for an unknown method, and for the work equation where it does not apply.
+// Throws std::invalid_argument for an unknown method, for the work equation where it does not apply, and for a checkpoint
+// whose observers were others.
 RunOutcome integrate(Equations& equations, const RunOptions& options, const std::vector<Observer*>& observers);
 
 }  // namespace kurbel

@@ -1,8 +1,11 @@
 // tape.h — what an observer remembers as a list of numbers, written and read by one and the same function.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -19,7 +22,8 @@ class Tape {
   Tape() = default;
   explicit Tape(std::vector<double> written) : numbers_(std::move(written)), reading_(true) {}
 
-  // Throws std::invalid_argument where a written tape is shorter than what is asked of it.
+  // Throws std::invalid_argument where a written tape is shorter than what is asked of it, or holds no count where one
+  // is to stand.
   template <class... T>
   void operator()(T&... member) {
     (pass(member), ...);
@@ -37,8 +41,13 @@ class Tape {
   template <class Whole>
   requires std::is_integral_v<Whole>
   void pass(Whole& whole) {
-    double number = static_cast<double>(whole);  // counts, far below 2⁵³
+    double number = static_cast<double>(whole);
     pass(number);
+    if (!reading_) return;
+    constexpr auto bits = std::min(53, std::numeric_limits<Whole>::digits);  // what both can hold
+    const double end = std::ldexp(1.0, bits), begin = std::is_signed_v<Whole> ? -end : 0.0;
+    if (!(number >= begin && number < end) || number != std::floor(number))
+      throw std::invalid_argument("a recorder's memory is damaged: a count is none");
     whole = static_cast<Whole>(number);
   }
   template <class T>

@@ -140,6 +140,7 @@ Record event_record(const Result& r, std::size_t k) {
   const Event& e = r.events[k];
   Record record = {{"t", e.t}, {"component", e.component}, {"kind", name_of(e.kind)}, {"what", e.what}};
   if (!e.from.empty()) record.push_back({"from", e.from});
+  if (e.value) record.push_back({"value", *e.value});
   record.push_back({"error", r.event_errors.empty() ? Value() : Value(r.event_errors[k])});
   if (!r.event_errors.empty() && !r.event_errors[k]) record.push_back({"only_in_finer_run", true});
   return record;

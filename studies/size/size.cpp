@@ -326,9 +326,9 @@ class Sizer {
     if (!s_.needed) return;
     if (!s_.operating) return simulate_family();
     if (!s_.with_motor || !s_.with_motor->found) return;
-    reach("Wittenbauer", s_.methods.front().flywheel, *s_.with_motor);
+    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, *s_.with_motor);
     if (s_.soft && s_.soft->flywheel > 0 && s_.soft_cycle && s_.soft_cycle->found)
-      reach(s_.soft->name, s_.soft->flywheel, *s_.soft_cycle);
+      reach(SizedBy::slope, s_.soft->name, s_.soft->flywheel, *s_.soft_cycle);
   }
 
   // Torques of the angle alone, in balance: the cycle is the one that energy gives.
@@ -343,14 +343,14 @@ class Sizer {
     family.speed = Piecewise::of(
         s_.cycle.drive.breaks(), [&](double phi) { return cycle.speed(phi); }, 1e-11);
     family.fastest = cycle.fastest(), family.slowest = cycle.slowest();
-    reach("Wittenbauer", s_.methods.front().flywheel, family);
+    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, family);
   }
 
   int motor_node() const { return s_.motor.empty() ? model().reduction_node : model().network.ports.at(s_.motor).out; }
 
-  void reach(const std::string& sized_by, double flywheel, const SteadyRigidCycle& cycle) {
+  void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle& cycle) {
     DeltaReached exact;
-    exact.model = "rigid, work equation", exact.sized_by = sized_by, exact.flywheel = flywheel;
+    exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
     exact.crank = exact.motor = cycle.delta();
     exact.mean_speed = cycle.mean_speed();
     for (int k = 0; k <= 720; ++k) {
@@ -359,18 +359,23 @@ class Sizer {
     }
     s_.reached.push_back(std::move(exact));
     const Scene sized = with_flywheel(scene_, s_.flywheel, flywheel, s_.link);
-    run("rigid, simulated", sized_by, flywheel, sized, rigid_effects(), cycle);
+    DeltaReached as_rigid;
+    as_rigid.model = SizedModel::rigid, as_rigid.by = by, as_rigid.sized_by = sized_by, as_rigid.flywheel = flywheel;
+    run(as_rigid, sized, rigid_effects(), cycle);
     Effects elastic = scene_.effects;
     elastic.locked = true;
     if (elastic.describe() == "none") elastic.all_elastic = true;
     const bool has_joints = std::any_of(model().network.joints.begin(), model().network.joints.end(),
                                         [](const Network::Joint& j) { return j.element != nullptr; });
-    if (has_joints) run("elastic, simulated", sized_by, flywheel, sized, elastic, cycle);
+    if (!has_joints) return;
+    DeltaReached as_elastic = as_rigid;
+    as_elastic.model = SizedModel::elastic;
+    run(as_elastic, sized, elastic, cycle);
   }
 
-  void run(const std::string& name, const std::string& sized_by, double flywheel, const Scene& sized,
-           const Effects& effects, const SteadyRigidCycle& cycle) {
-    options_.simulation.watch.at(name + ", " + sized_by, 0);
+  void run(DeltaReached r, const Scene& sized, const Effects& effects, const SteadyRigidCycle& cycle) {
+    const std::string name = name_of(r.model);
+    options_.simulation.watch.at(name + ", " + r.sized_by, 0);
     SteadySimulation sim;
     try {
       sim = simulate_steady(sized, effects, cycle.speed.value(0), machine_->cycle(), motor_node(), options_.simulation);
@@ -380,16 +385,14 @@ class Sizer {
     }
     if (!sim.complete) {
       s_.complete = false;
-      s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, sim.diagnosis);
+      s_.diagnosis = fmt::format("{} ({}): {}", name, r.sized_by, sim.diagnosis);
       return;
     }
-    DeltaReached r;
-    r.model = name, r.sized_by = sized_by, r.flywheel = flywheel;
     r.crank = sim.link_delta, r.motor = sim.motor_delta;
     r.crank_error = sim.link_error, r.motor_error = sim.motor_error;
     r.mean_speed = sim.mean_speed, r.settled = sim.settled, r.cycles = sim.cycles;
     r.phi = std::move(sim.phi), r.speed = std::move(sim.link), r.motor_speed = std::move(sim.motor);
-    if (!r.settled) s_.notes.push_back(unsettled(fmt::format("{} ({})", name, sized_by), sim));
+    if (!r.settled) s_.notes.push_back(unsettled(fmt::format("{} ({})", name, r.sized_by), sim));
     s_.reached.push_back(std::move(r));
   }
 

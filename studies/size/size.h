@@ -35,10 +35,21 @@ struct SizeMethod {
   std::optional<double> delta;   // reached at constant driving torque, exact; empty: the machine would stop
 };
 
+// The machine that the sized flywheel is put into.
+enum class SizedModel { work_equation, rigid, elastic };
+constexpr const char* name_of(SizedModel model) {
+  return model == SizedModel::work_equation ? "rigid, work equation"
+         : model == SizedModel::rigid       ? "rigid, simulated"
+                                            : "elastic, simulated";
+}
+// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope.
+enum class SizedBy { constant_drive, slope };
+
 // The sized machine with its real motor, in steady motion.
 struct DeltaReached {
-  std::string model;            // "rigid, work equation", "rigid, simulated", "elastic, simulated"
-  std::string sized_by;         // which flywheel
+  SizedModel model = SizedModel::work_equation;
+  SizedBy by = SizedBy::constant_drive;
+  std::string sized_by;         // that method's name
   double flywheel = 0;          // [kg·m²]
   double crank = 0, motor = 0;  // δ
   std::optional<double> crank_error, motor_error;

@@ -21,9 +21,9 @@ double rpm(double speed) { return speed * 30 / std::numbers::pi; }
 
 const SizeMethod& exact_method(const Sizing& s) { return s.methods.front(); }
 
-const DeltaReached* reached(const Sizing& s, const std::string& model) {
+const DeltaReached* reached(const Sizing& s, SizedModel model) {
   for (const DeltaReached& r : s.reached)
-    if (r.model == model && r.sized_by == "Wittenbauer") return &r;
+    if (r.model == model && r.by == SizedBy::constant_drive) return &r;
   return nullptr;
 }
 
@@ -47,9 +47,9 @@ std::string conclusion_of(const Sizing& s) {
                                                s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
                                  : fmt::format("; with {} counted none is needed", slope_of_what(s));
   }
-  if (const DeltaReached* rigid = reached(s, "rigid, simulated"))
+  if (const DeltaReached* rigid = reached(s, SizedModel::rigid))
     text += fmt::format("; simulated rigid it reaches {:.5g}{}", rigid->crank, unless_settled(*rigid));
-  if (const DeltaReached* elastic = reached(s, "elastic, simulated"))
+  if (const DeltaReached* elastic = reached(s, SizedModel::elastic))
     text += fmt::format(", elastic {:.5g} at the crank{}{}", elastic->crank,
                         s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor),
                         unless_settled(*elastic));
@@ -94,7 +94,7 @@ Rows reached_table(const Sizing& s) {
   const auto at_motor = [&](const DeltaReached& r) { return figure_text(r.motor, r.motor_error); };
   return table_of("reached", fmt::format("δ reached against δ = {:g} demanded", s.delta), s.reached)
       .text_in(2)
-      .column("model", "model", &DeltaReached::model)
+      .column("model", "model", [](const DeltaReached& r) { return name_of(r.model); })
       .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
       .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
       .only_for_programs("delta_crank", &DeltaReached::crank)
@@ -308,11 +308,11 @@ void add_key_figures(Findings& f, const Sizing& s) {
   f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s)}};
   if (s.soft) f.figures.push_back({"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, ""});
   for (const DeltaReached& r : s.reached)
-    if (r.sized_by == "Wittenbauer" && r.model != "rigid, work equation") {
+    if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
       const char* note = r.settled ? "" : "last cycle, not settled";
-      f.figures.push_back({"δ at the crank, " + r.model, r.crank, "", r.crank_error, note});
-      if (r.model.starts_with("elastic") && !s.motor.empty())
-        f.figures.push_back({"δ at the motor, " + r.model, r.motor, "", r.motor_error, note});
+      f.figures.push_back({fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note});
+      if (r.model == SizedModel::elastic && !s.motor.empty())
+        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note});
     }
   f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, ""});
   if (s.dimensions) f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name});

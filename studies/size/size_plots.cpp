@@ -143,9 +143,9 @@ std::optional<Plot> speed_plot(const Sizing& s) {
   if (!s.flywheel_added && s.flywheel_now > 0) add("scene as it is, " + basis_of(s), Role::reference, now, true);
   if (s.needed) add("sized, " + basis_of(s), Role::green, s.exact.inertia, true);
   for (const DeltaReached& r : s.reached) {
-    if (r.sized_by != "Wittenbauer" || r.model == "rigid, work equation") continue;
-    Series series{.name = "sized, " + r.model,
-                  .role = r.model.starts_with("rigid") ? Role::rigid : Role::elastic,
+    if (r.by != SizedBy::constant_drive || r.model == SizedModel::work_equation) continue;
+    Series series{.name = fmt::format("sized, {}", name_of(r.model)),
+                  .role = r.model == SizedModel::rigid ? Role::rigid : Role::elastic,
                   .x = {},
                   .y = {}};
     for (std::size_t k = 0; k < r.phi.size(); ++k) {
@@ -153,7 +153,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
       series.y.push_back(rpm(r.speed[k]));
     }
     p.series.push_back(std::move(series));
-    if (!r.model.starts_with("elastic") || s.motor.empty()) continue;
+    if (r.model != SizedModel::elastic || s.motor.empty()) continue;
     Series motor{.name = fmt::format("sized, elastic, {} (reduced)", s.motor),
                  .role = Role::sky,
                  .x = p.series.back().x,

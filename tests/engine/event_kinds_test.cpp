@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "tests/coverage/variant.h"
@@ -32,8 +34,33 @@ EventKind kind_by_words(const Event& e) {
   return EventKind::law;
 }
 
+// What is now, by the words: a contact's sense, a command's value, on or off.
+std::optional<double> value_by_words(const Event& e) {
+  switch (e.kind) {
+    case EventKind::rest:
+    case EventKind::held:
+    case EventKind::lock:
+      return 0;
+    case EventKind::motion:
+    case EventKind::slip:
+      if (e.what.ends_with(" forwards")) return 1;
+      if (e.what.ends_with(" backwards")) return -1;
+      return {};  // a law of its own, which names its modes itself
+    case EventKind::command: {
+      const std::string to =
+          e.what.starts_with("is set ") ? e.what.substr(7) : e.what.substr(8, e.what.find(" within") - 8);
+      return to == "on" ? 1 : to == "off" ? 0 : std::stod(to);
+    }
+    case EventKind::window:
+      return e.what == "on" ? 1 : 0;
+    default:
+      return {};
+  }
+}
+
 TEST(EventKinds, AgreeWithTheWordsInEveryScene) {
   std::map<EventKind, int> seen;
+  int valued = 0;
   for (const std::string& name : coverage::scene_names()) {
     Scene scene = test::scene_file("scenes/" + name + ".toml");
     scene.run.until *= 0.5;
@@ -45,12 +72,19 @@ TEST(EventKinds, AgreeWithTheWordsInEveryScene) {
     for (const Event& e : integrate(equations, options, {}).events) {
       EXPECT_EQ(e.kind, kind_by_words(e))
           << name << ": " << e.component << ": " << e.what << ", is a " << name_of(e.kind);
+      const bool always = e.kind == EventKind::command || e.kind == EventKind::window;
+      EXPECT_TRUE(e.value || !always) << name << ": " << e.component << ": " << e.what;
+      if (e.value) {
+        EXPECT_NEAR(*e.value, value_by_words(e).value_or(NAN), 1e-3 * std::abs(*e.value)) << e.component << e.what;
+      }
+      valued += e.value.has_value();
       ++seen[e.kind];
     }
   }
   for (const EventKind kind : {EventKind::law, EventKind::load_edge, EventKind::impact, EventKind::rest,
                                EventKind::lock, EventKind::slip, EventKind::command, EventKind::window})
     EXPECT_GT(seen[kind], 0) << name_of(kind);
+  EXPECT_GT(valued, 50);
 }
 
 TEST(EventKinds, HaveANameEach) {

@@ -199,6 +199,23 @@ TEST(House, PhysicsKnowsNoNetwork) {
   EXPECT_GT(headers, 25);
 }
 
+// What happens is told in one place: elsewhere nothing gives an event its words.
+TEST(House, EventsAreGivenWordsInOnePlace) {
+  int files = 0;
+  for (const std::string& room : rooms_in_order()) {
+    if (!room.starts_with("engine/")) continue;
+    for (const std::string& file : sources_of(room)) {
+      if (file.ends_with("event_words.cpp")) continue;
+      ++files;
+      const std::string text = text_of(file);
+      for (const char* words :
+           {".what = \"", ".what = fmt", "events.push_back({", "log.push_back({", "log->push_back({"})
+        EXPECT_EQ(text.find(words), std::string::npos) << file << " words an event: " << words;
+    }
+  }
+  EXPECT_GT(files, 100);
+}
+
 // Its headers do not compile as C++20.
 TEST(House, OnlyLinkagesSpeakSimbody) {
   int within = 0;

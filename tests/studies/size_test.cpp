@@ -46,7 +46,7 @@ SizeOptions demand(double delta, bool simulate = false) {
 
 const DeltaReached& reached(const Sizing& s, const std::string& model, const std::string& by) {
   for (const DeltaReached& r : s.reached)
-    if (r.model == model && r.sized_by == by) return r;
+    if (name_of(r.model) == model && r.sized_by == by) return r;
   throw std::runtime_error("not simulated: " + model + ", " + by);
 }
 

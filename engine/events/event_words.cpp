@@ -1,0 +1,113 @@
+// event_words.cpp — events in English.
+#include "engine/events/event_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+std::string mode_name(const Contact& contact, int sense) {
+  const bool frame = contact.kind != Contact::Kind::connection;
+  if (sense == 0) return frame ? "at rest" : "locked";
+  if (frame) return sense > 0 ? "moving forwards" : "moving backwards";
+  return sense > 0 ? "slipping forwards" : "slipping backwards";
+}
+
+EventKind kind_of(const Contact& contact, int sense) {
+  if (contact.kind == Contact::Kind::connection) return sense == 0 ? EventKind::lock : EventKind::slip;
+  if (sense != 0) return EventKind::motion;
+  return contact.kind == Contact::Kind::frame ? EventKind::rest : EventKind::held;
+}
+
+std::string happening(const Contact& contact, int sense) {
+  switch (contact.kind) {
+    case Contact::Kind::connection:
+      return sense == 0 ? "locks" : sense > 0 ? "slips forwards" : "slips backwards";
+    case Contact::Kind::loss:
+      if (sense == 0) return "is held by its losses";
+      break;
+    case Contact::Kind::frame:
+      if (sense == 0) return "comes to rest and is held";
+      break;
+  }
+  return sense > 0 ? "moves forwards" : "moves backwards";
+}
+
+std::string command_text(double to) { return to == 0 ? "off" : to == 1 ? "on" : fmt::format("{:.4g}", to); }
+
+}  // namespace
+
+Event law_event(double t, const GuardLabel& before, const GuardLabel& now, bool edge_over_angle) {
+  const bool impact = now.kind == EventKind::touch && before.kind == EventKind::flight;
+  return {.t = t,
+          .component = now.component,
+          .what = now.what,
+          .from = edge_over_angle ? "" : before.what,
+          .kind = impact ? EventKind::impact : now.kind};
+}
+
+Event contact_event(double t, const Contact& contact, int before, int now) {
+  return {.t = t,
+          .component = contact.name,
+          .what = happening(contact, now),
+          .from = mode_name(contact, before),
+          .kind = kind_of(contact, now),
+          .value = now};
+}
+
+Event shares_event(double t, const Contact& contact, const Shares& shares) {
+  std::string text;
+  for (const auto& [component, share] : shares)
+    text += fmt::format("{}{} {:.3g} %", text.empty() ? "" : ", ", component, 100 * share);
+  return {.t = t,
+          .component = contact.name,
+          .what = "is held in proportion to capacity: " + text,
+          .kind = EventKind::shares};
+}
+
+Event jam_event(double t, const Contact& contact) {
+  return {.t = t,
+          .component = contact.name,
+          .what = "jams: no acceleration satisfies its friction; it stops at once",
+          .kind = EventKind::jam};
+}
+
+Event command_event(double t, const std::string& component, double before, double to, double over) {
+  return {.t = t,
+          .component = component,
+          .what = over > 0 ? fmt::format("goes to {} within {:.4g} s", command_text(to), over)
+                           : fmt::format("is set {}", command_text(to)),
+          .from = command_text(before),
+          .kind = EventKind::command,
+          .value = to};
+}
+
+Event window_event(double t, const std::string& component, bool on) {
+  return {.t = t,
+          .component = component,
+          .what = on ? "on" : "off",
+          .from = on ? "off" : "on",
+          .kind = EventKind::window,
+          .value = on};
+}
+
+Event restless_event(double t, const std::string& owners, std::size_t events, double within) {
+  return {
+      .t = t,
+      .component = owners,
+      .what = fmt::format("{} events within {:.2g} s find no rest: a law without events from here on", events, within)};
+}
+
+std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding) {
+  const auto side = [&](double limit, const char* way) {
+    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it locks itself", way)
+                                               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way,
+                                                             limit, std::abs(limit - holding.acts));
+  };
+  return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, holding.acts,
+                     side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
+}
+
+}  // namespace kurbel
