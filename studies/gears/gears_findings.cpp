@@ -305,7 +305,7 @@ void say_stage(Findings& f, const GearStage& s) {
   f.say(in, Sentences{.lines = {""}, .page = false});
   f.say(in, Sentences{.lines = verdicts, .indent = "  ", .page = false});
   f.csv.push_back({fmt::format("{}.path.csv", s.name), [&p = s.pair] { return path_csv(p); }});
-  for (const std::size_t i : {0, 1})
+  for (const std::size_t i : {0UL, 1UL})
     f.csv.push_back({fmt::format("{}.wheel{}.csv", s.name, i + 1), [&w = s.pair.wheel[i]] { return outline_csv(w); }});
 }
 
