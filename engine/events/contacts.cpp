@@ -256,10 +256,7 @@ void Contacts::settle(double t, std::span<double> y, const Changes& changes, Eve
   if (!log) return;
   tell(t, among, before, always, *log);
   if (always.size() < 2) return;
-  log->push_back({t, "modes",
-                  fmt::format("{} contacts at once; {} after {} change{}", always.size(),
-                              fits ? "a set that fits was found" : "no set fits, the nearest was taken", count,
-                              count == 1 ? "" : "s")});
+  log->push_back(modes_event(t, always.size(), fits, count));
 }
 
 // The worst misfit is changed until there is none. False: it goes in circles.

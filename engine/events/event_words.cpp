@@ -93,6 +93,14 @@ Event window_event(double t, const std::string& component, bool on) {
           .value = on};
 }
 
+Event modes_event(double t, std::size_t contacts, bool fits, int changes) {
+  return {.t = t,
+          .component = "modes",
+          .what = fmt::format("{} contacts at once; {} after {} change{}", contacts,
+                              fits ? "a set that fits was found" : "no set fits, the nearest was taken", changes,
+                              changes == 1 ? "" : "s")};
+}
+
 Event restless_event(double t, const std::string& owners, std::size_t events, double within) {
   return {
       .t = t,

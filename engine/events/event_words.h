@@ -24,6 +24,8 @@ Event jam_event(double t, const Contact& contact);
 // A command goes from one value to another, at once or over a time [s].
 Event command_event(double t, const std::string& component, double before, double to, double over);
 Event window_event(double t, const std::string& component, bool on);
+// So many contacts changed at one instant; a set of modes that fits was found after so many changes, or none.
+Event modes_event(double t, std::size_t contacts, bool fits, int changes);
 // So many events within so short a time [s] that what owns them gets a law without events.
 Event restless_event(double t, const std::string& owners, std::size_t events, double within);
 
