@@ -43,7 +43,7 @@ std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& s
   if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
   Effects full = scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (compile(scene, full)->elastic.empty()) return {Effects{}};
+  if (compile(scene, full)->elastic.empty()) return {scene.effects};
   return {Effects{}, full};
 }
 

@@ -49,7 +49,7 @@ Waited wait_for(const std::shared_ptr<const Model>& model, const ReturnMap& map,
     Equations equations(model, false);
     StartSettings settings{};
     settings.equilibrium = true;
-    settings.angle = map.section();
+    settings.angle = map.section_angle();
     settings.speed = speed;
     const std::vector<double> y = equations.start(0, settings);
     RunOptions options{

@@ -7,6 +7,7 @@
 namespace kurbel {
 
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
+  if (derivative.rows() == 0) return {};
   const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
   std::vector<std::complex<double>> sorted(values.begin(), values.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](auto a, auto b) {
@@ -19,12 +20,22 @@ std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivati
 SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
   SteadyPoint out;
   ReturnMap::Image image;
+  if (map.size() == 0) {  // time leaves nothing to find
+    image = map.image(guess, false);
+    out.end = image.end;
+    out.why = image.why;
+    out.rounds = 1;
+    out.cost = 1;
+    if (image.end == ReturnMap::End::returned) out.take(guess, image);
+    return out;
+  }
   const double cost_before = map.cost();
   NewtonSystem system;
   system.evaluate = [&](const Eigen::VectorXd& z, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
     ReturnMap::Image here = map.image(z, derivative != nullptr);
     const bool returned = here.end == ReturnMap::End::returned;
     if (returned) {
+      if (out.first.size() == 0) out.first = here.z;
       residual = here.z - z;
       if (derivative) *derivative = here.derivative - Eigen::MatrixXd::Identity(z.size(), z.size());
     }
@@ -32,7 +43,8 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
     return returned;
   };
   system.stopped = [&] { return image.end == ReturnMap::End::interrupted; };
-  system.derivative_cost = static_cast<double>(map.size()) + 1;
+  system.derivative_cost = map.derivative_cost();
+  system.magnitude = std::max(system.magnitude, map.section().magnitude());
   system.run_on = true;
   const NewtonOutcome newton = solve(system, guess, enough);
   out.rounds = newton.rounds;

@@ -55,7 +55,8 @@ class Newton {
 
   // Far steps lead to other machines: nothing changes by more than half of the largest there is.
   Eigen::VectorXd limited(Eigen::VectorXd step) const {
-    const double longest = 0.5 * std::max(0.2, x_.cwiseAbs().maxCoeff()), length = step.cwiseAbs().maxCoeff();
+    const double longest = 0.5 * std::max(system_.magnitude, x_.cwiseAbs().maxCoeff()),
+                 length = step.cwiseAbs().maxCoeff();
     if (!(length < HUGE_VAL)) return residual_;
     if (length > longest) step *= longest / length;
     return step;

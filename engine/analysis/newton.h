@@ -13,6 +13,7 @@ struct NewtonSystem {
   std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative)> evaluate;
   std::function<bool()> stopped = {};  // by the user
   double derivative_cost = 1;          // in evaluations without
+  double magnitude = 0.2;              // of what x deviates from: steps are at most half of that and of x
   bool run_on = false;                 // x + r(x) is a sensible step where Newton has none: for maps
 };
 struct NewtonOutcome {

@@ -15,28 +15,35 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t most_unknowns = 400;  // the derivative is full
-constexpr double overlap = 0.02;            // of a round, by which the first run goes on
-constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
+constexpr double overlap = 0.02;          // of a round, by which the first run goes on
+constexpr double slowest = 20;            // a round may take this many times what it takes at the guessed speed
+constexpr double difference_step = 2e-5;  // of unknowns of order one
+constexpr double grazes = 0.05;           // that differences to either side differ, of the greatest of them
 
 Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-// Where events happen: angles of the link at the ends of steps.
-class AngleLog final : public Observer {
+// Where events happen: angles of the link at the ends of steps; and which contacts stick all the time.
+class RoundLog final : public Observer {
  public:
+  explicit RoundLog(const Model& m) : contacts_(contacts_of(m)), sticks_(contacts_.size(), 1) {}
   void begin(double t, std::span<const double> y, Equations& equations) override { see(t, y, equations); }
   void step(StepView& view) override { see(view.t(), view.y(), view.equations()); }
   double angle_at(double t) const {
     const auto after = std::lower_bound(time_.begin(), time_.end(), t - 1e-13 * std::max(1.0, t));
     return after == time_.end() ? angle_.back() : angle_[static_cast<std::size_t>(after - time_.begin())];
   }
+  const std::vector<char>& sticks() const { return sticks_; }
 
  private:
   void see(double t, std::span<const double> y, Equations& e) {
     time_.push_back(t);
     angle_.push_back(e.angle_with_turns(at(e.model().reduction_angle), y));
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      if (sense_of(contacts_[c], e.modes()) != 0) sticks_[c] = 0;
   }
+  std::vector<Contact> contacts_;
   std::vector<double> time_, angle_;
+  std::vector<char> sticks_;
 };
 
 // Middle of the widest gap between angles on a circle.
@@ -51,132 +58,47 @@ double quiet_angle(std::vector<double> angles, double cycle, double without_even
   return place_within(0.5 * (angles[widest] + angles[widest + 1]), cycle);
 }
 
-// ∫ω dt of a prescribed speed from 0 on: Simpson within each of its pieces.
-double angle_turned(const PrescribedSpeed& given, double until) {
-  double sum = 0;
-  for (double t = 0; t < until;) {
-    const double end = std::min(until, given.next_edge(t));
-    const int piece = given.piece(t), panels = 100 + 2 * static_cast<int>(40 * std::abs(given.frequency) * (end - t));
-    const double h = (end - t) / (2 * panels);
-    for (int i = 0; i <= 2 * panels; ++i)
-      sum += h / 3 * (i == 0 || i == 2 * panels ? 1 : i % 2 ? 4 : 2) * given.value(t + i * h, piece);
-    t = end;
-  }
-  return sum;
-}
-
 }  // namespace
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
-  const Model& m = *shared_;
-  if (!m.own_states.empty() || m.has_contacts() || !m.scene.sequence.steps.empty())
-    throw std::invalid_argument(fmt::format(
-        "a steady cycle is sought for twists and speeds alone; {}. Simulate with kurbel run until it is steady",
-        !m.own_states.empty() ? fmt::format("\"{}\" has a state of its own ({})", m.own_states.front().component,
-                                            m.own_states.front().state.name)
-        : m.has_contacts()    ? "this machine has shafts that are tied at run time"
-                              : "an operating sequence does not repeat with the cycle"));
-  periodicity_ = periodicity_of(m);
-  start_time_ = periodicity_.settled_from;
-  const int node = prescribed_node(m);
-  fixed_shaft_ = node >= 0 ? m.shaft_of_node[at(node)] : -1;
-  angle_unknown_ = periodicity_.by_time && periodicity_.angle_matters && fixed_shaft_ < 0;
-  if (angle_unknown_) scale_.push_back(1);
-  for (const ElasticJoint& e : m.elastic) scale_.push_back(e.twist_scale);
-  for (std::size_t s = 0; s < m.free_shafts; ++s) scale_.push_back(m.shafts[s].speed_scale);
-  size_ = scale_.size();
-  if (size_ == 0)
-    throw std::invalid_argument(
-        "time drives this machine: a prescribed speed leaves nothing to find. Switch elasticity on, or "
-        "replace the prescribed speed by a motor");
-  if (size_ > most_unknowns)
-    throw std::invalid_argument(
-        fmt::format("a steady cycle is sought for up to {} twists and speeds; this model has {}. Switch elasticity off "
-                    "where it matters least (--effects), or simulate with kurbel run",
-                    most_unknowns, size_));
   if (options_.cycles < 1) throw std::invalid_argument(fmt::format("{} cycles; must be ≥ 1", options_.cycles));
-  for (std::size_t k = 0; k < m.elastic.size(); ++k) angle_by_twist_.push_back(equations_.shaft_angles_by_twist(k));
-  const StartSettings& start = m.scene.run.start;
-  const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
-  section_ = start.angle / m.node_ratio[at(on)];
-  if (fixed_shaft_ >= 0)
-    section_ += angle_turned(m.network.prescribed[at(m.network.nodes[at(node)].prescribed)], start_time_) /
-                m.node_ratio[at(node)];
-  time_limit_ = slowest * periodicity_.angle * options_.cycles / m.speed_scale;
-}
-
-// The link's angle at the begin of a round: given, unknown, or by the twists from the shaft whose motion is given.
-double ReturnMap::link_angle_of(const Eigen::VectorXd& z) const {
-  if (angle_unknown_) return z[0];
-  double angle = section_;
-  if (fixed_shaft_ < 0) return angle;
-  const double ratio = shared_->node_ratio[at(shared_->shafts[at(fixed_shaft_)].reference)];
-  for (std::size_t k = 0; k < angle_by_twist_.size(); ++k)
-    angle -= angle_by_twist_[k][at(fixed_shaft_)] * z[row(k)] * scale_[k] / ratio;
-  return angle;
-}
-
-std::vector<double> ReturnMap::place(Equations& equations, const Eigen::VectorXd& z) const {
-  std::vector<double> twists, speeds;
-  std::size_t i = angle_unknown_ ? 1 : 0;
-  for (std::size_t k = 0; k < shared_->elastic.size(); ++k, ++i) twists.push_back(z[row(i)] * scale_[i]);
-  for (std::size_t s = 0; s < shared_->free_shafts; ++s, ++i) speeds.push_back(z[row(i)] * scale_[i]);
-  return equations.state_of(start_time_, link_angle_of(z), twists, speeds);
-}
-
-Eigen::VectorXd ReturnMap::unknowns_of(std::span<const double> y, double link_angle) const {
-  Eigen::VectorXd z(row(size_));
-  std::size_t i = 0;
-  if (angle_unknown_) z[row(i++)] = link_angle;
-  for (std::size_t k = 0; k < shared_->elastic.size(); ++k, ++i)
-    z[row(i)] = y[equations_.twist_index(static_cast<int>(k))] / scale_[i];
-  for (std::size_t s = 0; s < shared_->free_shafts; ++s, ++i)
-    z[row(i)] = y[equations_.speed_index(static_cast<int>(s))] / scale_[i];
-  return z;
-}
-
-// ∂y₀/∂z: twists and speeds are states themselves; the angles of other shafts turn with the twists.
-Eigen::MatrixXd ReturnMap::first_directions() const {
   const Model& m = *shared_;
-  Eigen::MatrixXd first = Eigen::MatrixXd::Zero(row(equations_.size()), row(size_));
-  std::size_t j = 0;
-  if (angle_unknown_) {
-    for (std::size_t i = 0; i < m.angles.size(); ++i) first(row(i), 0) = m.node_ratio[at(m.angles[i].node)];
-    ++j;
-  }
-  for (std::size_t k = 0; k < m.elastic.size(); ++k, ++j) {
-    double link = 0;
-    if (fixed_shaft_ >= 0)
-      link = -angle_by_twist_[k][at(fixed_shaft_)] / m.node_ratio[at(m.shafts[at(fixed_shaft_)].reference)];
-    for (std::size_t i = 0; i < m.angles.size(); ++i)
-      first(row(i), row(j)) =
-          (m.angles[i].gain * angle_by_twist_[k][at(m.angles[i].shaft)] + m.node_ratio[at(m.angles[i].node)] * link) *
-          scale_[j];
-    first(row(equations_.twist_index(static_cast<int>(k))), row(j)) = scale_[j];
-  }
-  for (std::size_t s = 0; s < m.free_shafts; ++s, ++j)
-    first(row(equations_.speed_index(static_cast<int>(s))), row(j)) = scale_[j];
-  return first;
+  periodicity_ = periodicity_of(m);
+  variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty();
+  set_pace(m.speed_scale);
+}
+
+void ReturnMap::set_pace(double link_speed) {
+  sense_ = link_speed < 0 ? -1 : 1;
+  const double pace = std::max(std::abs(link_speed), 0.02 * shared_->speed_scale);
+  time_limit_ = slowest * periodicity_.angle * options_.cycles / pace;
+}
+
+void ReturnMap::go_through(State state, std::vector<char> sticks_throughout, double link_speed) {
+  set_pace(link_speed);
+  section_angle_ =
+      place_within(kurbel::angle_with_turns(state.modes, at(shared_->reduction_angle), state.y), periodicity_.angle);
+  section_.emplace(equations_, std::move(state), SectionOptions{!periodicity_.by_time, std::move(sticks_throughout)});
+}
+
+void ReturnMap::follow(const ReturnMap& other) {
+  section_ = other.section_;
+  section_angle_ = other.section_angle_;
+  sense_ = other.sense_;
+  time_limit_ = other.time_limit_;
 }
 
 // On a section of the link's angle the round's end moves: dT = −δφ/φ̇.
 void ReturnMap::read_derivative(const Eigen::MatrixXd& directions, std::span<const double> rate, Image& image) const {
   const Model& m = *shared_;
-  const Eigen::Index link = row(at(m.reduction_angle));
   Eigen::MatrixXd end = directions;
-  image.slowing = Eigen::RowVectorXd::Zero(row(size_));
+  image.slowing = Eigen::RowVectorXd::Zero(row(size()));
   if (!periodicity_.by_time) {
-    image.slowing = -directions.row(link) / rate[at(m.reduction_angle)];
+    image.slowing = -directions.row(row(at(m.reduction_angle))) / rate[at(m.reduction_angle)];
     for (Eigen::Index i = 0; i < end.rows(); ++i) end.row(i) += rate[static_cast<std::size_t>(i)] * image.slowing;
   }
-  image.derivative.resize(row(size_), row(size_));
-  std::size_t i = 0;
-  if (angle_unknown_) image.derivative.row(row(i++)) = end.row(link);
-  for (std::size_t k = 0; k < m.elastic.size(); ++k, ++i)
-    image.derivative.row(row(i)) = end.row(row(equations_.twist_index(static_cast<int>(k)))) / scale_[i];
-  for (std::size_t s = 0; s < m.free_shafts; ++s, ++i)
-    image.derivative.row(row(i)) = end.row(row(equations_.speed_index(static_cast<int>(s)))) / scale_[i];
+  image.derivative = section_->read_directions(end);
 }
 
 std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equations& equations,
@@ -191,18 +113,19 @@ std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equa
 }
 
 // What became of a round.
-ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double link_begin, Equations& equations) const {
+ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double from, double link_begin,
+                                  Equations& equations) const {
   const Model& m = *shared_;
   const std::size_t link = at(m.reduction_angle);
   Image image;
-  image.time = outcome.t - start_time_;
+  image.time = outcome.t - from;
   if (outcome.state.empty()) {
     image.why = outcome.diagnosis;
     return image;
   }
   const std::span<const double> y(outcome.state.data(), equations.size());
   image.link_angle = equations.angle_with_turns(link, y);
-  image.z = unknowns_of(y, image.link_angle - windings_);
+  if (section_) image.z = section_->read(equations.modes(), y);
   const std::string name = m.node_label(m.reduction_node);
   const double phi = place_within(image.link_angle, periodicity_.angle);
   const double speed = m.angles[link].gain * equations.snapshot(outcome.t, y).now.speed[m.angles[link].shaft] * sense_;
@@ -226,26 +149,35 @@ ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double link_begin, 
   return image;
 }
 
-ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative,
-                                  const std::vector<Observer*>& observers) {
-  const std::vector<double> y = place(equations_, z);
-  const std::size_t link = at(shared_->reduction_angle);
-  const double begin = equations_.angle_with_turns(link, y);
-  Sensitivities sensitivities(equations_, size_);
-  const double until = start_time_ + (periodicity_.by_time ? periodicity_.time * options_.cycles : time_limit_);
+RunOptions ReturnMap::run_options(double from, double until) const {
   RunOptions run{.tolerance = options_.tolerance,
                  .method = options_.method,
                  .until = until,
                  .budget = options_.budget,
                  .interrupted = options_.interrupted,
                  .progress = {}};
+  run.from = {from, {}};
+  return run;
+}
+
+ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative,
+                                  const std::vector<Observer*>& observers) {
+  const std::vector<double> y = place(equations_, z);
+  const double begin = equations_.angle_with_turns(at(shared_->reduction_angle), y), from = start_time();
+  const bool variational = with_derivative && variational_;
+  Sensitivities sensitivities(equations_, variational ? size() : 0);
+  RunOptions run = run_options(from, from + (periodicity_.by_time ? periodicity_.time * options_.cycles : time_limit_));
   run.stop = round_end(equations_, y);
-  run.from = {start_time_, with_derivative ? sensitivities.start(y, first_directions()) : y};
-  if (with_derivative) run.extension = &sensitivities;
+  run.from->y = variational ? sensitivities.start(y, section_->directions()) : y;
+  if (variational) run.extension = &sensitivities;
   const RunOutcome outcome = integrate(equations_, run, observers);
-  cost_ += options_.cycles * (with_derivative ? static_cast<double>(size_) + 1 : 1.0);
-  Image image = judge(outcome, begin, equations_);
+  cost_ += options_.cycles * (variational ? derivative_cost() : 1.0);
+  Image image = judge(outcome, from, begin, equations_);
   if (!with_derivative || image.end != End::returned) return image;
+  if (!variational) {
+    differentiate(z, image);
+    return image;
+  }
   std::vector<double> rate(equations_.size());
   equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);
   read_derivative(sensitivities.matrix(outcome.state), rate, image);
@@ -253,68 +185,84 @@ ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative
   return image;
 }
 
+// Where contacts stick and slip within the round, edges of time hang on the state, or a jam ends a motion: central
+// differences of the map see all of that. One that has no image beside it leaves no derivative.
+void ReturnMap::differentiate(const Eigen::VectorXd& z, Image& image) {
+  const Eigen::VectorXd here = image.z;
+  image.derivative = Eigen::MatrixXd::Zero(z.size(), z.size());
+  image.slowing = Eigen::RowVectorXd::Zero(z.size());
+  double bend = 0;
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const Image above = this->image(z + difference_step * Eigen::VectorXd::Unit(z.size(), j), false);
+    const Image below = this->image(z - difference_step * Eigen::VectorXd::Unit(z.size(), j), false);
+    for (const Image* beside : {&above, &below})
+      if (beside->end != End::returned) {
+        image.end = beside->end;
+        image.why = "beside it: " + beside->why;
+        return;
+      }
+    image.derivative.col(j) = (above.z - below.z) / (2 * difference_step);
+    image.slowing[j] = (above.time - below.time) / (2 * difference_step);
+    bend = std::max(bend, (above.z - 2 * here + below.z).cwiseAbs().maxCoeff() / difference_step);
+  }
+  image.grazed = bend > grazes * std::max(1.0, image.derivative.cwiseAbs().maxCoeff());
+}
+
 ReturnMap::Image ReturnMap::approach(double link_speed) {
   const Model& m = *shared_;
-  const std::size_t link = at(m.reduction_angle);
-  sense_ = link_speed < 0 ? -1 : 1;
-  const double slowness = std::max(std::abs(link_speed), 0.02 * m.speed_scale);
-  time_limit_ = slowest * periodicity_.angle * options_.cycles / slowness;
+  const StartSettings& start = m.scene.run.start;
+  const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
   StartSettings settings{};
   settings.equilibrium = true;
-  settings.angle = section_;
+  settings.angle = start.angle / m.node_ratio[at(on)];
   settings.speed = link_speed;
-  std::vector<double> y = equations_.start(start_time_, settings);
-  const double begin = equations_.angle_with_turns(link, y);
-  AngleLog log;
-  RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
-                 .method = options_.method,
-                 .until = start_time_ + (periodicity_.by_time ? periodicity_.time * options_.cycles : time_limit_),
-                 .budget = options_.budget,
-                 .interrupted = options_.interrupted,
-                 .progress = {}};
-  run.from = {start_time_, y};
-  run.stop = round_end(equations_, y, 1 + overlap);  // an event where it begins is seen at the end
+  const double from = std::max(0.0, periodicity_.settled_from);
+  std::vector<double> y = equations_.start(from, settings);
+  return approach_from({from, std::move(y), equations_.modes()});
+}
+
+ReturnMap::Image ReturnMap::approach_from(State state) {
+  const Model& m = *shared_;
+  equations_.bind(state.modes);
+  const auto link_speed = [&](double t, std::span<const double> y) {
+    const TrackedAngle& link = m.angles[at(m.reduction_angle)];
+    return link.gain * equations_.snapshot(t, y).now.speed[link.shaft];
+  };
+  set_pace(link_speed(state.t, state.y));
+  section_.reset();
+  const double round = periodicity_.time * options_.cycles;
+  const double begin = equations_.angle_with_turns(at(m.reduction_angle), state.y);
+  RoundLog log(m);
+  RunOptions run = run_options(state.t, state.t + (periodicity_.by_time ? round : time_limit_));
+  run.tolerance = std::max(options_.tolerance, 1e-9);
+  run.from->y = state.y;
+  run.stop = round_end(equations_, state.y, 1 + overlap);  // an event where it begins is seen at the end
   const RunOutcome first = integrate(equations_, run, {&log});
   cost_ += options_.cycles;
-  windings_ = 0;
-  if (periodicity_.by_time) {
-    Image image = judge(first, begin, equations_);
-    if (angle_unknown_) {
-      windings_ = periodicity_.angle * std::round((image.link_angle - begin) / periodicity_.angle);
-      image.z[0] -= windings_;
-    }
-    return image;
-  }
-  Image image = judge(first, begin, equations_);
+  Image image = judge(first, state.t, begin, equations_);
   if (image.end != End::returned) return image;
-  std::vector<double> angles;
-  for (const Event& e : first.events) angles.push_back(log.angle_at(e.t));
-  section_ = quiet_angle(angles, periodicity_.angle, section_);
-  // On to the section.
-  const double here = image.link_angle;
-  double way = std::fmod(sense_ * (section_ - here), periodicity_.angle);
-  if (way < 1e-6) way += periodicity_.angle;
-  run.from = {first.t, first.state};
-  run.until = first.t + time_limit_;
-  run.stop = round_end(equations_, first.state, way / (periodicity_.angle * options_.cycles));
-  const RunOutcome second = integrate(equations_, run, {});
-  cost_ += way / periodicity_.angle;
-  return judge(second, here, equations_);
-}
-
-void ReturnMap::follow(const ReturnMap& other) {
-  section_ = other.section_;
-  sense_ = other.sense_;
-  time_limit_ = other.time_limit_;
-  windings_ = other.windings_;
-}
-
-std::string ReturnMap::unknown_name(std::size_t i) const {
-  if (angle_unknown_) {
-    if (i == 0) return "angle of " + shared_->node_label(shared_->reduction_node);
-    --i;
+  const double pace = link_speed(first.t, first.state);
+  if (periodicity_.by_time) {
+    go_through({first.t, first.state, equations_.modes()}, log.sticks(), pace);
+  } else {
+    std::vector<double> angles;
+    for (const Event& e : first.events) angles.push_back(log.angle_at(e.t));
+    const double here = image.link_angle,
+                 quiet = quiet_angle(angles, periodicity_.angle, place_within(begin, periodicity_.angle));
+    double way = std::fmod(sense_ * (quiet - here), periodicity_.angle);  // on to the section
+    if (way < 1e-6) way += periodicity_.angle;
+    run = run_options(first.t, first.t + time_limit_);
+    run.tolerance = std::max(options_.tolerance, 1e-9);
+    run.from->y = first.state;
+    run.stop = round_end(equations_, first.state, way / (periodicity_.angle * options_.cycles));
+    const RunOutcome second = integrate(equations_, run, {});
+    cost_ += way / periodicity_.angle;
+    image = judge(second, first.t, here, equations_);
+    if (image.end != End::returned) return image;
+    go_through({second.t, second.state, equations_.modes()}, log.sticks(), pace);
   }
-  return equations_.state_name(equations_.model().angle_count() + i);
+  image.z = Eigen::VectorXd::Zero(row(size()));
+  return image;
 }
 
 }  // namespace kurbel

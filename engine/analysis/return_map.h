@@ -1,10 +1,9 @@
 // return_map.h — the machine's state from one cycle to the next: the map, its derivative, and its fixed points.
 //
 //     z ↦ P(z), steady motion P(z*) = z*, Floquet multipliers = eigenvalues of ∂P/∂z at z*
-// A machine that knows no time: the section is the reduction link at an angle φ₀ (mod its cycle), z = [twists, speeds].
-// A machine driven by time: the map runs over the common period of all that depends on it, and where angles matter too
-// the link's angle is one of the unknowns; beside a prescribed speed it follows from the twists.
-// Unknowns are scaled: twists by rated torque over stiffness, speeds by the rated speed.
+// A machine that knows no time: the section is the reduction link at an angle φ₀ (mod its cycle). A machine driven by time:
+// the map runs over the common period of all that depends on it, and where angles matter too, they are among the unknowns.
+// What z is, the section knows (poincare_section.h): twists, speeds, own states, relative to the state that it goes through.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +11,13 @@
 #include <complex>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/analysis/newton.h"
 #include "engine/analysis/periodicity.h"
+#include "engine/analysis/poincare_section.h"
 #include "engine/run/run.h"
 
 namespace kurbel {
@@ -31,14 +32,18 @@ struct ReturnMapOptions {
 
 class ReturnMap {
  public:
-  // Throws std::invalid_argument where the machine has no section (see periodicity_of), or more than 400 unknowns.
+  // Throws std::invalid_argument where the machine has no section (see periodicity_of).
   ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options);
 
-  std::size_t size() const { return size_; }
   const Model& model() const { return *shared_; }
   std::shared_ptr<const Model> shared_model() const { return shared_; }
   const Periodicity& periodicity() const { return periodicity_; }
-  double section() const { return section_; }  // φ₀ [rad]
+
+  // The section goes through this state, with the link turning at about this speed [rad/s].
+  void go_through(State state, std::vector<char> sticks_throughout, double link_speed);
+  const PoincareSection& section() const { return *section_; }
+  std::size_t size() const { return section_->size(); }
+  double section_angle() const { return section_angle_; }  // φ₀ [rad]
   // Takes section, sense of rotation and limits over from a map of a like machine.
   void follow(const ReturnMap& other);
 
@@ -56,38 +61,42 @@ class ReturnMap {
   // Observers see the round.
   Image image(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers = {});
 
-  // Runs the scene's machine through one cycle from a quasi-static state with the link at this speed [rad/s], puts the
-  // section where nothing happens, and returns the state there. end tells whether it came round.
+  // Runs the machine through one cycle from a quasi-static state with the link at this speed [rad/s], puts the section
+  // where nothing happens, and returns the state there. end tells whether it came round.
   Image approach(double link_speed);
+  // The same from any state.
+  Image approach_from(State state);
 
   // The state of z for another set of equations of the same model; sets their modes.
-  std::vector<double> place(Equations& equations, const Eigen::VectorXd& z) const;
-  double start_time() const { return start_time_; }
+  std::vector<double> place(Equations& equations, const Eigen::VectorXd& z) const {
+    return section_->place(equations, z);
+  }
+  double start_time() const { return section_->state().t; }
   // End of a round for those who run the machine themselves: falls through zero after `rounds` of them.
   std::function<double(double, std::span<const double>)> round_end(Equations& equations, std::span<const double> y,
                                                                    double rounds = 1) const;
-  std::string unknown_name(std::size_t i) const;
-  // Effort so far, in cycles: a round counts as its cycles, one with derivative as (size() + 1) times that.
+  std::string unknown_name(std::size_t i) const { return section_->name(equations_, i); }
+  // Effort so far, in cycles: a round counts as its cycles, one with derivative as (size() + 1) times that by variational
+  // equations, 2 size() + 1 times by differences.
   double cost() const { return cost_; }
+  // Of a round with derivative, in rounds.
+  double derivative_cost() const { return (variational_ ? 1.0 : 2.0) * static_cast<double>(size()) + 1; }
   double time_limit() const { return time_limit_; }
 
  private:
-  double link_angle_of(const Eigen::VectorXd& z) const;
-  Eigen::MatrixXd first_directions() const;
-  Eigen::VectorXd unknowns_of(std::span<const double> y, double link_angle) const;
+  RunOptions run_options(double from, double until) const;
+  void set_pace(double link_speed);
+  void differentiate(const Eigen::VectorXd& z, Image& image);
   void read_derivative(const Eigen::MatrixXd& directions, std::span<const double> rate, Image& image) const;
-  Image judge(const RunOutcome& outcome, double link_begin, Equations& equations) const;
+  Image judge(const RunOutcome& outcome, double from, double link_begin, Equations& equations) const;
 
   std::shared_ptr<const Model> shared_;
   ReturnMapOptions options_;
   Equations equations_;
   Periodicity periodicity_;
-  std::size_t size_ = 0;
-  bool angle_unknown_ = false;
-  int fixed_shaft_ = -1;  // its speed is prescribed
-  double section_ = 0, sense_ = 1, start_time_ = 0, time_limit_ = 0, windings_ = 0, cost_ = 0;
-  std::vector<double> scale_;                        // of the unknowns
-  std::vector<std::vector<double>> angle_by_twist_;  // per elastic joint, per shaft
+  bool variational_ = true;  // the derivative comes from variational equations, else from differences
+  std::optional<PoincareSection> section_;
+  double section_angle_ = 0, sense_ = 1, time_limit_ = 0, cost_ = 0;
 };
 
 // A fixed point of the map.
@@ -95,7 +104,7 @@ struct SteadyPoint {
   bool found = false;
   std::string why;  // in words, unless it was found
   ReturnMap::End end = ReturnMap::End::returned;
-  Eigen::VectorXd z;
+  Eigen::VectorXd z, first;  // the point, and the image of the guess
   Eigen::MatrixXd derivative;
   std::vector<std::complex<double>> multipliers;  // largest first
   double time = 0;                                // of one round [s]

@@ -20,9 +20,9 @@ namespace kurbel {
 namespace {
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
-constexpr double enough = 1e-11;         // residual of the map, over the rated values
-constexpr double neutral_within = 1e-6;  // of 1
-constexpr double far_beyond = 30;        // rated speeds: that is no cycle but flight
+constexpr double enough = 1e-11;          // residual of the map, over the rated values
+constexpr double neutral_within = 1e-6;   // of 1
+constexpr double regime_cost_limit = 40;  // cycles
 
 // A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
 struct AddedTorque {
@@ -60,8 +60,7 @@ class Search {
  public:
   Search(const Scene& scene, const Effects& effects, const SteadyStudy& study, const SteadyOptions& options)
       : scene_(scene), effects_(effects), study_(study), options_(options) {
-    std::vector<std::string> switched;
-    network_ = always_on(scene, switched);
+    network_ = build_network(scene);
   }
 
   SteadyCycle run() {
@@ -87,51 +86,37 @@ class Search {
   }
 
   void prepare(std::shared_ptr<const Model> model) {
-    if (!model->own_states.empty())
-      throw std::invalid_argument(
-          fmt::format("the {} of \"{}\" is a state that the steady cycle does not look for; switch its effect off, or "
-                      "simulate long enough with kurbel run",
-                      model->own_states.front().state.name, model->own_states.front().component));
-    map_ = std::make_unique<ReturnMap>(model, map_options(map_tolerance));
+    map_ = std::make_shared<ReturnMap>(model, map_options(map_tolerance));
+    describe_model(std::move(model));
+  }
+  void describe_model(std::shared_ptr<const Model> model) {
     out_.model = std::move(model);
     out_.label = out_.model->elastic.empty() ? "rigid" : "elastic";
-    out_.periodicity = map_->periodicity();
-    out_.unknowns = map_->size();
-    out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 1) * options_.periods;
   }
 
-  // Speeds to begin at: the operating point, then faster ones for machines that stop at the first load.
-  std::vector<double> guesses() const {
-    if (study_.diagram)
-      if (const OperatingPoint* point = study_.diagram->working_point())
-        return {point->mean.omega, 1.15 * point->mean.omega, 0.9 * point->mean.omega};
-    const Model& m = *out_.model;
-    const StartSettings& start = m.scene.run.start;
-    const int on = start.on.empty() ? m.reduction_node : m.network.ports.at(start.on).in;
-    const double speed = start.speed / m.node_ratio[at(on)];
-    if (speed != 0) return {speed, std::copysign(m.speed_scale, speed)};
-    return {m.speed_scale, 0.7 * m.speed_scale};
+  RegimeOptions regime_options() const {
+    return {.tolerance = map_tolerance,
+            .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
+            .cycles = options_.periods,
+            .budget = scene_.run.budget,
+            .interrupted = options_.watch.interrupted,
+            .progress = [this](const std::string& what, double part) { options_.watch.at(what, part); }};
   }
 
+  // Where the scene's own start leads to.
   void freely() {
-    prepare(compile_network(network_, scene_, effects_));
-    for (const double speed : guesses()) {
-      const ReturnMap::Image guess = map_->approach(speed);
-      out_.end = guess.end;
-      out_.why = guess.why;
-      if (guess.end == ReturnMap::End::interrupted) break;
-      if (guess.end != ReturnMap::End::returned) continue;
-      out_.point = find_steady(*map_, guess.z, enough);
-      out_.found = out_.point.found;
-      out_.why = out_.point.why;
-      out_.end = out_.point.end;
-      if (out_.found || out_.end == ReturnMap::End::interrupted) break;
-    }
-    out_.cost = map_->cost();
-    if (out_.found && out_.point.z.cwiseAbs().maxCoeff() > far_beyond) {
-      out_.found = false;
-      out_.why = fmt::format("runaway: the search for a cycle flees beyond {} times the rated speed", far_beyond);
-    }
+    describe_model(compile_network(network_, scene_, effects_));
+    Regime regime = find_regime(out_.model, regime_options());
+    out_.kind = regime.kind;
+    out_.regime = regime.words;
+    out_.rounds = regime.rounds;
+    out_.cost = regime.cost;
+    out_.cost_limit = regime_cost_limit * options_.periods;
+    out_.found = regime.repeats();
+    out_.why = regime.words;
+    out_.uncertain = !regime.stable;
+    out_.point = std::move(regime.point);
+    map_ = regime.map;
   }
 
   // --- a mean speed is demanded: the drive's torque is one more unknown ---
@@ -159,17 +144,13 @@ class Search {
   void at_speed(double speed) {
     choose_drive();
     prepare(model_with(first_torque(speed)));
-    if (out_.periodicity.by_time)
+    if (map_->periodicity().by_time)
       throw std::invalid_argument(
           "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
           "free; drop the option");
     unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
-    ReturnMap::Image guess;
-    for (const double faster : {1.0, 1.2, 1.5}) {  // a machine that just stops at its load's peak
-      guess = map_->approach(faster * speed);
-      if (guess.end == ReturnMap::End::returned || guess.end == ReturnMap::End::interrupted) break;
-    }
-    cost_ = map_->cost();
+    const ReturnMap::Image guess = begin_at(speed);
+    cost_ += map_->cost();
     out_.end = guess.end;
     out_.why = guess.why;
     if (guess.end != ReturnMap::End::returned) return;
@@ -186,6 +167,28 @@ class Search {
                    : fmt::format("no added torque was found with which \"{}\" turns at {} in the mean: {}",
                                  out_.model->node_label(out_.model->reduction_node), rpm(speed), newton.why);
     if (image_.end == ReturnMap::End::returned) out_.end = ReturnMap::End::failed;
+  }
+
+  // A quasi-static start at that speed, or faster ones for a machine that just stops at its load's peak; where the scene
+  // switches something, the machine as it is after its own start, which is brought to the speed from there.
+  ReturnMap::Image begin_at(double speed) {
+    ReturnMap::Image guess;
+    const bool switches = !scene_.sequence.steps.empty() || is_switched(network_);
+    if (switches) {
+      Regime regime = find_regime(out_.model, regime_options());
+      cost_ += regime.cost;
+      guess.why = "its own start does not lead to a cycle: " + regime.words;
+      if (!regime.repeats()) return guess;
+      map_ = regime.map;
+      guess.end = ReturnMap::End::returned;
+      guess.z = regime.point.z;
+      return guess;
+    }
+    for (const double faster : {1.0, 1.2, 1.5}) {
+      guess = map_->approach(faster * speed);
+      if (guess.end == ReturnMap::End::returned || guess.end == ReturnMap::End::interrupted) break;
+    }
+    return guess;
   }
 
   bool round(const Eigen::VectorXd& x, double speed, bool with_derivative, Eigen::VectorXd& residual) {
@@ -231,7 +234,7 @@ class Search {
   }
   void settle(const Eigen::VectorXd& x) {
     const double torque = x[x.size() - 1] * unit_;
-    auto settled = std::make_unique<ReturnMap>(model_with(torque), map_options(map_tolerance));
+    auto settled = std::make_shared<ReturnMap>(model_with(torque), map_options(map_tolerance));
     settled->follow(*map_);
     map_ = std::move(settled);
     out_.model = map_->shared_model();
@@ -246,9 +249,14 @@ class Search {
   // --- figures ---
 
   void describe() {
-    out_.section = map_->section();
+    out_.periodicity = map_->periodicity();
+    out_.unknowns = map_->size();
+    out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
-    out_.stability = stability_text(out_.point.multipliers, &out_.halving);
+    out_.stability = out_.uncertain
+                         ? "of uncertain stability: an event is only just touched, or contacts change at one "
+                           "instant; the run comes here and stays"
+                         : stability_text(out_.point.multipliers, &out_.halving);
     out_.neutral = std::abs(out_.point.largest() - 1) < neutral_within;
     Round fine = go_round(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {
@@ -305,7 +313,7 @@ class Search {
   const SteadyStudy& study_;
   const SteadyOptions& options_;
   Network network_;
-  std::unique_ptr<ReturnMap> map_;
+  std::shared_ptr<ReturnMap> map_;
   SteadyCycle out_;
   int added_node_ = 0;
   std::string added_to_;

@@ -130,14 +130,10 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
   return result;
 }
 
-Network always_on(const Scene& scene, std::vector<std::string>& switched) {
-  Network net = build_network(scene);
-  for (Network::ShaftElement& e : net.elements) {
-    if (e.window.start <= Window{}.start && e.window.stop >= Window{}.stop) continue;
-    switched.push_back(e.component);
-    e.window = {};
-  }
-  return net;
+bool is_switched(const Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(), [](const Network::ShaftElement& e) {
+    return e.window.start > Window{}.start || e.window.stop < Window{}.stop;
+  });
 }
 
 namespace {
@@ -218,7 +214,7 @@ class RatioTrial {
  public:
   RatioTrial(const Scene& scene, std::string gearbox, double target, double limit, const std::atomic<bool>* interrupted)
       : scene_(scene), gearbox_(std::move(gearbox)), target_(target), limit_(limit), interrupted_(interrupted) {
-    network_ = always_on(scene, ignored_);
+    network_ = build_network(scene);
     const auto model = compile_network(network_, scene, rigid_effects());
     node_ = network_.ports.at(gearbox_).out;
     target_ *= model->node_ratio[at(node_)];
@@ -251,7 +247,6 @@ class RatioTrial {
   Network network_;
   double present_ = 1;
   int node_ = 0;
-  std::vector<std::string> ignored_;
   std::vector<std::pair<double, double>> tried_;
 };
 

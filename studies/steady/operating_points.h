@@ -59,8 +59,8 @@ struct OperatingDiagram {
 // Scans the speeds up to 1.25 × the rated one, and on while the drive is still stronger.
 OperatingDiagram operating_diagram(RigidMachine& machine, int direction);
 
-// The network with every source and load always on: steady motion knows no switching. Names what was switched.
-Network always_on(const Scene& scene, std::vector<std::string>& switched);
+// A source or a load goes on or off at a time.
+bool is_switched(const Network& network);
 
 struct StartRun {
   bool reached = false;

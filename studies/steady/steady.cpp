@@ -43,31 +43,15 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
 class Study {
  public:
   Study(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options)
-      : scene_(scene), effects_(effects), options_(options) {
-    bool transients = false;
-    for (Effects& e : effects_) transients = std::exchange(e.transients, false) || transients;
-    if (!scene_.sequence.steps.empty()) {
-      scene_.sequence = {};
-      out_.notes.push_back("the operating sequence is left out: steady motion knows no switching");
-    }
-    if (transients)
-      out_.notes.push_back("motors count by their static characteristics: their currents are no unknowns here");
-    if (scene.effects.joint_clearance || scene.effects.flexible_rod)
-      out_.notes.push_back(fmt::format("the rigid cycle has ideal joints and a rigid rod: {} left out",
-                                       !scene.effects.flexible_rod      ? "joint clearance is"
-                                       : !scene.effects.joint_clearance ? "the flexible rod is"
-                                                                        : "joint clearance and flexible rod are"));
-  }
+      : scene_(scene), effects_(effects), options_(options) {}
 
   SteadyStudy run() {
-    rigid_ = compile_network(always_on(scene_, switched_), scene_, rigid_effects());
+    const auto model = compile(scene_, effects_.back());
     out_.title = scene_.heading();
     out_.scene_file = scene_.file;
-    out_.link = rigid_->node_label(rigid_->reduction_node);
+    out_.link = model->node_label(model->reduction_node);
     out_.mean_speed = options_.mean_speed;
-    for (const std::string& name : switched_)
-      out_.notes.push_back(fmt::format("\"{}\" is taken as always on: steady motion knows no switching", name));
-    find_diagram();
+    find_diagram(*model);
     refuse_family();
     for (const Effects& effects : effects_) find_cycle(effects);
     if (options_.start_search && out_.complete) find_start();
@@ -79,21 +63,39 @@ class Study {
   void progress(const std::string& what, double fraction) const { options_.watch.at(what, fraction); }
   void log(const std::string& text) const { options_.watch.say(text); }
 
-  void find_diagram() {
-    if (rigid_->free_shafts != 1) {
-      out_.no_diagram = "a speed is prescribed: the drive gives whatever torque that needs";
-      return;
-    }
-    const Periodicity periodicity = periodicity_of(*rigid_);
-    if (periodicity.by_time || periodicity.settled_from > 0) {
-      out_.no_diagram = "a torque depends on time: angle and speed alone do not tell the mean torques";
-      return;
-    }
+  // Mean torques over a cycle at a constant speed say something of a machine of one coordinate without a memory.
+  void find_diagram(const Model& model) {
+    out_.no_diagram = why_no_diagram(model);
+    if (!out_.no_diagram.empty()) return;
     progress("operating points", 0);
-    RigidMachine machine(rigid_);
-    out_.diagram = operating_diagram(machine, sense());
+    std::optional<RigidMachine> machine;
+    try {
+      rigid_ = compile(scene_, rigid_effects());
+      machine.emplace(rigid_);
+    } catch (const std::invalid_argument& error) {
+      out_.no_diagram = error.what();
+      rigid_.reset();
+      return;
+    }
+    out_.diagram = operating_diagram(*machine, sense());
     log(fmt::format("operating points: {} of {} speeds scanned", out_.diagram->points.size(),
                     out_.diagram->curve.size()));
+    if (model.has_contacts() || !model.own_states.empty())
+      out_.notes.push_back(
+          "operating points are those of the rigid machine by its static torques: losses that hang on the load, and "
+          "states of its own, are left out of them and of the start from rest; the steady cycle has them");
+  }
+  std::string why_no_diagram(const Model& m) const {
+    if (!scene_.sequence.steps.empty()) return "the operating sequence sets what drives and brakes";
+    for (const ElasticJoint& e : m.elastic)
+      if (e.slips || e.springless)
+        return fmt::format("\"{}\" may slip, so that one speed does not tell all torques",
+                           m.network.joints[at(e.joint)].component);
+    if (prescribed_node(m) >= 0) return "a speed is prescribed: the drive gives whatever torque that needs";
+    const Periodicity periodicity = periodicity_of(m);
+    if (periodicity.by_time || periodicity.settled_from > 0 || is_switched(m.network))
+      return "a torque depends on time: angle and speed alone do not tell the mean torques";
+    return {};
   }
   int sense() const {
     const double speed = options_.mean_speed.value_or(scene_.run.start.speed);
@@ -107,24 +109,22 @@ class Study {
       throw std::invalid_argument(family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link));
   }
 
-  // Steady motion is that of the machine coupled: clutches locked, brakes released.
   void find_cycle(const Effects& effects) {
     const bool stopped = options_.watch.stopped();
     if (stopped) return incomplete("interrupted");
     progress("steady cycle with effects: " + effects.describe(), 0);
-    Effects running = effects;
-    running.locked = true;
-    SteadyCycle cycle = search_cycle(scene_, running, out_, options_);
-    log(fmt::format(
-        "{}: {} unknowns; {} after {} rounds, {} with derivative; cost {:.1f} cycles, {:.0f} aimed at; "
-        "residual {:.1e}; {:.3g} ms",
-        cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.point.rounds,
-        cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual, 1e3 * cycle.cpu_seconds));
+    SteadyCycle cycle = search_cycle(scene_, effects, out_, options_);
+    log(
+        fmt::format("{}: {} unknowns; {} after a run of {} rounds and {} of Newton's, {} with derivative; cost {:.1f} "
+                    "cycles, {:.0f} "
+                    "aimed at; residual {:.1e}; {:.3g} ms",
+                    cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.rounds,
+                    cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
+                    1e3 * cycle.cpu_seconds));
     if (!cycle.found) {
       cycle.why = diagnose(cycle);
-      incomplete(cycle.end == ReturnMap::End::interrupted
-                     ? "interrupted"
-                     : fmt::format("no steady cycle ({}): {}", cycle.label, cycle.why));
+      incomplete(is_interrupted(cycle) ? "interrupted"
+                                       : fmt::format("no steady cycle ({}): {}", cycle.label, cycle.why));
     }
     out_.cycles.push_back(std::move(cycle));
   }
@@ -135,18 +135,18 @@ class Study {
 
   // The mean torques tell why there can be none; else what the machine did.
   std::string diagnose(const SteadyCycle& cycle) const {
-    if (cycle.end == ReturnMap::End::interrupted || !out_.diagram || options_.mean_speed) return cycle.why;
+    if (is_interrupted(cycle) || !out_.diagram || options_.mean_speed) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint& p = *out_.diagram->working_point();
-    if (cycle.end == ReturnMap::End::stands || cycle.end == ReturnMap::End::turns_back ||
-        cycle.end == ReturnMap::End::too_slow)
+    if (cycle.kind == Regime::Kind::at_rest)
       return fmt::format(
-          "stall within the cycle: in the mean the drive would hold {} ({}), but {}: neither the drive nor what is "
-          "stored "
-          "in the flywheel overcomes the load's peak there. More inertia, or a drive with a steeper characteristic, is "
-          "needed",
+          "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
+          "start, or a drive with a steeper characteristic is needed",
           rpm(p.mean.omega), with_unit(p.mean.load, "N*m", 4), cycle.why);
     return cycle.why;
+  }
+  static bool is_interrupted(const SteadyCycle& cycle) {
+    return cycle.end == ReturnMap::End::interrupted || cycle.kind == Regime::Kind::interrupted;
   }
 
   // Several times what the mean torques would need; where they do not suffice, what the rated torque would.
@@ -199,10 +199,9 @@ class Study {
     return error ? std::optional(*error * 30 / std::numbers::pi) : std::nullopt;
   }
 
-  Scene scene_;  // without its operating sequence
-  std::vector<Effects> effects_;
+  const Scene& scene_;
+  const std::vector<Effects>& effects_;
   const SteadyOptions& options_;
-  std::vector<std::string> switched_;
   std::shared_ptr<const Model> rigid_;
   SteadyStudy out_;
 };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
+#include "engine/analysis/regime.h"
 #include "studies/findings/watch.h"
 #include "studies/run/simulate.h"
 #include "studies/steady/operating_points.h"
@@ -48,16 +48,20 @@ struct SteadyCycle {
   std::shared_ptr<const Model> model;
   bool found = false;
   std::string why;  // in words, unless it was found
+  Regime::Kind kind = Regime::Kind::failed;
+  std::string regime;  // in words: what the scene's own start leads to, and what decides that
   ReturnMap::End end = ReturnMap::End::returned;
   Periodicity periodicity;
   double section = 0;  // angle of the link where the map is taken [rad]
   SteadyPoint point;
   std::size_t unknowns = 0;
-  double cost = 0, cost_limit = 0;  // of the search, approach included; 6 (n + 1) [cycles]
+  int rounds = 0;                   // of the run, before Newton's method took over
+  double cost = 0, cost_limit = 0;  // of the search, run included [cycles]
   double cycle_time = 0;            // of one round [s]
   std::string stability;            // in words
   std::optional<double> halving;    // cycles in which the slowest deviation halves
   bool neutral = false;             // a multiplier of 1: one of a family
+  bool uncertain = false;           // the derivative of the map, and with it the stability
   std::vector<Figure> figures;      // with errors measured by a looser search
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;

@@ -147,11 +147,10 @@ TEST(ReturnMap, DerivativeEqualsDifferencesOfTheMap) {
 
 // One uninterrupted run from the quasi-static start until every deviation has fallen below the tolerance.
 Eigen::VectorXd waited_for(ReturnMap& map, double link_speed, double cycles) {
-  const Model& m = map.model();
   Equations equations(map.shared_model(), false);
   StartSettings settings{};
   settings.equilibrium = true;
-  settings.angle = map.section();
+  settings.angle = map.section_angle();
   settings.speed = link_speed;
   const std::vector<double> y = equations.start(0, settings);
   RunOptions run{
@@ -160,12 +159,7 @@ Eigen::VectorXd waited_for(ReturnMap& map, double link_speed, double cycles) {
   run.stop = map.round_end(equations, y, cycles);
   const RunOutcome outcome = integrate(equations, run, {});
   EXPECT_TRUE(outcome.stopped) << outcome.diagnosis;
-  std::vector<double> z;
-  for (std::size_t k = 0; k < m.elastic.size(); ++k)
-    z.push_back(outcome.state[equations.twist_index(static_cast<int>(k))] / m.elastic[k].twist_scale);
-  for (std::size_t s = 0; s < m.free_shafts; ++s)
-    z.push_back(outcome.state[equations.speed_index(static_cast<int>(s))] / m.shafts[s].speed_scale);
-  return Eigen::Map<Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size()));
+  return map.section().read(equations.modes(), outcome.state);
 }
 
 TEST(ReturnMap, SteadyCyclesAreWhatLongSimulationsEndIn) {
@@ -222,10 +216,11 @@ TEST(ReturnMap, ForcedChainSettlesToItsHarmonicResponse) {
   const Complex s(0, 6 * pi), spring = 150.0 / s + 0.3;
   const Complex w2_over_w1 = spring / (0.4 * s + 0.5 + spring);
   const Complex w1 = 4.0 / (0.2 * s + spring * (1.0 - w2_over_w1)), w2 = w2_over_w1 * w1;
-  const Model& m = map.model();
-  EXPECT_NEAR(p.z[0] * m.elastic[0].twist_scale, 10 / 150.0 + ((w1 - w2) / s).imag(), 1e-10);
-  EXPECT_NEAR(p.z[1] * m.shafts[0].speed_scale, 20 + w1.imag(), 1e-9);
-  EXPECT_NEAR(p.z[2] * m.shafts[1].speed_scale, 20 + w2.imag(), 1e-9);
+  Equations equations(map.shared_model(), false);
+  const std::vector<double> y = map.place(equations, p.z);
+  EXPECT_NEAR(y[equations.twist_index(0)], 10 / 150.0 + ((w1 - w2) / s).imag(), 1e-10);
+  EXPECT_NEAR(y[equations.speed_index(0)], 20 + w1.imag(), 1e-9);
+  EXPECT_NEAR(y[equations.speed_index(1)], 20 + w2.imag(), 1e-9);
   Eigen::Matrix3d a;
   a << 0, 1, -1, -150 / 0.2, -0.3 / 0.2, 0.3 / 0.2, 150 / 0.4, 0.3 / 0.4, -0.8 / 0.4;
   std::vector<Complex> expected;

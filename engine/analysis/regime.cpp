@@ -1,0 +1,289 @@
+// regime.cpp — the run round by round, and Newton's method where it comes near.
+#include "engine/analysis/regime.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double near_enough = 0.1;     // change of a round, of the rated values, at which Newton is tried
+constexpr double enough = 1e-11;        // residual of the map, over the rated values
+constexpr double enough_by_run = 1e-8;  // where Newton does not apply
+constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
+constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
+constexpr double never = 1e299;
+
+class Search {
+ public:
+  Search(std::shared_ptr<const Model> model, const RegimeOptions& options)
+      : shared_(std::move(model)),
+        m_(*shared_),
+        options_(options),
+        equations_(shared_, false),
+        map_(std::make_shared<ReturnMap>(shared_, ReturnMapOptions{options.tolerance, options.method, options.cycles,
+                                                                   options.budget, options.interrupted})),
+        period_(map_->periodicity()) {}
+
+  Regime run() {
+    state_.t = 0;
+    state_.y = equations_.start(0);
+    state_.modes = equations_.modes();
+    while (!done_ && out_.rounds < options_.most_rounds) go_on();
+    if (!done_) drift();
+    out_.cost += static_cast<double>(out_.rounds) + map_->cost();
+    if (out_.state.y.empty()) out_.state = state_;
+    return std::move(out_);
+  }
+
+ private:
+  void end(Regime::Kind kind, std::string words) {
+    out_.kind = kind;
+    out_.words = std::move(words);
+    done_ = true;
+  }
+
+  // --- where the run is ---
+
+  double link_speed() {
+    const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
+    return link.gain * equations_.snapshot(state_.t, state_.y).now.speed[link.shaft];
+  }
+  std::string link() const { return m_.node_label(m_.reduction_node); }
+
+  // Until when something is still to be switched that does not come again [s]; before: nothing.
+  double switched_until() const {
+    double until = period_.settled_from;
+    for (const Network::ShaftElement& e : m_.network.elements)
+      for (const double edge : {e.window.start, e.window.stop})
+        if (edge < never) until = std::max(until, edge);
+    for (const PrescribedSpeed& given : m_.network.prescribed)
+      if (!given.time.empty()) until = std::max(until, given.time.back());
+    for (const Command& command : state_.modes.command)
+      if (command.rate != 0) until = std::max(until, command.until);
+    const Sequence& sequence = m_.scene.sequence;
+    if (state_.modes.next_step < sequence.steps.size() && state_.modes.armed_time < never)
+      until = std::max(until, state_.modes.armed_time);
+    return until;
+  }
+  bool waits_for_angle() const {
+    const Sequence& sequence = m_.scene.sequence;
+    return state_.modes.next_step < sequence.steps.size() &&
+           sequence.steps[state_.modes.next_step].when == SequenceStep::When::angle;
+  }
+  bool is_settled() const { return !waits_for_angle() && state_.t >= switched_until(); }
+
+  // Greatest speed, and greatest rate of all that is no angle, of the rated values.
+  struct Pace {
+    double speed = 0, rate = 0;
+  };
+  Pace pace() {
+    Pace pace;
+    std::vector<double> y = state_.y, rate(equations_.size());
+    y.resize(equations_.size(), 0.0);
+    equations_.bind(state_.modes);
+    equations_.flow(state_.t, y, rate);
+    for (std::size_t s = 0; s < m_.shafts.size(); ++s)
+      pace.speed =
+          std::max(pace.speed, std::abs(equations_.snapshot(state_.t, y).now.speed[s]) / m_.shafts[s].speed_scale);
+    const auto consider = [&](std::size_t state, double scale) {
+      pace.rate = std::max(pace.rate, std::abs(rate[state]) / (scale * m_.speed_scale));
+    };
+    for (std::size_t k = 0; k < m_.elastic.size(); ++k)
+      if (!m_.elastic[k].slips && !m_.elastic[k].springless)
+        consider(equations_.twist_index(static_cast<int>(k)), m_.elastic[k].twist_scale);
+    for (std::size_t s = 0; s < m_.free_shafts; ++s)
+      consider(equations_.speed_index(static_cast<int>(s)), m_.shafts[s].speed_scale);
+    for (std::size_t k = 0; k < m_.own_states.size(); ++k)
+      consider(equations_.own_begin() + k, m_.own_states[k].state.scale);
+    return pace;
+  }
+
+  // --- one round ---
+
+  double round_angle() const { return period_.angle * options_.cycles; }
+  double round_time() const { return period_.time * options_.cycles; }
+
+  // The link once round, or the common period of time; where the link stands or creeps, some time.
+  void go_on() {
+    equations_.bind(state_.modes);
+    const double omega = link_speed(), patience = 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale);
+    const std::size_t angle = at(m_.reduction_angle);
+    const double begin = equations_.angle_with_turns(angle, state_.y);
+    RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
+                   .method = options_.method,
+                   .until = state_.t + (period_.by_time && is_settled() ? round_time() : patience_factor_ * patience),
+                   .budget = options_.budget,
+                   .interrupted = options_.interrupted,
+                   .progress = {}};
+    run.from = {state_.t, state_.y};
+    if (!period_.by_time)
+      run.stop = [this, angle, begin](double, std::span<const double> y) {
+        return std::min(1.0, round_angle() - std::abs(equations_.angle_with_turns(angle, y) - begin));
+      };
+    if (options_.progress) options_.progress(fmt::format("regime: round {}", out_.rounds + 1), 0);
+    const RunOutcome outcome = integrate(equations_, run, {});
+    ++out_.rounds;
+    const State before = std::exchange(state_, {outcome.t, outcome.state, equations_.modes()});
+    if (!outcome.complete) {
+      const bool stopped = options_.interrupted && options_.interrupted->load();
+      return end(stopped ? Regime::Kind::interrupted : Regime::Kind::failed, outcome.diagnosis);
+    }
+    const Pace now = pace();
+    if (now.speed > far_beyond) return run_away(now.speed);
+    const bool round = outcome.stopped || (period_.by_time && run.until - before.t <= round_time() * (1 + 1e-12));
+    if (!round) return wait(now);
+    patience_factor_ = 1;
+    if (is_settled()) look(before);
+  }
+
+  // The link did not come round.
+  void wait(const Pace& now) {
+    patience_factor_ = std::min(2 * patience_factor_, 64.0);
+    if (!is_settled() && state_.t < switched_until()) return;
+    if (now.rate > still || period_.by_time) return;
+    if (now.speed <= still) return end(Regime::Kind::at_rest, at_rest());
+    const double omega = std::abs(link_speed());
+    if (omega > still * m_.speed_scale) return;  // it creeps
+    end(Regime::Kind::equilibrium,
+        fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link()));
+  }
+  std::string at_rest() {
+    std::string text = fmt::format("the machine comes to rest at {:.4g} s and stays there", state_.t);
+    for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
+    return text;
+  }
+  void run_away(double speed) {
+    end(Regime::Kind::runaway,
+        fmt::format("it runs away: at {:.4g} s a shaft turns at {:.3g} times its rated speed, and nothing ends the "
+                    "acceleration",
+                    state_.t, speed));
+  }
+
+  // A round with nothing to be switched: how much has changed, and is it near enough?
+  void look(const State& before) {
+    ++settled_rounds_;
+    PoincareSection section(equations_, before, {!period_.by_time, {}});
+    const Eigen::VectorXd change = section.read(state_.modes, state_.y);
+    out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff() : 0;
+    if (settled_rounds_ < next_trial_ || out_.still_changes > near_enough) return;
+    next_trial_ = 2 * settled_rounds_;
+    polish();
+  }
+
+  void polish() {
+    auto map = std::make_shared<ReturnMap>(
+        shared_,
+        ReturnMapOptions{options_.tolerance, options_.method, options_.cycles, options_.budget, options_.interrupted});
+    const ReturnMap::Image way = map->approach_from(state_);
+    if (way.end != ReturnMap::End::returned) return spend(*map);
+    state_ = map->section().state();
+    const SteadyPoint point = find_steady(*map, way.z, enough);
+    spend(*map);
+    if (point.end == ReturnMap::End::interrupted) return end(Regime::Kind::interrupted, "interrupted");
+    if (!point.found) {
+      why_not_ = point.why;
+      return;
+    }
+    if (!was_on_its_way(point)) return;
+    accept(map, point);
+  }
+  void spend(const ReturnMap& map) { out_.cost += map.cost(); }
+
+  // From z = 0, where the run was, a round leads as far towards the point as the derivative says.
+  bool was_on_its_way(const SteadyPoint& point) {
+    constexpr double off = 0.3, near_by = 1e-4, neutral = 1e-6;
+    if (point.z.size() == 0) return true;
+    const double distance = point.z.cwiseAbs().maxCoeff();
+    if (point.largest() > 1 + neutral && !point.grazed) {
+      why_not_ = fmt::format("the motion that Newton's method finds is unstable (multiplier {:.3g})", point.largest());
+      return false;
+    }
+    if (distance <= near_by) return true;
+    const Eigen::VectorXd left = point.first - point.z, expected = -(point.derivative * point.z);
+    if ((left - expected).cwiseAbs().maxCoeff() <= off * distance) return true;
+    why_not_ = "what Newton's method finds is not what the run approaches";
+    return false;
+  }
+
+  void accept(const std::shared_ptr<ReturnMap>& map, const SteadyPoint& point) {
+    map_ = map;
+    out_.map = map;
+    out_.point = point;
+    out_.polished = true;
+    out_.stable = !point.grazed;
+    out_.state = {map->start_time(), map->place(equations_, point.z), equations_.modes()};
+    out_.state.y.resize(equations_.state_count());
+    out_.cost -= map->cost();  // counted at the end
+    state_ = out_.state;
+    const bool nothing_swings = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
+    if (nothing_swings) return end(Regime::Kind::equilibrium, "all speeds keep: no law depends on an angle or on time");
+    end(Regime::Kind::cycle, cycle_words());
+  }
+  std::string cycle_words() const {
+    if (period_.by_time)
+      return fmt::format("everything comes again after {:.6g} s, the common period of all that depends on time{}",
+                         round_time(), period_.angle_matters ? " and on an angle" : "");
+    const double turns = round_angle() / (2 * std::numbers::pi);
+    return fmt::format("everything comes again after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
+  }
+
+  void drift() {
+    if (settled_rounds_ == 0)
+      return end(Regime::Kind::drifting,
+                 fmt::format("after {} rounds, at {:.4g} s, the operating sequence or a law over time still goes on",
+                             out_.rounds, state_.t));
+    end(Regime::Kind::drifting,
+        fmt::format(
+            "after {} rounds, at {:.4g} s, the motion still changes by {:.2g} of the rated values from round to "
+            "round{}",
+            out_.rounds, state_.t, out_.still_changes, why_not_.empty() ? "" : ": " + why_not_));
+  }
+
+  std::shared_ptr<const Model> shared_;
+  const Model& m_;
+  const RegimeOptions& options_;
+  Equations equations_;
+  std::shared_ptr<ReturnMap> map_;
+  Periodicity period_;
+  State state_;
+  Regime out_;
+  bool done_ = false;
+  double patience_factor_ = 1;
+  int settled_rounds_ = 0, next_trial_ = 1;
+  std::string why_not_;
+};
+
+}  // namespace
+
+const char* name_of(Regime::Kind kind) {
+  switch (kind) {
+    case Regime::Kind::equilibrium:
+      return "equilibrium";
+    case Regime::Kind::cycle:
+      return "cycle";
+    case Regime::Kind::at_rest:
+      return "at rest";
+    case Regime::Kind::runaway:
+      return "running away";
+    case Regime::Kind::drifting:
+      return "drifting";
+    case Regime::Kind::interrupted:
+      return "interrupted";
+    case Regime::Kind::failed:
+      break;
+  }
+  return "failed";
+}
+
+Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options) {
+  return Search(std::move(model), options).run();
+}
+
+}  // namespace kurbel

@@ -1,0 +1,128 @@
+// regime_test.cpp — where a machine's own start leads to, against closed forms: what slips, what is switched, what stands.
+#include "engine/analysis/regime.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/scenes.h"
+
+namespace kurbel::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Regime regime_of(const Scene& scene, RegimeOptions options = {}) {
+  return find_regime(compile(scene, scene.effects), options);
+}
+Regime regime_of(const std::string& text) { return regime_of(scene_from(text)); }
+
+// Of a component's shaft, at the regime's state [rad/s].
+double speed_of(const Scene& scene, const Regime& regime, const std::string& component, bool out = false) {
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, false);
+  equations.bind(regime.state.modes);
+  const Network::Ports& ports = model->network.ports.at(component);
+  const auto node = static_cast<std::size_t>(out ? ports.out : ports.in);
+  return model->gain_of_node[node] *
+         equations.snapshot(regime.state.t, regime.state.y).now.speed[model->shaft_of_node[node]];
+}
+
+const char* const dc_motor =
+    "motor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", inertia = \"0.5 "
+    "kg*m2\" }\n";
+
+// A limiter of 10 N·m before a load of 15: the load stands, the motor turns at ω₀ (1 − 10/60).
+TEST(Regime, TorqueLimiterThatSlipsLeavesItsLoadStanding) {
+  const Scene scene = scene_from(std::string("line = [\"motor\", \"limiter\", \"load\"]\n") + dc_motor +
+                                 "limiter = { kind = \"torque limiter\", torque = \"10 N*m\" }\n"
+                                 "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
+  EXPECT_EQ(speed_of(scene, regime, "load"), 0);
+}
+
+// A fan behind it turns where 10 N·m = k ω².
+TEST(Regime, SlippingLimiterDrivesAFanAtItsTorque) {
+  const Scene scene =
+      scene_from(std::string("line = [\"motor\", \"limiter\", \"fan\"]\n") + dc_motor +
+                 "limiter = { kind = \"torque limiter\", torque = \"10 N*m\" }\n"
+                 "fan = { kind = \"load\", quadratic = \"0.04 N*m*s2/rad2\", inertia = \"0.3 kg*m2\" }\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
+  EXPECT_NEAR(speed_of(scene, regime, "fan"), std::sqrt(10 / 0.04), 1e-7);
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
+}
+
+// The brake holds until 0.5 s; then the motor runs as if it had never been.
+TEST(Regime, SequenceIsCarriedOut) {
+  const Scene scene = scene_from(std::string("line = [\"motor\", \"brake\", \"load\"]\n") + dc_motor +
+                                 "brake = { kind = \"brake\", torque = \"100 N*m\" }\n"
+                                 "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
+                                 "[sequence]\nsteps = [{ at = \"0.5 s\", set = \"brake\", to = \"off\" }]\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), 30, 1e-8);
+}
+
+TEST(Regime, LoadThatActsForAWhileActsNoMore) {
+  const Scene scene =
+      scene_from(std::string("line = [\"motor\", \"load\", \"blow\"]\n") + dc_motor +
+                 "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
+                 "blow = { kind = \"load\", torque = \"20 N*m\", start = \"1 s\", stop = \"1.2 s\" }\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
+  EXPECT_GT(regime.state.t, 1.2);
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), 30, 1e-8);
+}
+
+TEST(Regime, MotorThatIsSwitchedOffComesToRest) {
+  const Regime regime = regime_of(
+      "line = [\"motor\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
+      "\"40 rad/s\", inertia = \"0.5 kg*m2\", stop = \"2 s\" }\n"
+      "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n");
+  EXPECT_EQ(regime.kind, Regime::Kind::at_rest) << regime.words;
+  EXPECT_NE(regime.words.find("held"), std::string::npos) << regime.words;
+}
+
+TEST(Regime, DriveThatAlwaysWinsRunsAway) {
+  const Regime regime = regime_of(
+      "line = [\"turbine\", \"load\"]\n"
+      "turbine = { kind = \"torque source\", torque = \"20 N*m\", inertia = \"1 kg*m2\" }\n"
+      "load = { kind = \"load\", torque = \"5 N*m\" }\n");
+  EXPECT_EQ(regime.kind, Regime::Kind::runaway) << regime.words;
+}
+
+// The scene's own start decides which of two motions is kept: a Kloss motor under a constant load that it cannot start.
+TEST(Regime, TheStartDecidesWhatIsKept) {
+  const auto scene = [](const char* speed) {
+    return scene_from(
+        std::string("line = [\"motor\", \"load\"]\nmotor = { kind = \"induction motor\", rated_power = \"4 kW\", "
+                    "rated_speed = \"95 rad/s\", synchronous_speed = \"100 rad/s\", breakdown_ratio = 3, "
+                    "inertia = \"0.5 kg*m2\" }\nload = { kind = \"load\", torque = \"80 N*m\" }\n") +
+        "[run]\nstart = { speed = \"" + speed + "\" }\n");
+  };
+  const Regime running = regime_of(scene("95 rad/s"));
+  EXPECT_EQ(running.kind, Regime::Kind::equilibrium) << running.words;
+  const Regime standing = regime_of(scene("0 rad/s"));
+  EXPECT_EQ(standing.kind, Regime::Kind::at_rest) << standing.words;
+}
+
+// Every example scene: what is found comes again, and the run does not leave it.
+TEST(Regime, OfExampleScenesComesAgain) {
+  for (const char* name : {"crank_press", "compressor", "single_cylinder_engine", "piston_pump"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = scene_file(std::string("scenes/") + name + ".toml");
+    const Regime regime = regime_of(scene);
+    ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+    EXPECT_TRUE(regime.polished);
+    EXPECT_LT(regime.point.largest(), 1);
+    const ReturnMap::Image again = regime.map->image(regime.point.z, false);
+    EXPECT_LT((again.z - regime.point.z).cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace kurbel::test
