@@ -71,6 +71,10 @@ Periodicity periodicity_of(const Model& m) {
     if (e.element->time_period > 0) times.push_back({e.element->time_period, e.component});
     result.settled_from = std::max(result.settled_from, e.element->settled_from);
   }
+  for (const ElasticJoint& e : m.elastic) {
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    if (joint.element->is.uses_angle) angles.push_back({two_pi / m.scale_ratio[at(joint.a)], joint.component});
+  }
   result.angle_matters = !angles.empty();
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
   if (const int node = prescribed_node(m); node >= 0) {

@@ -37,7 +37,8 @@ class PoincareSection {
   Eigen::VectorXd read(const Modes& modes, std::span<const double> y) const;
   const Eigen::MatrixXd& directions() const { return directions_; }    // D = ∂y/∂z, states × size
   Eigen::MatrixXd read_directions(const Eigen::MatrixXd& of_y) const;  // L · δy
-  double magnitude() const;                                            // of the state itself, in the scales of z
+  bool is_angle(std::size_t coordinate) const { return coordinates_[coordinate].period > 0; }
+  double magnitude() const;  // of the state itself, in the scales of z
   std::string name(const Equations& equations, std::size_t coordinate) const;
 
  private:

@@ -19,6 +19,7 @@ constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
 constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
 constexpr double never = 1e299;
+constexpr std::ptrdiff_t most_remembered = 400;  // events
 
 class Search {
  public:
@@ -77,7 +78,15 @@ class Search {
     return state_.modes.next_step < sequence.steps.size() &&
            sequence.steps[state_.modes.next_step].when == SequenceStep::When::angle;
   }
-  bool is_settled() const { return !waits_for_angle() && state_.t >= switched_until(); }
+  bool is_settled() const { return m_.scene.sequence.repeat || (!waits_for_angle() && state_.t >= switched_until()); }
+  // Nothing that depends on an angle or on time sets the pace: what swings, swings by itself; or a sequence goes round.
+  bool has_own_period() const {
+    const bool swings = std::any_of(m_.network.prescribed.begin(), m_.network.prescribed.end(),
+                                    [](const PrescribedSpeed& p) { return p.amplitude != 0; });
+    const bool driven = std::any_of(m_.network.elements.begin(), m_.network.elements.end(),
+                                    [](const Network::ShaftElement& e) { return e.element->time_period > 0; });
+    return m_.scene.sequence.repeat || (!period_.angle_matters && !swings && !driven);
+  }
 
   // Greatest speed, and greatest rate of all that is no angle, of the rated values.
   struct Pace {
@@ -138,9 +147,12 @@ class Search {
     const Pace now = pace();
     if (now.speed > far_beyond) return run_away(now.speed);
     const bool round = outcome.stopped || (period_.by_time && run.until - before.t <= round_time() * (1 + 1e-12));
+    events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
+    if (std::ssize(events_) > most_remembered) events_.erase(events_.begin(), events_.end() - most_remembered);
+    if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now);
     patience_factor_ = 1;
-    if (is_settled()) look(before);
+    if (is_settled() && !m_.scene.sequence.repeat) look(before, now);
   }
 
   // The link did not come round.
@@ -167,20 +179,80 @@ class Search {
   }
 
   // A round with nothing to be switched: how much has changed, and is it near enough?
-  void look(const State& before) {
+  void look(const State& before, const Pace& now) {
     ++settled_rounds_;
+    speeds_.push_back(now.speed);
     PoincareSection section(equations_, before, {!period_.by_time, {}});
     const Eigen::VectorXd change = section.read(state_.modes, state_.y);
-    out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff() : 0;
+    Eigen::Index most = 0;
+    out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
+    if (change.size() > 0) {
+      changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
+      angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
+    }
     if (settled_rounds_ < next_trial_ || out_.still_changes > near_enough) return;
     next_trial_ = 2 * settled_rounds_;
+    const double came_near = out_.still_changes;
     polish();
+    if (!done_ && came_near <= enough_by_run) rest_on_run(new_map());
+  }
+
+  ReturnMapOptions map_options() const {
+    return {options_.tolerance, options_.method, options_.cycles, options_.budget, options_.interrupted};
+  }
+  std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options()); }
+
+  // Where Newton's method does not apply, the run itself has come near enough.
+  void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
+    const ReturnMap::Image way = map->approach_from(state_);
+    if (way.end != ReturnMap::End::returned) return spend(*map);
+    SteadyPoint point;
+    point.z = way.z;
+    const ReturnMap::Image round = map->image(point.z, false);
+    point.residual = round.z.size() > 0 ? round.z.cwiseAbs().maxCoeff() : 0;
+    point.time = round.time;
+    point.rounds = 1;
+    if (round.end != ReturnMap::End::returned || point.residual > 10 * enough_by_run) return spend(*map);
+    point.found = true;
+    point.grazed = true;
+    accept(map, point);
+    out_.polished = false;
+  }
+
+  // The same event again and again after the same time, with the whole state: so many events may lie between.
+  bool find_own_period() {
+    constexpr std::size_t most_between = 8;
+    constexpr double same_time = 1e-6;
+    if (events_.size() < 4 || events_.size() == looked_at_) return false;
+    looked_at_ = events_.size();
+    const bool sequence = m_.scene.sequence.repeat;
+    std::vector<double> times;  // of the last event of its kind, latest first
+    const auto wanted = [&](const Event& e) { return !sequence || e.kind == EventKind::command; };
+    const auto last = std::find_if(events_.rbegin(), events_.rend(), wanted);
+    for (auto e = last; e != events_.rend(); ++e)
+      if (e->component == last->component && e->what == last->what) times.push_back(e->t);
+    for (std::size_t k = 1; k <= most_between && 2 * k < times.size(); ++k) {
+      const double period = times[0] - times[k], before = times[k] - times[2 * k];
+      if (!(period > 0) || std::abs(period - before) > same_time * period) continue;
+      const auto map = std::make_shared<ReturnMap>(shared_, map_options(), period);
+      if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
+      period_.by_time = true;
+      const double of_laws = std::exchange(period_.time, period);
+      rest_on_run(map);
+      if (done_) {
+        out_.words = fmt::format(
+            "everything comes again after {:.6g} s: {}", period,
+            sequence ? "the operating sequence goes round" : "it swings by itself, no law asks for this period");
+        return true;
+      }
+      period_.time = of_laws;
+      period_.by_time = of_laws > 0;
+    }
+    return false;
   }
 
   void polish() {
-    auto map = std::make_shared<ReturnMap>(
-        shared_,
-        ReturnMapOptions{options_.tolerance, options_.method, options_.cycles, options_.budget, options_.interrupted});
+    const auto map = new_map();
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
     state_ = map->section().state();
@@ -235,15 +307,31 @@ class Search {
   }
 
   void drift() {
+    const std::string where = fmt::format("after {} rounds, at {:.4g} s, ", out_.rounds, state_.t);
     if (settled_rounds_ == 0)
       return end(Regime::Kind::drifting,
-                 fmt::format("after {} rounds, at {:.4g} s, the operating sequence or a law over time still goes on",
-                             out_.rounds, state_.t));
+                 where + (m_.scene.sequence.repeat ? "the operating sequence still goes round without coming again"
+                                                   : "something is still being switched"));
+    if (grows()) return run_away(speeds_.back());
+    if (period_.by_time && angle_changes_most_)
+      return end(
+          Regime::Kind::drifting,
+          where + fmt::format("nothing has come again: what repeats after {:.6g} s and what hangs on the {} have no "
+                              "common period",
+                              period_.time, changes_most_));
     end(Regime::Kind::drifting,
-        fmt::format(
-            "after {} rounds, at {:.4g} s, the motion still changes by {:.2g} of the rated values from round to "
-            "round{}",
-            out_.rounds, state_.t, out_.still_changes, why_not_.empty() ? "" : ": " + why_not_));
+        where +
+            fmt::format("the motion still changes by {:.2g} of the rated values from round to round, most of all the "
+                        "{}{}",
+                        out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
+  }
+  // Faster throughout the second half of all rounds, and by as much in its second half as in its first.
+  bool grows() const {
+    const std::size_t n = speeds_.size();
+    if (n < 40) return false;
+    const double late = speeds_[n - 1] - speeds_[n - 1 - n / 4],
+                 before = speeds_[n - 1 - n / 4] - speeds_[n - 1 - n / 2];
+    return late > 0 && before > 0 && speeds_.back() > 2 && late > 0.5 * before;
   }
 
   std::shared_ptr<const Model> shared_;
@@ -257,7 +345,11 @@ class Search {
   bool done_ = false;
   double patience_factor_ = 1;
   int settled_rounds_ = 0, next_trial_ = 1;
-  std::string why_not_;
+  std::string why_not_, changes_most_;
+  bool angle_changes_most_ = false;
+  std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
+  std::vector<Event> events_;   // the last ones
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace

@@ -62,9 +62,22 @@ double quiet_angle(std::vector<double> angles, double cycle, double without_even
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
+  take_period(periodicity_of(*shared_));
+}
+
+ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options, double own_period)
+    : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
+  Periodicity own;
+  own.by_time = own.angle_matters = true;
+  own.angle = 2 * std::numbers::pi;
+  own.time = own_period / options_.cycles;
+  take_period(own);
+}
+
+void ReturnMap::take_period(const Periodicity& periodicity) {
   if (options_.cycles < 1) throw std::invalid_argument(fmt::format("{} cycles; must be ≥ 1", options_.cycles));
   const Model& m = *shared_;
-  periodicity_ = periodicity_of(m);
+  periodicity_ = periodicity;
   variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty();
   set_pace(m.speed_scale);
 }

@@ -34,6 +34,8 @@ class ReturnMap {
  public:
   // Throws std::invalid_argument where the machine has no section (see periodicity_of).
   ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options);
+  // Of a machine that swings by itself, or by its repeated sequence, with a period [s] that only its motion tells.
+  ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options, double own_period);
 
   const Model& model() const { return *shared_; }
   std::shared_ptr<const Model> shared_model() const { return shared_; }
@@ -85,6 +87,7 @@ class ReturnMap {
 
  private:
   RunOptions run_options(double from, double until) const;
+  void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);
   void differentiate(const Eigen::VectorXd& z, Image& image);
   void read_derivative(const Eigen::MatrixXd& directions, std::span<const double> rate, Image& image) const;

@@ -55,6 +55,11 @@ class LinkSpeed {
   ExtremeRecorder recorder_;
 };
 
+bool has_springs(const Model& m) {
+  return std::any_of(m.elastic.begin(), m.elastic.end(),
+                     [](const ElasticJoint& e) { return !e.slips && !e.springless; });
+}
+
 // One model of the study.
 class Search {
  public:
@@ -91,7 +96,7 @@ class Search {
   }
   void describe_model(std::shared_ptr<const Model> model) {
     out_.model = std::move(model);
-    out_.label = out_.model->elastic.empty() ? "rigid" : "elastic";
+    out_.label = has_springs(*out_.model) ? "elastic" : "rigid";
   }
 
   RegimeOptions regime_options() const {
