@@ -5,9 +5,11 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/analysis/moment.h"
 #include "engine/scene/scene.h"
 #include "studies/run/simulate.h"
 
@@ -71,6 +73,10 @@ SimulateOptions simulate_options(const StudyOptions& options, Progress& progress
 // positive). Throws std::invalid_argument in words.
 double quantity_of(const std::string& option, const std::string& text, const std::string& what,
                    const std::string& example, const Domain& domain);
+
+// --at: after "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
+// std::invalid_argument for anything else.
+Moment moment_of(const std::string& at, std::optional<double>& speed);
 
 // Prints, writes the files unless asked not to, and returns the exit code.
 int present(const StudyOutput& output, const StudyOptions& options);

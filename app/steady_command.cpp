@@ -14,7 +14,7 @@ namespace {
 
 struct SteadyArguments {
   StudyOptions study;
-  std::string effects, mean_speed;
+  std::string effects, mean_speed, at;
   int periods = 1;
   bool no_start = false;
 };
@@ -28,6 +28,7 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   if (arguments.periods < 1 || arguments.periods > 64)
     throw std::invalid_argument(fmt::format("--periods {}: must be 1 … 64", arguments.periods));
   options.periods = arguments.periods;
+  options.at = moment_of(arguments.at, options.mean_speed);
   if (!arguments.mean_speed.empty()) {
     options.mean_speed =
         quantity_of("--mean-speed", arguments.mean_speed, "a speed other than 0", "60 rpm", any_number);
@@ -43,7 +44,7 @@ std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& s
   if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
   Effects full = scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (compile(scene, full)->elastic.empty()) return {scene.effects};
+  if (!compile(scene, full)->has_springs()) return {scene.effects};
   return {Effects{}, full};
 }
 
@@ -62,6 +63,10 @@ void set_up(CLI::App& command, int& code) {
                      "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
   command.add_option("--mean-speed", arguments->mean_speed,
                      "mean speed of the crank, e.g. \"60 rpm\": finds the drive torque that it needs");
+  command.add_option(
+      "--at", arguments->at,
+      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mean "
+      "speed (default: where its own start leads to)");
   command.add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
   command.add_flag("--no-start", arguments->no_start,
                    "skip the start from rest and the gearbox ratio that starts fastest");

@@ -30,6 +30,8 @@ class Newton {
   bool evaluate(const Eigen::VectorXd& x, bool with_derivative) {
     ++out_.rounds;
     if (with_derivative) ++out_.derivatives;
+    last_ = x;
+    last_with_derivative_ = with_derivative;
     Eigen::MatrixXd derivative;
     valid_ = system_.evaluate(x, residual_, with_derivative ? &derivative : nullptr);
     if (!valid_) return false;
@@ -100,10 +102,12 @@ class Newton {
     return std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction) <= system_.derivative_cost + 1;
   }
 
-  // The derivative at the solution itself, for the multipliers.
+  // The derivative at the solution itself, for the multipliers; a trial elsewhere may have come last.
   void finish() {
     if (at_ != x_) {
       x_ += limited(-solver_.solve(residual_));
+      if (!evaluate(x_, true)) return;
+    } else if (!last_with_derivative_ || last_ != x_) {
       if (!evaluate(x_, true)) return;
     }
     out_.found = true;
@@ -112,12 +116,12 @@ class Newton {
   }
 
   const NewtonSystem& system_;
-  Eigen::VectorXd x_, at_, residual_;
+  Eigen::VectorXd x_, at_, residual_, last_;
   Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
   NewtonOutcome out_;
   double enough_, norm_ = 0;
   int run_on_ = 0;
-  bool valid_ = false;
+  bool valid_ = false, last_with_derivative_ = false;
 };
 
 }  // namespace

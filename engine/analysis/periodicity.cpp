@@ -8,15 +8,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/model/cycle_of.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr int most_periods = 1000;   // of the first law within a common period
-constexpr double same_ratio = 1e-9;  // by which a ratio of periods may miss a fraction
-
 struct NamedPeriod {
   double period;
   std::string component;
@@ -24,24 +22,15 @@ struct NamedPeriod {
 
 // The smallest multiple of the first period that is a multiple of all.
 double common_multiple(const std::vector<NamedPeriod>& periods, const std::string& unit) {
-  const double first = periods.front().period;
-  const auto meets = [&](int k, const NamedPeriod& p) {
-    const double ratio = k * first / p.period;
-    return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= same_ratio * ratio;
-  };
-  for (int k = 1; k <= most_periods; ++k)
-    if (std::all_of(periods.begin(), periods.end(), [&](const NamedPeriod& p) { return meets(k, p); }))
-      return k * first;
-  const NamedPeriod* odd = &periods.back();
-  for (const NamedPeriod& p : periods) {
-    bool ever = false;
-    for (int k = 1; k <= most_periods && !ever; ++k) ever = meets(k, p);
-    if (!ever) odd = &p;
-  }
+  std::vector<double> lengths;
+  for (const NamedPeriod& p : periods) lengths.push_back(p.period);
+  const CommonPeriod common = common_period(lengths);
+  if (common.value > 0) return common.value;
+  const NamedPeriod& odd = periods[common.odd];
   throw std::invalid_argument(fmt::format(
       "there is no steady cycle: what repeats after {:.9g} {} (\"{}\") and after {:.9g} {} (\"{}\") never meets within "
-      "{} periods. Make the ratio of the two a fraction, or simulate a long time with kurbel run",
-      first, unit, periods.front().component, odd->period, unit, odd->component, most_periods));
+      "1000 periods. Make the ratio of the two a fraction, or simulate a long time with kurbel run",
+      periods.front().period, unit, periods.front().component, odd.period, unit, odd.component));
 }
 
 }  // namespace
@@ -76,6 +65,8 @@ Periodicity periodicity_of(const Model& m) {
     if (joint.element->is.uses_angle) angles.push_back({two_pi / m.scale_ratio[at(joint.a)], joint.component});
   }
   result.angle_matters = !angles.empty();
+  // Of whole turns of the link where there are such, as everywhere else.
+  if (const CyclePeriod cycle = cycle_of(m); cycle.periodic) angles.push_back({cycle.angle, "the cycle"});
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
   if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];

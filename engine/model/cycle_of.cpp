@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "engine/numerics/index.h"
 
@@ -12,21 +11,36 @@ namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int most_turns = 24;  // of a cycle
+constexpr int most_periods = 1000;   // of the first law within a common period
+constexpr double same_ratio = 1e-9;  // by which a ratio of periods may miss a fraction
+
+bool meets(double multiple, double period) {
+  const double ratio = multiple / period;
+  return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= same_ratio * ratio;
+}
 
 }  // namespace
 
+CommonPeriod common_period(const std::vector<double>& periods) {
+  const double first = periods.front();
+  for (int k = 1; k <= most_periods; ++k)
+    if (std::all_of(periods.begin(), periods.end(), [&](double p) { return meets(k * first, p); }))
+      return {k * first, 0};
+  CommonPeriod none{0, periods.size() - 1};
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    bool ever = false;
+    for (int k = 1; k <= most_periods && !ever; ++k) ever = meets(k * first, periods[i]);
+    if (!ever) none.odd = i;
+  }
+  return none;
+}
+
 // The shortest multiple of a turn after which every element that depends on an angle is back.
 CyclePeriod cycle_of(const Model& m) {
-  std::vector<double> period;  // on the link
+  std::vector<double> period = {turn};
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
-  const auto repeats = [&](double cycle) {
-    return std::all_of(period.begin(), period.end(),
-                       [&](double p) { return std::abs(cycle / p - std::round(cycle / p)) < 1e-9; });
-  };
-  for (int turns = 1; turns <= most_turns; ++turns)
-    if (repeats(turns * turn)) return {turns * turn, true};
+  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true};
   return {m.cycle > 0 ? m.cycle : turn, false};
 }
 

@@ -50,7 +50,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
 
 // Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (theory 5.15).
 void note_sudden_loads(Comparison& c) {
-  if (c.b.model && c.b.model->elastic.empty()) return;  // nothing swings
+  if (c.b.model && !c.b.model->has_springs()) return;  // nothing swings
   std::vector<std::string> sudden;
   const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
   for (const ComparisonRow& row : c.amplification) {

@@ -15,7 +15,7 @@ namespace kurbel {
 namespace {
 
 Role role_of(const Result& r, const Results& all) {
-  const bool elastic = r.model && !r.model->elastic.empty();
+  const bool elastic = r.model && r.model->has_springs();
   if (!elastic) return Role::rigid;
   // Two elastic models: the first steps back.
   return all.size() > 1 && &r == all.front() ? Role::orange : Role::elastic;

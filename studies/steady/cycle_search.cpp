@@ -55,17 +55,12 @@ class LinkSpeed {
   ExtremeRecorder recorder_;
 };
 
-bool has_springs(const Model& m) {
-  return std::any_of(m.elastic.begin(), m.elastic.end(),
-                     [](const ElasticJoint& e) { return !e.slips && !e.springless; });
-}
-
 // One model of the study.
 class Search {
  public:
   Search(const Scene& scene, const Effects& effects, const SteadyStudy& study, const SteadyOptions& options)
-      : scene_(scene), effects_(effects), study_(study), options_(options) {
-    network_ = build_network(scene);
+      : scene_(as_of(scene, effects, options.at)), effects_(effects), study_(study), options_(options) {
+    network_ = network_as_of(scene_, options.at);
   }
 
   SteadyCycle run() {
@@ -96,7 +91,7 @@ class Search {
   }
   void describe_model(std::shared_ptr<const Model> model) {
     out_.model = std::move(model);
-    out_.label = has_springs(*out_.model) ? "elastic" : "rigid";
+    out_.label = out_.model->has_springs() ? "elastic" : "rigid";
   }
 
   RegimeOptions regime_options() const {
@@ -313,7 +308,7 @@ class Search {
     out_.traces = traces.traces();
   }
 
-  const Scene& scene_;
+  Scene scene_;
   Effects effects_;
   const SteadyStudy& study_;
   const SteadyOptions& options_;

@@ -166,7 +166,7 @@ class Study {
   void find_start() {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
-      if (c.found && c.model->elastic.empty()) rigid = &c;
+      if (c.found && !c.model->has_springs()) rigid = &c;
     if (!rigid || !out_.diagram || options_.mean_speed) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;

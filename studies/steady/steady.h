@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/moment.h"
 #include "engine/analysis/regime.h"
 #include "studies/findings/watch.h"
 #include "studies/run/simulate.h"
@@ -18,6 +19,7 @@ struct Traces;
 
 struct SteadyOptions {
   std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
+  Moment at = {};                         // as the machine is then; default: when all is switched
   int periods = 1;                        // cycles after which the motion repeats
   bool traces = false;                    // for plots
   bool start_search = true;               // start from rest and the gearbox ratio that starts fastest

@@ -20,7 +20,7 @@ constexpr double per_minute = 30 / std::numbers::pi, degrees = 180 / std::number
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
-Role role_of(const SteadyCycle& c) { return c.model->elastic.empty() ? Role::rigid : Role::elastic; }
+Role role_of(const SteadyCycle& c) { return !c.model->has_springs() ? Role::rigid : Role::elastic; }
 
 std::string complex_text(std::complex<double> z) {
   if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
