@@ -33,11 +33,15 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   std::vector<std::string> words;
   if (!c.found) return {fmt::format("NOT found: {}", c.why)};
   words.push_back(c.stability);
+  if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
   words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; found in {} rounds ({} with derivative), {:.3g} cycles' worth ({:.0f} "
-      "aimed at), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
-      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees, c.point.rounds, c.point.derivatives, c.cost,
-      c.cost_limit, 1e3 * c.cpu_seconds, c.point.residual, c.work_residual));
+      "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' worth "
+      "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees,
+      c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
+      c.point.rounds, c.point.derivatives, c.cost, c.cost_limit,
+      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; the run-up takes most" : "", 1e3 * c.cpu_seconds,
+      c.point.residual, c.work_residual));
   if (c.point.grazed)
     words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
   for (const MotorUse& m : c.motors)
@@ -169,13 +173,15 @@ List drive_list(const SteadyCycle& c) {
 
 Record cycle_record(const SteadyCycle& c) {
   Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
+  if (!c.regime.empty())
+    r.push_back({"regime", Record{{"kind", name_of(c.kind)}, {"words", c.regime}, {"rounds", c.rounds}}});
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (!c.found) {
     tell("why", c.why);
     return r;
   }
   tell("stability", c.stability);
-  tell("stable", c.point.largest() < 1 && !c.neutral);
+  tell("stable", c.uncertain ? Value() : Value(c.point.largest() < 1 && !c.neutral));
   tell("halving_cycles", c.halving);
   tell("multipliers", multiplier_table(c).list());
   tell("figures", each(c.figures, figure_record));

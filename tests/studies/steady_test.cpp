@@ -204,13 +204,29 @@ TEST(Steady, InterruptedStudyIsMarked) {
   EXPECT_EQ(study.diagnosis, "interrupted");
 }
 
-TEST(Steady, SwitchingIsToldNotFollowed) {
+// The motor goes off at 2 s: what is kept after that is standing still. As it is at 1 s, it turns at 40 (1 − 15/60).
+TEST(Steady, WhatIsSwitchedIsSwitched) {
   const Scene scene = scene_from(with(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n"),
                                       "inertia = \"0.5", "stop = \"2 s\", inertia = \"0.5"));
-  const SteadyStudy study = steady(scene, {Effects{}}, {});
-  EXPECT_TRUE(study.complete);
-  ASSERT_EQ(study.notes.size(), 1u);
-  EXPECT_TRUE(has(study.notes[0], "\"motor\" is taken as always on"));
+  const SteadyStudy after = steady(scene, {Effects{}}, {});
+  EXPECT_FALSE(after.complete);
+  EXPECT_EQ(after.cycles[0].kind, Regime::Kind::at_rest);
+  EXPECT_TRUE(has(after.diagnosis, "comes to rest")) << after.diagnosis;
+  SteadyOptions before;
+  before.at.time = 1;
+  const SteadyStudy running = steady(scene, {Effects{}}, before);
+  ASSERT_TRUE(running.complete) << running.diagnosis;
+  EXPECT_NEAR(value_of(running.cycles[0], "mean_speed.motor"), 30, 1e-8);
+}
+
+// A press drive stands with its clutch out in the end; after its second step, brake off and clutch still out, as well.
+TEST(Steady, StepsOfASequenceAreCountedFromOne) {
+  const Scene scene = scene_file("scenes/dc_hoist.toml");
+  SteadyOptions options;
+  options.start_search = false;
+  EXPECT_FALSE(steady(scene, {Effects{}}, options).complete);
+  options.at.after_step = scene.sequence.steps.size() + 1;
+  EXPECT_THROW(steady(scene, {Effects{}}, options), std::invalid_argument);
 }
 
 // --- operating points ---
