@@ -161,13 +161,15 @@ SimulateOptions simulate_options(const StudyOptions& options, Progress& progress
 double quantity_of(const std::string& option, const std::string& text, const std::string& what,
                    const std::string& example, const Domain& domain) {
   UnitError error;
-  const auto value = parse_quantity(text, error);
+  auto value = parse_quantity(text, error);
   if (!value)
     throw std::invalid_argument(
         fmt::format("{} {}: {}; write e.g. \"{}\"", option, in_quotes(text), error.text, example));
-  if (value->dimension != parse_quantity(example, error)->dimension || !domain.contains(value->value))
-    throw std::invalid_argument(
-        fmt::format("{} {}: must be {} with its unit, e.g. \"{}\"", option, in_quotes(text), what, example));
+  const Dimension wanted = parse_quantity(example, error)->dimension;
+  value = wanted_as(*value, wanted);
+  if (value->dimension != wanted || !domain.contains(value->value))
+    throw std::invalid_argument(fmt::format("{} {}: must be {}{}, e.g. \"{}\"", option, in_quotes(text), what,
+                                            wanted == Dimension{} ? "" : " with its unit", example));
   if (const std::string allowed = size_allowed(value->value, value->dimension, domain); !allowed.empty())
     throw std::invalid_argument(
         fmt::format("{} {}: must be {}; check its unit and power of ten", option, in_quotes(text), allowed));

@@ -13,13 +13,14 @@ namespace {
 struct SizeArguments {
   StudyOptions study;
   SizeOptions options;
-  std::string mean_speed, form = "rim", diameter, rim_speed, sheet;
+  std::string delta, mid_speed, form = "rim", diameter, rim_speed, sheet;
 };
 
 int size_scene(SizeArguments arguments) {
   SizeOptions& o = arguments.options;
-  if (!arguments.mean_speed.empty())
-    o.mean_speed = quantity_of("--mean-speed", arguments.mean_speed, "a speed > 0", "60 rpm", positive);
+  if (!arguments.delta.empty()) o.delta = quantity_of("--delta", arguments.delta, "a plain number", "0.05", any_number);
+  if (!arguments.mid_speed.empty())
+    o.mid_speed = quantity_of("--mid-speed", arguments.mid_speed, "a speed > 0", "60 rpm", positive);
   if (!arguments.diameter.empty())
     o.diameter = quantity_of("--diameter", arguments.diameter, "a length > 0", "1.2 m", positive);
   if (!arguments.rim_speed.empty())
@@ -39,11 +40,11 @@ void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<SizeArguments>();
   SizeOptions& o = arguments->options;
   add_study_options(command, arguments->study);
-  command.add_option("--delta", o.delta, "demanded δ = (ω_max − ω_min)/ω_mean, e.g. 0.05");
+  command.add_option("--delta", arguments->delta, "demanded δ = (ω_max − ω_min)/ω_mid, e.g. 0.05, 5% or 1/20");
   command.add_option("--machine", o.machine,
                      "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");
-  command.add_option("--mean-speed", arguments->mean_speed,
-                     "of the crank (default: where drive and mean load balance)");
+  command.add_option("--mid-speed,--mean-speed", arguments->mid_speed,
+                     "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)");
   command.add_option("--flywheel", o.flywheel,
                      "component to size (default: the scene's flywheel, else one on the crank)");
   command.add_option("--form", arguments->form, "rim (on spokes; default) or disc");

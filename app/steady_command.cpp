@@ -14,7 +14,7 @@ namespace {
 
 struct SteadyArguments {
   StudyOptions study;
-  std::string effects, mean_speed, at;
+  std::string effects, mid_speed, at;
   int periods = 1;
   bool no_start = false;
 };
@@ -29,12 +29,11 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
     throw std::invalid_argument(fmt::format("--periods {}: must be 1 … 64", arguments.periods));
   options.periods = arguments.periods;
   options.at = moment_of(arguments.at, options.mean_speed);
-  if (!arguments.mean_speed.empty()) {
-    options.mean_speed =
-        quantity_of("--mean-speed", arguments.mean_speed, "a speed other than 0", "60 rpm", any_number);
+  if (!arguments.mid_speed.empty()) {
+    options.mean_speed = quantity_of("--mid-speed", arguments.mid_speed, "a speed other than 0", "60 rpm", any_number);
     if (*options.mean_speed == 0)
       throw std::invalid_argument(
-          fmt::format("--mean-speed \"{}\": must be a speed other than 0, e.g. \"60 rpm\"", arguments.mean_speed));
+          fmt::format("--mid-speed \"{}\": must be a speed other than 0, e.g. \"60 rpm\"", arguments.mid_speed));
   }
   return options;
 }
@@ -61,11 +60,11 @@ void set_up(CLI::App& command, int& code) {
   add_study_options(command, arguments->study);
   command.add_option("--effects", arguments->effects,
                      "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
-  command.add_option("--mean-speed", arguments->mean_speed,
-                     "mean speed of the crank, e.g. \"60 rpm\": finds the drive torque that it needs");
+  command.add_option("--mid-speed,--mean-speed", arguments->mid_speed,
+                     "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\": finds the drive torque that it needs");
   command.add_option(
       "--at", arguments->at,
-      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mean "
+      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
       "speed (default: where its own start leads to)");
   command.add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
   command.add_flag("--no-start", arguments->no_start,
@@ -78,7 +77,7 @@ const Verb verb{{.place = 80,
                  .arguments = "scene.toml",
                  .help = "the steady cycle directly: its figures, its stability, operating points",
                  .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet "
-                         "multipliers (is it stable?), operating points, motor use, start time; `--mean-speed \"60 "
+                         "multipliers (is it stable?), operating points, motor use, start time; `--mid-speed \"60 "
                          "rpm\"` finds the drive torque for a speed",
                  .set_up = set_up}};
 

@@ -24,25 +24,42 @@ enum class QuantityKind {
   acceleration,
   force,
   load_torque,
-  // figures
+  // figures of a whole run
   peak_torque,
   peak_spring_torque,
-  peak_drive_torque,
   peak_velocity,
   peak_acceleration,
   peak_force,
   peak_load_torque,
   peak_other,  // of an element's own state or output
+  // of one steady cycle
+  peak_drive_torque,
+  cycle_peak_torque,
+  cycle_peak_spring_torque,
+  cycle_peak_velocity,
+  cycle_peak_acceleration,
+  cycle_peak_force,
+  cycle_peak_load_torque,
+  cycle_peak_other,
+  // of a whole run
   max_speed,
   min_speed,
-  mean_speed,
-  steady_speed,
-  delta,
-  cycle_time,
   rms_torque,
   rms_spring_torque,
+  steady_speed,
+  // of one cycle: the steady one, or a run's last whole one before it runs down
+  cycle_max_speed,
+  cycle_min_speed,
+  mid_speed,
+  mean_speed,
+  delta,              // of motion that repeats
+  cycle_fluctuation,  // the same of motion that does not
+  cycle_time,
+  period,
+  cycle_rms_torque,
   mean_drive_torque,
   rms_drive_torque,
+  // of a whole run
   final_angle,
   final_speed,
   run_up_time,
@@ -62,49 +79,62 @@ enum class QuantityKind {
 
 inline const char* word(QuantityKind quantity) {
   using enum QuantityKind;
-  static constexpr std::pair<QuantityKind, const char*> words[] = {{angle, "angle"},
-                                                                   {speed, "speed"},
-                                                                   {twist, "twist"},
-                                                                   {slip, "slip"},
-                                                                   {torque, "torque"},
-                                                                   {spring_torque, "spring_torque"},
-                                                                   {position, "position"},
-                                                                   {velocity, "velocity"},
-                                                                   {acceleration, "acceleration"},
-                                                                   {force, "force"},
-                                                                   {load_torque, "load_torque"},
-                                                                   {peak_torque, "peak_torque"},
-                                                                   {peak_spring_torque, "peak_spring_torque"},
-                                                                   {peak_drive_torque, "peak_drive_torque"},
-                                                                   {peak_velocity, "peak_velocity"},
-                                                                   {peak_acceleration, "peak_acceleration"},
-                                                                   {peak_force, "peak_force"},
-                                                                   {peak_load_torque, "peak_load_torque"},
-                                                                   {max_speed, "max_speed"},
-                                                                   {min_speed, "min_speed"},
-                                                                   {mean_speed, "mean_speed"},
-                                                                   {steady_speed, "steady_speed"},
-                                                                   {delta, "delta"},
-                                                                   {cycle_time, "cycle_time"},
-                                                                   {rms_torque, "rms_torque"},
-                                                                   {rms_spring_torque, "rms_spring_torque"},
-                                                                   {mean_drive_torque, "mean_drive_torque"},
-                                                                   {rms_drive_torque, "rms_drive_torque"},
-                                                                   {final_angle, "final_angle"},
-                                                                   {final_speed, "final_speed"},
-                                                                   {run_up_time, "run_up_time"},
-                                                                   {run_down_time, "run_down_time"},
-                                                                   {stopping_time, "stopping_time"},
-                                                                   {stopping_angle, "stopping_angle"},
-                                                                   {slip_heat, "slip_heat"},
-                                                                   {impacts, "impacts"},
-                                                                   {amplification, "amplification"},
-                                                                   {work, "work"},
-                                                                   {driving_work_per_cycle, "driving_work_per_cycle"},
-                                                                   {useful_work_per_cycle, "useful_work_per_cycle"},
-                                                                   {harmful_work_per_cycle, "harmful_work_per_cycle"},
-                                                                   {weight_work_per_cycle, "weight_work_per_cycle"},
-                                                                   {work_per_cycle, "work_per_cycle"}};
+  static constexpr std::pair<QuantityKind, const char*> words[] = {
+      {angle, "angle"},
+      {speed, "speed"},
+      {twist, "twist"},
+      {slip, "slip"},
+      {torque, "torque"},
+      {spring_torque, "spring_torque"},
+      {position, "position"},
+      {velocity, "velocity"},
+      {acceleration, "acceleration"},
+      {force, "force"},
+      {load_torque, "load_torque"},
+      {peak_torque, "peak_torque"},
+      {peak_spring_torque, "peak_spring_torque"},
+      {peak_drive_torque, "peak_drive_torque"},
+      {peak_velocity, "peak_velocity"},
+      {peak_acceleration, "peak_acceleration"},
+      {peak_force, "peak_force"},
+      {peak_load_torque, "peak_load_torque"},
+      {cycle_peak_torque, "cycle_peak_torque"},
+      {cycle_peak_spring_torque, "cycle_peak_spring_torque"},
+      {cycle_peak_velocity, "cycle_peak_velocity"},
+      {cycle_peak_acceleration, "cycle_peak_acceleration"},
+      {cycle_peak_force, "cycle_peak_force"},
+      {cycle_peak_load_torque, "cycle_peak_load_torque"},
+      {max_speed, "max_speed"},
+      {min_speed, "min_speed"},
+      {rms_torque, "rms_torque"},
+      {rms_spring_torque, "rms_spring_torque"},
+      {steady_speed, "steady_speed"},
+      {cycle_max_speed, "cycle_max_speed"},
+      {cycle_min_speed, "cycle_min_speed"},
+      {mid_speed, "mid_speed"},
+      {mean_speed, "mean_speed"},
+      {delta, "delta"},
+      {cycle_fluctuation, "cycle_fluctuation"},
+      {cycle_time, "cycle_time"},
+      {period, "period"},
+      {cycle_rms_torque, "cycle_rms_torque"},
+      {mean_drive_torque, "mean_drive_torque"},
+      {rms_drive_torque, "rms_drive_torque"},
+      {final_angle, "final_angle"},
+      {final_speed, "final_speed"},
+      {run_up_time, "run_up_time"},
+      {run_down_time, "run_down_time"},
+      {stopping_time, "stopping_time"},
+      {stopping_angle, "stopping_angle"},
+      {slip_heat, "slip_heat"},
+      {impacts, "impacts"},
+      {amplification, "amplification"},
+      {work, "work"},
+      {driving_work_per_cycle, "driving_work_per_cycle"},
+      {useful_work_per_cycle, "useful_work_per_cycle"},
+      {harmful_work_per_cycle, "harmful_work_per_cycle"},
+      {weight_work_per_cycle, "weight_work_per_cycle"},
+      {work_per_cycle, "work_per_cycle"}};
   for (const auto& [known, text] : words)
     if (known == quantity) return text;
   return "";  // of an element's own
@@ -112,7 +142,7 @@ inline const char* word(QuantityKind quantity) {
 
 // A largest magnitude: of two equal ones of opposite sign either may be taken.
 inline bool is_peak(QuantityKind quantity) {
-  return quantity >= QuantityKind::peak_torque && quantity <= QuantityKind::peak_other;
+  return quantity >= QuantityKind::peak_torque && quantity <= QuantityKind::cycle_peak_other;
 }
 
 // A quantity and whose it is.
@@ -150,6 +180,34 @@ struct Name {
         return make(peak_load_torque, of);
       default:
         return {peak_other, of, "peak_" + text};
+    }
+  }
+  // Of a figure of a whole run, the like figure of one steady cycle; others are what they were.
+  Name of_cycle() const {
+    using enum QuantityKind;
+    switch (what) {
+      case peak_torque:
+        return make(cycle_peak_torque, of);
+      case peak_spring_torque:
+        return make(cycle_peak_spring_torque, of);
+      case peak_velocity:
+        return make(cycle_peak_velocity, of);
+      case peak_acceleration:
+        return make(cycle_peak_acceleration, of);
+      case peak_force:
+        return make(cycle_peak_force, of);
+      case peak_load_torque:
+        return make(cycle_peak_load_torque, of);
+      case peak_other:
+        return {cycle_peak_other, of, "cycle_" + text};
+      case max_speed:
+        return make(cycle_max_speed, of);
+      case min_speed:
+        return make(cycle_min_speed, of);
+      case rms_torque:
+        return make(cycle_rms_torque, of);
+      default:
+        return *this;
     }
   }
 };

@@ -96,9 +96,10 @@ class CurveReader {
     if (value.type != Type::text)
       return refuse(value.at,
                     fmt::format("unit = {}; must be a unit in quotes, e.g. \"{}\"", value.describe(), wanted));
-    const auto unit = parse_unit(value.text, error);
+    auto unit = parse_unit(value.text, error);
     if (!unit)
       return refuse(place_within(value, error.column), fmt::format("unit = {}: {}", value.describe(), error.text));
+    unit = wanted_as(*unit, target->dimension);
     if (unit->dimension != target->dimension)
       return refuse(value.at, fmt::format("unit = {} is the unit of {}; must be one of {}", value.describe(),
                                           name_of(unit->dimension), name_of(target->dimension)));

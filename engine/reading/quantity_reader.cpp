@@ -61,12 +61,13 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
   } else if (value.type == Type::text) {
     UnitError error;
     const auto wanted = parse_unit(unit, error);
-    const auto quantity = parse_quantity(value.text, error);
+    auto quantity = parse_quantity(value.text, error);
     if (!quantity) {
       const bool suggests = error.text.ends_with('?');
       return refuse(place_within(value, error.column),
                     fmt::format("{}: {}{}", value.describe(), error.text, suggests ? "" : "; " + write_instead(unit)));
     }
+    quantity = wanted_as(*quantity, wanted->dimension);
     if (quantity->dimension != wanted->dimension)
       return refuse(value.at, wrong_dimension(value, *quantity, *wanted, unit));
     result = quantity->value;

@@ -89,9 +89,11 @@ struct CycleRecord {
   double begin = 0, end = 0;            // [s]
   double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
   std::vector<double> work;             // per account [J]
-  double mean_speed() const { return 0.5 * (omega_max + omega_min); }
-  // δ (theory 2.6), whichever way it turns
-  double delta() const { return (omega_max - omega_min) / std::abs(mean_speed()); }
+  double mid_speed() const { return 0.5 * (omega_max + omega_min); }
+  // δ (theory 2.6) where the motion repeats, whichever way it turns
+  double fluctuation() const { return (omega_max - omega_min) / std::abs(mid_speed()); }
+  // `angle` of a cycle over its time (theory 2.7)
+  double mean_speed(double angle) const { return std::copysign(angle / (end - begin), mid_speed()); }
   void remember(Tape& tape) { tape(begin, end, omega_max, omega_min, work); }
 };
 

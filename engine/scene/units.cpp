@@ -84,6 +84,7 @@ class UnitParser {
       if (!factor) return std::nullopt;
       product.factor *= sign > 0 ? factor->factor : 1 / factor->factor;
       for (std::size_t i = 0; i < 5; ++i) product.dimension.exponent[i] += sign * factor->dimension.exponent[i];
+      product.counted = product.counted || factor->counted;
       const bool blank = skip_blanks();
       if (at_ >= text_.size()) return product;
       if (take("/")) {
@@ -135,6 +136,7 @@ class UnitParser {
     }
     const std::optional<int> power = read_exponent();
     if (!power) return fail("an exponent must be a whole number from -9 to 9");
+    unit->counted = symbol == "min" || symbol.ends_with("Hz");
     unit->factor = std::pow(unit->factor, *power);
     for (int& e : unit->dimension.exponent) e *= *power;
     return unit;
@@ -170,6 +172,40 @@ class UnitParser {
   UnitError& error_;
   std::size_t at_ = 0;
 };
+
+constexpr Dimension speed_dimension{{0, 0, -1, 1, 0}}, frequency_dimension{{0, 0, -1, 0, 0}};
+
+// The number that the text begins with, an error if there is none.
+std::optional<double> take_number(std::string_view text, std::size_t& at, UnitError& error) {
+  double number = 0;
+  const auto [end, status] = std::from_chars(text.data() + at, text.data() + text.size(), number);
+  if (status != std::errc{}) {
+    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)"
+                                                      : "a number must come first",
+             at};
+    return std::nullopt;
+  }
+  if (!std::isfinite(number)) {
+    error = {"the number must be finite", at};
+    return std::nullopt;
+  }
+  at = static_cast<std::size_t>(end - text.data());
+  return number;
+}
+
+// Behind "1" in "1/80": its divisor; 1 where no digit follows the stroke, which is the unit's then.
+std::optional<double> take_divisor(std::string_view text, std::size_t& at, UnitError& error) {
+  if (at + 1 >= text.size() || text[at] != '/' || text[at + 1] < '0' || text[at + 1] > '9') return 1;
+  std::size_t digits = at + 1;
+  const std::optional<double> divisor = take_number(text, digits, error);
+  if (!divisor) return std::nullopt;
+  if (*divisor == 0) {
+    error = {"nothing can be divided by 0", at + 1};
+    return std::nullopt;
+  }
+  at = digits;
+  return divisor;
+}
 
 struct NamedDimension {
   std::string_view unit, name;
@@ -234,30 +270,35 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
     return std::nullopt;
   }
   if (text.substr(begin).starts_with('+') && !text.substr(begin).starts_with("+-")) ++digits;  // unknown to from_chars
-  double number = 0;
-  const auto [end, status] = std::from_chars(text.data() + digits, text.data() + text.size(), number);
-  if (status != std::errc{}) {
-    error = {status == std::errc::result_out_of_range ? "the number is out of range (1e-308 … 1e308)"
-                                                      : "a number must come first",
-             begin};
+  std::size_t at = digits;
+  const std::optional<double> number = take_number(text, at, error);
+  if (!number) {
+    error.column = begin;
     return std::nullopt;
   }
-  if (!std::isfinite(number)) {
-    error = {"the number must be finite", begin};
-    return std::nullopt;
-  }
-  const auto after = static_cast<std::size_t>(end - text.data());
-  const std::optional<Unit> unit = parse_unit(text.substr(after), error);
+  const std::optional<double> divisor = take_divisor(text, at, error);
+  if (!divisor) return std::nullopt;
+  const std::optional<Unit> unit = parse_unit(text.substr(at), error);
   if (!unit) {
-    error.column += after;
+    error.column += at;
     return std::nullopt;
   }
-  const double value = number * unit->factor;
+  const double value = *number / *divisor * unit->factor;
   if (!std::isfinite(value)) {
     error = {"the number is out of range (1e-308 … 1e308)", begin};
     return std::nullopt;
   }
-  return Quantity{value, unit->dimension};
+  return Quantity{value, unit->dimension, unit->counted};
+}
+
+Unit wanted_as(Unit unit, const Dimension& wanted) {
+  if (!unit.counted || wanted != speed_dimension || unit.dimension != frequency_dimension) return unit;
+  return {2 * pi * unit.factor, wanted};
+}
+
+Quantity wanted_as(Quantity quantity, const Dimension& wanted) {
+  const Unit unit = wanted_as(Unit{1, quantity.dimension, quantity.counted}, wanted);
+  return {unit.factor * quantity.value, unit.dimension};
 }
 
 std::string examples_of(std::string_view si_unit) {

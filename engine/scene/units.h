@@ -1,6 +1,8 @@
 // units.h — quantities as engineers write them ("1500 rpm", "4 kN*m/rad") and their values in SI.
 //
-// The angle is a dimension of its own: "4 kN*m" is a torque and no torsional stiffness, "5 Hz" is no angular velocity.
+// The angle is a dimension of its own: "4 kN*m" is a torque and no torsional stiffness, "5 1/s" is no angular velocity.
+// One habit is heeded: where a speed is asked for, what is counted per minute or in Hz are turns. "60 1/min" is 60 rpm,
+// "1 Hz" is 1 rev/s; "1/s" may mean turns or radians, and stays refused.
 #pragma once
 
 #include <array>
@@ -20,11 +22,13 @@ struct Dimension {
 struct Unit {
   double factor = 1;  // value in SI = factor · value in this unit
   Dimension dimension;
+  bool counted = false;  // written with min or Hz: where it is a frequency, people count turns by it
 };
 
 struct Quantity {
   double value = 0;  // SI
   Dimension dimension;
+  bool counted = false;
 };
 
 // What was wrong in a quantity's text, and at which column of it (0-based).
@@ -37,8 +41,14 @@ struct UnitError {
 // next factor alone; exponents as ^2, 2, ², ^-1.
 std::optional<Unit> parse_unit(std::string_view text, UnitError& error);
 
-// "1500 rpm" → 157.08 rad/s. The number comes first; a missing unit is a dimensionless quantity.
+// "1500 rpm" → 157.08 rad/s. The number comes first, or a fraction as "1/80"; a missing unit is a dimensionless
+// quantity.
 std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error);
+
+// Where a speed is wanted: a frequency that is counted in Hz or per minute becomes one of whole turns. All else is as it
+// was.
+Quantity wanted_as(Quantity quantity, const Dimension& wanted);
+Unit wanted_as(Unit unit, const Dimension& wanted);
 
 // A unit in which values of this dimension are commonly written, for messages: "rad/s" → "rpm, rad/s, deg/s".
 std::string examples_of(std::string_view si_unit);

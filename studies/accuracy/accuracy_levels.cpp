@@ -21,7 +21,9 @@ std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& eff
   const Result r = simulate(work.scene, effects, "", work.simulate_options("auto", 1e-6));
   if (!r.complete) return found;
   for (const Figure& f : r.figures)
-    if (f.what == QuantityKind::peak_torque || f.what == QuantityKind::delta) found[f.name] = f.value;
+    if (f.what == QuantityKind::peak_torque || f.what == QuantityKind::delta ||
+        f.what == QuantityKind::cycle_fluctuation)
+      found[f.name] = f.value;
   return found;
 }
 

@@ -19,7 +19,8 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
   for (const Figure& f : full.figures)
     if (sound(f) && f.what == QuantityKind::peak_torque) peaks.push_back(&f);
   using enum QuantityKind;
-  for (const QuantityKind what : {delta, run_up_time, final_angle, final_speed, max_speed, peak_force})
+  for (const QuantityKind what :
+       {delta, cycle_fluctuation, run_up_time, final_angle, final_speed, max_speed, peak_force})
     for (const Figure& f : full.figures)
       if (sound(f) && f.what == what && ((what != final_angle && what != final_speed) || f.of == link_of(model)))
         others.push_back(&f);

@@ -252,7 +252,7 @@ MachineCycle machine_cycle(RigidMachine& machine, double speed) {
 OperatingSpeed operating_speed(RigidMachine& machine) {
   if (!machine.uses_speed())
     throw std::invalid_argument(
-        "no torque of the machine depends on its speed: every speed is as steady as any other, and the mean speed must "
+        "no torque of the machine depends on its speed: every speed is as steady as any other, and the mid speed must "
         "be given; write e.g. --mean-speed \"60 rpm\"");
   const std::vector<Balance> scan = scan_of_speeds(machine);
   OperatingSpeed found = where_balance_falls(machine, scan);

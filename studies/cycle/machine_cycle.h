@@ -39,7 +39,7 @@ struct OperatingSpeed {
   double drive_slope = 0;      // of mean M_d alone
   std::vector<double> others;  // further stable ones [rad/s]
 };
-// The fastest stable one. Throws std::invalid_argument in words: no torque depends on the speed (then any mean speed is
+// The fastest stable one. Throws std::invalid_argument in words: no torque depends on the speed (then any speed is
 // a steady one); nothing limits the speed; as WeakDrive, the drive is too weak, and by how much.
 OperatingSpeed operating_speed(RigidMachine& machine);
 
@@ -53,8 +53,8 @@ struct SteadyRigidCycle {
   Extreme fastest, slowest;
   double multiplier = 0;  // of a disturbance of T over a cycle (Floquet); below 1: stable
   double time = 0;        // of a cycle [s]
-  double mean_speed() const { return 0.5 * (fastest.value + slowest.value); }
-  double delta() const { return (fastest.value - slowest.value) / mean_speed(); }
+  double mid_speed() const { return 0.5 * (fastest.value + slowest.value); }
+  double delta() const { return (fastest.value - slowest.value) / mid_speed(); }
 };
 // `more_inertia` is added to the constant inertia [kg·m²]; may be negative while the whole stays positive. `cycle`
 // gives the breaks, `near` a speed to begin with. A machine that stalls or has no steady cycle is no error: `why` says

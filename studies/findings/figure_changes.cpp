@@ -9,9 +9,10 @@ namespace kurbel {
 
 bool is_telling(const Figure& figure) {
   using enum QuantityKind;
-  static const std::set<QuantityKind> telling = {peak_torque,   max_speed,     min_speed,      delta,       run_up_time,
-                                                 run_down_time, steady_speed,  mean_speed,     rms_torque,  work,
-                                                 slip_heat,     stopping_time, stopping_angle, final_speed, cycle_time};
+  static const std::set<QuantityKind> telling = {
+      peak_torque,   max_speed,     min_speed,      delta,       cycle_fluctuation, run_up_time,
+      run_down_time, steady_speed,  mid_speed,      mean_speed,  rms_torque,        work,
+      slip_heat,     stopping_time, stopping_angle, final_speed, cycle_time};
   return figure.scale > 0 && telling.count(figure.what) > 0;
 }
 

@@ -48,7 +48,7 @@ struct Periods {
   std::optional<double> standstill;                         // came to rest
   double run_up_resolution = 0, standstill_resolution = 0;  // how far errors as small as the tolerance move them [s]
   double steady_speed = 0;                                  // of steady motion only [rad/s]
-  bool steady = false;                                      // what remains to the mean speed's limit is below 0.1 %
+  bool steady = false;                                      // what remains to the mid speed's limit is below 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; nothing: none is in sight
   std::string verdict;                                      // why steady, or why not, in words
 };

@@ -97,12 +97,14 @@ void conclude(Comparison& c) {
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
                                with_error(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
   }
-  const char* of_cycle = c.a.periods.steady && c.b.periods.steady ? "" : " of the last cycle, which is not steady,";
-  for (const ComparisonRow& row : c.rows)
-    if (row.what == QuantityKind::delta && row.ratio)
-      c.conclusion += (c.conclusion.empty() ? "" : "; ") +
-                      (*row.ratio > 2 ? fmt::format("δ{} is {:.3g} × as great", of_cycle, *row.ratio)
-                                      : fmt::format("δ{} changes by {:+.2g} %", of_cycle, 100 * (*row.ratio - 1)));
+  for (const ComparisonRow& row : c.rows) {
+    const bool repeats = row.what == QuantityKind::delta;
+    if (!row.ratio || !(repeats || row.what == QuantityKind::cycle_fluctuation)) continue;
+    const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
+    c.conclusion += (c.conclusion.empty() ? "" : "; ") +
+                    (*row.ratio > 2 ? fmt::format("{} is {:.3g} × as great", what, *row.ratio)
+                                    : fmt::format("{} changes by {:+.2g} %", what, 100 * (*row.ratio - 1)));
+  }
   if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";
   c.conclusion += fmt::format("; the {} model costs {:.3g} × the time.", c.b.label,
                               c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));

@@ -144,8 +144,10 @@ class Figures {
     for (const CycleRecord& c : run_.cycles.cycles())
       if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
     if (!last) return;
-    add(QuantityKind::delta, link(), last->delta(), "", 1, last->end);
-    add(QuantityKind::mean_speed, link(), last->mean_speed(), "rad/s", model_.speed_scale, last->end);
+    add(run_.periods.steady ? QuantityKind::delta : QuantityKind::cycle_fluctuation, link(), last->fluctuation(), "", 1,
+        last->end);
+    add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
+    add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
     for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
       double sum = 0;
@@ -272,6 +274,8 @@ std::vector<Figure> figure_list(const Model& model) {
   for (const std::string& component : components_with_impacts(model)) add(QuantityKind::impacts, component, "");
   if (model.cycle > 0) {
     add(QuantityKind::delta, link, "");
+    add(QuantityKind::cycle_fluctuation, link, "");
+    add(QuantityKind::mid_speed, link, "rad/s");
     add(QuantityKind::mean_speed, link, "rad/s");
     add(QuantityKind::cycle_time, link, "s");
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
@@ -281,6 +285,13 @@ std::vector<Figure> figure_list(const Model& model) {
   add(QuantityKind::steady_speed, link, "rad/s");
   add(QuantityKind::run_down_time, "", "s");
   for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(QuantityKind::work, kind, "J");
+  for (const ElasticJoint& e : model.elastic)
+    if (e.slips) add(QuantityKind::slip_heat, model.network.joints[at(e.joint)].component, "J");
+  // Of a signal that makes the link stop.
+  if (!model.scene.sequence.steps.empty()) {
+    add(QuantityKind::stopping_time, link, "s");
+    add(QuantityKind::stopping_angle, link, "rad");
+  }
   return list;
 }
 

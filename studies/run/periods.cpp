@@ -11,7 +11,7 @@ namespace {
 
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr std::size_t parts_without_cycle = 16;
-// Changes of the mean speed from cycle to cycle that a local tolerance leaves; never more than this of it.
+// Changes of the mid speed from cycle to cycle that a local tolerance leaves; never more than this of it.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
 // Changes D₁, D₂ over the two halves of the last 2 · `length` changes.
@@ -70,17 +70,18 @@ DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycle
   for (const CycleRecord& c : cycles) {
     if (c.end > d.end) break;
     middle.push_back(0.5 * (c.begin + c.end));
-    d.means.push_back(c.mean_speed());
+    d.means.push_back(c.mid_speed());
     d.last = &c;
   }
   d.means = at_equal_times(middle, d.means);
   if (model.cycle == 0) d.means = means_of_parts(speed, d.end);
-  d.speed = d.last ? d.last->mean_speed() : speed.driven().empty() ? 0 : speed.driven().last();
+  d.speed = d.last ? d.last->mid_speed() : speed.driven().empty() ? 0 : speed.driven().last();
   return d;
 }
 
 void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance, Periods& periods) {
   const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
+  const char* speed = model.cycle > 0 ? "mid" : "mean";
   if (d.means.size() < 3) {
     periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 that tell", d.means.size(),
                                                     d.means.size() == 1 ? "" : "s")
@@ -98,10 +99,11 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
   const double change = 100 * approach.last_change / scale;
   if (!approach.remaining)
-    periods.verdict = fmt::format("the mean speed changes by {:+.2g} % a {}, and that does not shrink", change, unit);
+    periods.verdict =
+        fmt::format("the {} speed changes by {:+.2g} % a {}, and that does not shrink", speed, change, unit);
   else
-    periods.verdict = fmt::format("the mean speed is {}within {:.3g} % of its limit", periods.steady ? "" : "only ",
-                                  100 * *approach.remaining / scale);
+    periods.verdict = fmt::format("the {} speed is {}within {:.3g} % of its limit", speed,
+                                  periods.steady ? "" : "only ", 100 * *approach.remaining / scale);
 }
 
 void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,

@@ -4,18 +4,18 @@
 //
 // driven time   from the start to the time at which the last driving source goes off for good; all of the run where
 //               none does.
-// cycle means   ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, taken over to equal
+// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, taken over to equal
 // times.
 //               Of machines without a cycle: mean speeds of sixteen equal parts of the driven time.
-// steady        what the means still have to go to their limit is at most 0.1 % of the last one. The limit comes from
+// steady        what the mid speeds still have to go to their limit is at most 0.1 % of the last one. The limit comes from
 //               how the changes shrink (approach_of): geometrically, δ_k+1 = q δ_k, they still sum up to q/(1 − q) of
 //               the last one. Changes that do not shrink have no limit, however small they are: a runaway, a drift.
-// steady speed  the last cycle mean; without a cycle the speed at the end of the driven time. Of steady motion only.
+// steady speed  the last mid speed; without a cycle the speed at the end of the driven time. Of steady motion only.
 // run-up        ends where ω enters for good, up to the end of the driven time, the range of the last cycle widened by
 //               1 % of the steady speed (without a cycle: steady speed ± 1 %). Of steady motion only; a machine that
 //               begins within that range has no run-up.
-// standstill    the link comes to rest and is held to the end; else |ω| stays for good below 0.1 % of the last cycle
-//               mean, or of the speed at the end of the driven time.
+// standstill    the link comes to rest and is held to the end; else |ω| stays for good below 0.1 % of the last mid
+//               speed, or of the speed at the end of the driven time.
 #pragma once
 
 #include <span>

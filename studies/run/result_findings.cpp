@@ -213,7 +213,7 @@ Record result_record(const Result& r) {
                                           {"end", c.end},
                                           {"max_speed", c.omega_max},
                                           {"min_speed", c.omega_min},
-                                          {"delta", c.delta()}};
+                                          {"fluctuation", c.fluctuation()}};
                           })},
           {"energy_balance", energy_record(r.energy)},
           {"accuracy", Record{{"asked", r.accuracy},
@@ -257,15 +257,19 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
   for (const Result* r : results) {
     if (r->cycles.empty()) continue;
     const Figure* delta = first_of(*r, QuantityKind::delta);
+    if (!delta) delta = first_of(*r, QuantityKind::cycle_fluctuation);
     const CycleRecord* cycle = nullptr;
     for (const CycleRecord& c : r->cycles)
       if (delta && delta->at && c.end == *delta->at) cycle = &c;
     if (!cycle) continue;
+    const bool repeats = delta->what == QuantityKind::delta;
+    const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
     f.show(in, Formula{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
-                       .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
-                       .numbers = fmt::format("δ = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", cycle->omega_max,
-                                              cycle->omega_min, cycle->mean_speed(), sure(*delta)),
-                       .note = fmt::format("Cycle from {:.5g} to {:.5g} s.", cycle->begin, cycle->end)});
+                       .symbols = symbol + " = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
+                       .numbers = fmt::format("{} = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", symbol,
+                                              cycle->omega_max, cycle->omega_min, cycle->mid_speed(), sure(*delta)),
+                       .note = fmt::format("Cycle from {:.5g} to {:.5g} s{}.", cycle->begin, cycle->end,
+                                           repeats ? "" : "; the motion does not repeat, so this is no δ")});
   }
 }
 

@@ -37,7 +37,7 @@ Rows figures_table(const Result& r, bool on_terminal) {
 void add_key_figures(Findings& f, const Result& r) {
   if (const Figure* peak = largest_peak(r)) f.figures.push_back(key_of(*peak, at_time(*peak)));
   using enum QuantityKind;
-  for (const QuantityKind what : {delta, mean_speed, peak_force, run_up_time})
+  for (const QuantityKind what : {delta, cycle_fluctuation, mid_speed, peak_force, run_up_time})
     if (const Figure* figure = first_of(r, what)) f.figures.push_back(key_of(*figure, ""));
   f.figures.push_back({"coordinates",
                        static_cast<double>(r.coordinates),
@@ -110,7 +110,8 @@ void add_key_figures(Findings& f, const Comparison& c) {
   for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
     if (f.figures.size() < 3) add(c.b.find("peak_torque." + joint));
   add(first_of(c.b, QuantityKind::delta));
-  add(first_of(c.b, QuantityKind::mean_speed));
+  add(first_of(c.b, QuantityKind::cycle_fluctuation));
+  add(first_of(c.b, QuantityKind::mid_speed));
   f.figures.push_back({"processor time of a run",
                        1e3 * c.b.statistics.cpu_seconds,
                        "ms",

@@ -22,9 +22,7 @@ std::string time_text(const Result& r, double t) {
 
 // What the figures of a cycle belong to, where there are any.
 std::string of_last_cycle(const Result& r) {
-  const bool any =
-      std::any_of(r.figures.begin(), r.figures.end(), [](const Figure& f) { return f.what == QuantityKind::delta; });
-  return any && !r.periods.steady ? " (figures of a cycle are those of the last whole one)" : "";
+  return first_of(r, QuantityKind::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }
 
 }  // namespace
@@ -55,6 +53,7 @@ std::string in_words(const Figure& f) {
   std::string words = f.of.empty() ? f.name : f.name.substr(0, f.name.size() - f.of.size() - 1);
   std::replace(words.begin(), words.end(), '_', ' ');
   if (f.what == QuantityKind::delta) words = "speed fluctuation δ";
+  if (f.what == QuantityKind::cycle_fluctuation) words = "fluctuation in the last cycle";
   return f.of.empty() ? words : words + ", " + f.of;
 }
 
@@ -102,8 +101,11 @@ std::string conclusion_of(const Result& r) {
   if (const Figure* peak = largest_peak(r))
     text += fmt::format("The torque in {} reaches {}{}", peak->of, sure(*peak), peak->at ? " " + at_time(*peak) : "");
   if (const Figure* delta = first_of(r, QuantityKind::delta))
-    text += fmt::format("{} speed of {} fluctuates by δ = {}{}", text.size() == begin ? "The" : "; the", delta->of,
-                        sure(*delta), r.periods.steady ? "" : " in the last cycle, which is not steady");
+    text += fmt::format("{} speed of {} fluctuates by δ = {}", text.size() == begin ? "The" : "; the", delta->of,
+                        sure(*delta));
+  if (const Figure* cycle = first_of(r, QuantityKind::cycle_fluctuation))
+    text += fmt::format("{} speed of {} changes by {} of its middle in the last cycle, which is not steady",
+                        text.size() == begin ? "The" : "; the", cycle->of, sure(*cycle));
   if (text.size() == begin)
     if (const Figure* speed = first_of(r, QuantityKind::final_speed))
       text += fmt::format("{} ends at {}", speed->of, sure(*speed));

@@ -17,7 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const number_with_unit = R"(^\s*[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?\s*\S.*$)";
-const char* const number_or_percent = R"(^\s*[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?\s*%?\s*$)";
+const char* const number_or_percent =
+    R"(^\s*[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?(/[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?)?\s*%?\s*$)";
 
 Json reference(const std::string& definition) { return {{"$ref", "#/$defs/" + definition}}; }
 Json text() { return {{"type", "string"}}; }

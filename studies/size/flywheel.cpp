@@ -13,9 +13,9 @@
 namespace kurbel {
 namespace {
 
-void check_speed(double mean_speed) {
-  if (!(mean_speed > 0) || !std::isfinite(mean_speed))
-    throw std::invalid_argument(fmt::format("mean speed = {:.6g} rad/s; must be > 0", mean_speed));
+void check_speed(double mid_speed) {
+  if (!(mid_speed > 0) || !std::isfinite(mid_speed))
+    throw std::invalid_argument(fmt::format("mid speed = {:.6g} rad/s; must be > 0", mid_speed));
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ void check_speed(double mean_speed) {
 void check_delta(double delta) {
   if (!(delta > 0 && delta < 2))
     throw std::invalid_argument(
-        fmt::format("delta = {:.6g}; must be > 0 and < 2: δ = (ω_max − ω_min)/ω_mean, and at 2 the machine stops in "
+        fmt::format("delta = {:.6g}; must be > 0 and < 2: δ = (ω_max − ω_min)/ω_mid, and at 2 the machine stops in "
                     "every cycle; write e.g. 0.05",
                     delta));
 }
@@ -75,11 +75,10 @@ double fluctuation_of_areas(const std::vector<double>& areas, double scale) {
   return (most - least) * scale;
 }
 
-Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mean_speed,
-                        double delta) {
+Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta) {
   check_delta(delta);
-  check_speed(mean_speed);
-  const double fastest = mean_speed * (1 + delta / 2), slowest = mean_speed * (1 - delta / 2);
+  check_speed(mid_speed);
+  const double fastest = mid_speed * (1 + delta / 2), slowest = mid_speed * (1 - delta / 2);
   const double a = fastest * fastest / 2, b = slowest * slowest / 2;
   // A tangent touches where ΔT − slope · I_em is extreme.
   const auto tangent = [&](double slope, bool upper) {
@@ -94,35 +93,35 @@ Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mech
   return w;
 }
 
-Mertsalov mertsalov(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mean_speed, double delta) {
+Mertsalov mertsalov(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta) {
   check_delta(delta);
-  check_speed(mean_speed);
-  const double mean = mean_speed * mean_speed / 2;
+  check_speed(mid_speed);
+  const double mean = mid_speed * mid_speed / 2;
   const Piecewise height = diagram.excess - mean * mechanism.value;
   const Piecewise rate = diagram.net_torque - mean * mechanism.slope;
   Mertsalov m{height.maximum(rate), height.minimum(rate)};
-  m.inertia = (m.most.value - m.least.value) / (mean_speed * mean_speed * delta);
+  m.inertia = (m.most.value - m.least.value) / (mid_speed * mid_speed * delta);
   return m;
 }
 
-double inertia_by_fluctuation(double fluctuation, double mean_speed, double delta) {
+double inertia_by_fluctuation(double fluctuation, double mid_speed, double delta) {
   check_delta(delta);
-  check_speed(mean_speed);
-  return fluctuation / (mean_speed * mean_speed * delta);
+  check_speed(mid_speed);
+  return fluctuation / (mid_speed * mid_speed * delta);
 }
 
 double flywheel_by_parts(double drive, double motor, double gearbox) { return drive - 1.1 * motor - gearbox; }
 
 // --- speed ---
 
-SpeedCycle::SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mechanism, double inertia, double mean_speed)
+SpeedCycle::SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mechanism, double inertia, double mid_speed)
     : diagram_(&diagram), mechanism_(&mechanism), inertia_(inertia) {
-  check_speed(mean_speed);
+  check_speed(mid_speed);
   const double least_inertia = inertia + mechanism.value.minimum(mechanism.slope).value;
   if (!(least_inertia > 0))
     throw std::invalid_argument(
         fmt::format("inertia = {:.6g} kg·m²: with it the machine has no inertia somewhere in the cycle", inertia));
-  // ω_mean grows steadily with T₀: Newton's method with a numeric slope, from the energy at ω_mean.
+  // ω_mid grows steadily with T₀: Newton's method with a numeric slope, from the energy at ω_mid.
   const auto mean_at = [&](double energy) {
     const Extremes z = extremes_at(energy);
     return z.least.value > 0 ? 0.5 * (std::sqrt(2 * z.most.value) + std::sqrt(2 * z.least.value)) : 0.0;
@@ -130,17 +129,17 @@ SpeedCycle::SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mecha
   // With the slowest point at rest: the smallest T₀ that carries the machine round.
   const double floor = -diagram.excess.minimum(diagram.net_torque).value;
   const double needed = mean_at(std::max(floor, 0.0) * (1 + 1e-14) + 1e-300);
-  if (needed >= mean_speed)
+  if (needed >= mid_speed)
     throw std::invalid_argument(fmt::format(
-        "inertia = {:.6g} kg·m² is too small: at a mean speed of {:.6g} rad/s the machine would stop within the cycle",
-        inertia, mean_speed));
+        "inertia = {:.6g} kg·m² is too small: at a mid speed of {:.6g} rad/s the machine would stop within the cycle",
+        inertia, mid_speed));
   double low = std::max(floor, 0.0),
-         high = mean_speed * mean_speed * (inertia + mechanism.value.largest()) + 2 * diagram.fluctuation();
-  energy_ = std::clamp(0.5 * mean_speed * mean_speed * (inertia + mechanism.value.mean()), low, high);
+         high = mid_speed * mid_speed * (inertia + mechanism.value.largest()) + 2 * diagram.fluctuation();
+  energy_ = std::clamp(0.5 * mid_speed * mid_speed * (inertia + mechanism.value.mean()), low, high);
   for (int i = 0; i < 100; ++i) {
-    const double f = mean_at(energy_) - mean_speed;
+    const double f = mean_at(energy_) - mid_speed;
     (f > 0 ? high : low) = energy_;
-    if (std::abs(f) < 1e-15 * mean_speed) break;
+    if (std::abs(f) < 1e-15 * mid_speed) break;
     const Extremes z = extremes_at(energy_);
     double next = 0.5 * (low + high);
     if (z.least.value > 0) {  // dω/dT₀ = 1/(ω I) at either extreme

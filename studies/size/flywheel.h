@@ -56,17 +56,17 @@ struct Wittenbauer {
 };
 
 // Exact. May be ≤ 0: then the mechanism alone is steady enough. Throw std::invalid_argument unless 0 < δ < 2 and
-// ω_mean > 0.
-Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mean_speed, double delta);
+// ω_mid > 0.
+Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta);
 
 struct Mertsalov {
-  Extreme most, least;  // of ΔT₁ = ΔT − ½ ω_mean² I_em
-  double inertia = 0;   // I₀ = (max ΔT₁ − min ΔT₁)/(ω_mean² δ)
+  Extreme most, least;  // of ΔT₁ = ΔT − ½ ω_mid² I_em
+  double inertia = 0;   // I₀ = (max ΔT₁ − min ΔT₁)/(ω_mid² δ)
 };
-Mertsalov mertsalov(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mean_speed, double delta);
+Mertsalov mertsalov(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta);
 
-// Without I_em: I₀ = ΔA_max/(ω_mean² δ) (turning-moment diagrams).
-double inertia_by_fluctuation(double fluctuation, double mean_speed, double delta);
+// Without I_em: I₀ = ΔA_max/(ω_mid² δ) (turning-moment diagrams).
+double inertia_by_fluctuation(double fluctuation, double mid_speed, double delta);
 
 // I_fly = I_drive − 1.1 I_motor − I_gearbox (theory 3.1), all on the flywheel's shaft.
 double flywheel_by_parts(double drive, double motor, double gearbox);
@@ -78,9 +78,9 @@ void check_delta(double delta);  // std::invalid_argument unless 0 < δ < 2
 // Steady motion with torques of the angle alone: ω(φ) from energy, exactly.
 class SpeedCycle {
  public:
-  // The cycle of the family whose ω_mean = (ω_max + ω_min)/2 is the one asked for. Throws std::invalid_argument where
+  // The cycle of the family whose ω_mid = (ω_max + ω_min)/2 is the one asked for. Throws std::invalid_argument where
   // the inertia is too small to carry the machine through the cycle at that speed.
-  SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mechanism, double inertia, double mean_speed);
+  SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mechanism, double inertia, double mid_speed);
 
   double speed(double phi) const;  // [rad/s]
   Extreme fastest() const { return fastest_; }

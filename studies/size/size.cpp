@@ -150,32 +150,32 @@ class Sizer {
       } catch (const WeakDrive&) {
         throw;
       } catch (const std::invalid_argument& error) {
-        if (!options_.mean_speed) throw;
+        if (!options_.mid_speed) throw;
         s_.notes.push_back(fmt::format("no operating speed: {}", error.what()));
       }
     }
-    if (options_.mean_speed) {
-      s_.mean_speed = *options_.mean_speed;
-      s_.mean_speed_source = "given";
-      if (s_.operating && std::abs(s_.operating->speed / s_.mean_speed - 1) > 0.01)
+    if (options_.mid_speed) {
+      s_.mid_speed = *options_.mid_speed;
+      s_.mid_speed_source = "given";
+      if (s_.operating && std::abs(s_.operating->speed / s_.mid_speed - 1) > 0.01)
         s_.notes.push_back(
-            fmt::format("the mean speed given is {:.5g} rpm, but with its motor the machine runs at {:.5g} rpm",
-                        rpm(s_.mean_speed), rpm(s_.operating->speed)));
+            fmt::format("the mid speed given is {:.5g} rpm, but with its motor the machine runs at {:.5g} rpm",
+                        rpm(s_.mid_speed), rpm(s_.operating->speed)));
     } else if (s_.operating) {
-      s_.mean_speed = s_.operating->speed;
-      s_.mean_speed_source = s_.motor.empty() ? "operating speed, where the mean torques balance"
-                                              : "operating speed of the motor under the mean load";
+      s_.mid_speed = s_.operating->speed;
+      s_.mid_speed_source = s_.motor.empty() ? "operating speed, where the mean torques balance"
+                                             : "operating speed of the motor under the mean load";
       for (const double other : s_.operating->others)
         s_.notes.push_back(fmt::format("the machine can also run steadily at {:.5g} rpm", rpm(other)));
     } else {
       throw std::invalid_argument(
-          "with torques that do not depend on speed every mean speed is a steady one, so it must be given: "
+          "with torques that do not depend on speed every speed is a steady one, so it must be given: "
           "--mean-speed \"60 rpm\"");
     }
   }
 
   void find_cycle() {
-    s_.cycle = machine_cycle(*machine_, s_.mean_speed);
+    s_.cycle = machine_cycle(*machine_, s_.mid_speed);
     const Piecewise &drive = s_.cycle.drive, &load = s_.cycle.load;
     const double scale = std::max(drive.largest(), load.largest());
     s_.engine = drive.maximum().value - drive.minimum().value > 1e-9 * scale;
@@ -233,17 +233,17 @@ class Sizer {
   double others() const { return s_.motor_inertia + s_.gearbox_inertia + s_.other_inertia; }
   std::optional<double> delta_of(double drive_inertia) {
     try {
-      return SpeedCycle(s_.diagram, s_.cycle.mechanism, drive_inertia, s_.mean_speed).delta();
+      return SpeedCycle(s_.diagram, s_.cycle.mechanism, drive_inertia, s_.mid_speed).delta();
     } catch (const std::invalid_argument&) {
       return {};
     }
   }
 
   void apply_methods() {
-    s_.exact = wittenbauer(s_.diagram, s_.cycle.mechanism, s_.mean_speed, s_.delta);
-    s_.approximate = mertsalov(s_.diagram, s_.cycle.mechanism, s_.mean_speed, s_.delta);
+    s_.exact = wittenbauer(s_.diagram, s_.cycle.mechanism, s_.mid_speed, s_.delta);
+    s_.approximate = mertsalov(s_.diagram, s_.cycle.mechanism, s_.mid_speed, s_.delta);
     s_.methods = {method("Wittenbauer (exact)", s_.exact.inertia), method("Mertsalov", s_.approximate.inertia),
-                  method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mean_speed, s_.delta))};
+                  method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mid_speed, s_.delta))};
     s_.delta_now = delta_of(machine_->constant_inertia()).value_or(std::nan(""));
     s_.needed = s_.methods.front().flywheel > 0;
   }
@@ -299,9 +299,9 @@ class Sizer {
       acting = std::max(acting, angle);
     }
     if (!(energy > 0) || acting >= 0.5 * machine_->cycle()) return;
-    s_.punch = PunchPress{energy, machine_->cycle() / s_.mean_speed, acting / s_.mean_speed};
+    s_.punch = PunchPress{energy, machine_->cycle() / s_.mid_speed, acting / s_.mid_speed};
     s_.methods.push_back(
-        method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mean_speed, s_.delta)));
+        method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
   }
 
   void find_dimensions() {
@@ -309,7 +309,7 @@ class Sizer {
     FlywheelRequest request{options_.form,
                             flywheel_material(options_.material),
                             s_.methods.front().flywheel,
-                            s_.mean_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
+                            s_.mid_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
                             options_.diameter,
                             options_.rim_speed};
     try {
@@ -337,7 +337,7 @@ class Sizer {
       s_.notes.push_back("not simulated: the drive of the scene does not balance its load at any speed");
       return;
     }
-    const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mean_speed);
+    const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
     SteadyRigidCycle family;
     family.found = true;
     family.speed = Piecewise::of(
@@ -352,7 +352,7 @@ class Sizer {
     DeltaReached exact;
     exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
     exact.crank = exact.motor = cycle.delta();
-    exact.mean_speed = cycle.mean_speed();
+    exact.mid_speed = cycle.mid_speed();
     for (int k = 0; k <= 720; ++k) {
       exact.phi.push_back(machine_->cycle() * k / 720);
       exact.speed.push_back(cycle.speed.value(exact.phi.back()));
@@ -390,7 +390,7 @@ class Sizer {
     }
     r.crank = sim.link_delta, r.motor = sim.motor_delta;
     r.crank_error = sim.link_error, r.motor_error = sim.motor_error;
-    r.mean_speed = sim.mean_speed, r.settled = sim.settled, r.cycles = sim.cycles;
+    r.mid_speed = sim.mid_speed, r.settled = sim.settled, r.cycles = sim.cycles;
     r.phi = std::move(sim.phi), r.speed = std::move(sim.link), r.motor_speed = std::move(sim.motor);
     if (!r.settled) s_.notes.push_back(unsettled(fmt::format("{} ({})", name, r.sized_by), sim));
     s_.reached.push_back(std::move(r));

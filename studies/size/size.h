@@ -14,10 +14,10 @@
 namespace kurbel {
 
 struct SizeOptions {
-  std::optional<double> delta;       // demanded, 0 < δ < 2
-  std::string machine;               // or its customary value: "press" (the upper end of the range)
-  std::optional<double> mean_speed;  // of the reduction link [rad/s]; default: the operating speed
-  std::string flywheel;              // component that is sized; default: the scene's only flywheel, else on the crank
+  std::optional<double> delta;      // demanded, 0 < δ < 2
+  std::string machine;              // or its customary value: "press" (the upper end of the range)
+  std::optional<double> mid_speed;  // of the reduction link [rad/s]; default: the operating speed
+  std::string flywheel;             // component that is sized; default: the scene's only flywheel, else on the crank
   FlywheelForm form = FlywheelForm::rim;
   std::string material = "grey cast iron";
   double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
@@ -53,7 +53,7 @@ struct DeltaReached {
   double flywheel = 0;          // [kg·m²]
   double crank = 0, motor = 0;  // δ
   std::optional<double> crank_error, motor_error;
-  double mean_speed = 0;                        // of the link [rad/s]
+  double mid_speed = 0;                         // of the link [rad/s]
   bool settled = true;                          // speed and δ have come to 1e-5 of where they tend to
   int cycles = 0;                               // simulated
   std::vector<double> phi, speed, motor_speed;  // last cycle [rad], [rad/s]; motor reduced to the link
@@ -63,8 +63,8 @@ struct Sizing {
   std::string title, scene_file, link;
   double delta = 0;
   std::string delta_source;
-  double mean_speed = 0;
-  std::string mean_speed_source;
+  double mid_speed = 0;
+  std::string mid_speed_source;
 
   MachineCycle cycle;
   WorkDiagram diagram;

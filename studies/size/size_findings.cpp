@@ -107,7 +107,7 @@ Rows reached_table(const Sizing& s) {
       .only_for_people("δ at the motor",
                        [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
       .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
-      .column("mean_speed", "mean speed [rpm]", &DeltaReached::mean_speed, {.factor = rpm(1)})
+      .column("mid_speed", "mid speed [rpm]", &DeltaReached::mid_speed, {.factor = rpm(1)})
       .only_for_programs("settled", &DeltaReached::settled)
       .only_for_programs("cycles", &DeltaReached::cycles)
       .only_for_people("cycles", [](const DeltaReached& r) {
@@ -214,8 +214,8 @@ Rows scales_table(const Sizing& s) {
 }
 
 Sentences basis_words(const Sizing& s) {
-  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mean speed {:.6g} rpm of {} ({})", s.delta, s.delta_source,
-                                rpm(s.mean_speed), s.link, s.mean_speed_source),
+  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mid speed {:.6g} rpm of {} ({})", s.delta, s.delta_source,
+                                rpm(s.mid_speed), s.link, s.mid_speed_source),
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
                                 s.diagram.least.x * degrees, s.diagram.most.x * degrees),
@@ -268,7 +268,7 @@ Record punch_record(const PunchPress& p) {
 void tell_basis(Findings& f, const Sizing& s) {
   f.tell("link", s.link);
   f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
-  f.tell("mean_speed", Record{{"value", s.mean_speed}, {"unit", "rad/s"}, {"source", s.mean_speed_source}});
+  f.tell("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
   f.tell("flywheel", Record{{"component", s.flywheel},
                             {"added", s.flywheel_added},
                             {"needed", s.needed},

@@ -33,10 +33,10 @@ std::vector<Formula> cycle_formulas(const Sizing& s) {
       .symbols = "ΔA_max = max ΔT − min ΔT",
       .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
       .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * degrees, d.least.x * degrees)});
-  const double fastest = s.mean_speed * (1 + s.delta / 2), slowest = s.mean_speed * (1 - s.delta / 2);
+  const double fastest = s.mid_speed * (1 + s.delta / 2), slowest = s.mid_speed * (1 - s.delta / 2);
   list.push_back(Formula{.title = "Limits of the speed (theory 2.6)",
-                         .symbols = "ω_max, ω_min = ω_mean (1 ± δ/2)",
-                         .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s", s.mean_speed,
+                         .symbols = "ω_max, ω_min = ω_mid (1 ± δ/2)",
+                         .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s", s.mid_speed,
                                                 s.delta, fastest, slowest)});
   return list;
 }
@@ -52,17 +52,17 @@ std::vector<Formula> method_formulas(const Sizing& s) {
               .note = "Exact for torques of the angle alone."});
   list.push_back(Formula{
       .title = "Mertsalov (theory 3.3)",
-      .symbols = "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mean² δ),   ΔT₁ = ΔT − ½ ω_mean² I_em",
+      .symbols = "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mid² δ),   ΔT₁ = ΔT − ½ ω_mid² I_em",
       .numbers =
           fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.approximate.most.value,
-                      s.approximate.least.value, s.mean_speed, s.delta, s.approximate.inertia),
+                      s.approximate.least.value, s.mid_speed, s.delta, s.approximate.inertia),
       .note = fmt::format("{:+.3g} % against the exact value.", 100 * (s.approximate.inertia / s.exact.inertia - 1))});
   const SizeMethod& neglecting = s.methods[2];
   list.push_back(Formula{
       .title = "Neglecting I_em (theory 3.4)",
-      .symbols = "I₀ = ΔA_max/(ω_mean² δ)",
+      .symbols = "I₀ = ΔA_max/(ω_mid² δ)",
       .numbers = fmt::format("I₀ = {:.6g} J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.diagram.fluctuation(),
-                             s.mean_speed, s.delta, neglecting.drive_inertia),
+                             s.mid_speed, s.delta, neglecting.drive_inertia),
       .note =
           fmt::format("{:+.3g} % against the exact value.", 100 * (neglecting.drive_inertia / s.exact.inertia - 1))});
   return list;
@@ -88,11 +88,11 @@ std::vector<Formula> flywheel_formulas(const Sizing& s) {
   if (s.punch)
     list.push_back(Formula{
         .title = "Punch-press form (theory 3.5)",
-        .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mean² δ),   P = E/t_c",
+        .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = E/t_c",
         .numbers = fmt::format("ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W",
                                s.punch->energy, s.punch->working_time, s.punch->cycle_time, s.punch->from_flywheel(),
                                s.methods.back().drive_inertia, s.punch->power()),
-        .note = "Useful work and the time in which it is done, at the mean speed."});
+        .note = "Useful work and the time in which it is done, at the mid speed."});
   return list;
 }
 
@@ -146,7 +146,7 @@ std::vector<Formula> motor_formulas(const Sizing& s) {
                                               : "The drive does not give way: what holds the speed is the load",
         .symbols = "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
         .numbers = fmt::format("δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
-                               s.with_motor->slowest.value, s.with_motor->mean_speed(), s.with_motor->delta(), s.delta),
+                               s.with_motor->slowest.value, s.with_motor->mid_speed(), s.with_motor->delta(), s.delta),
         .note = fmt::format(
             "Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy {} to "
             "{:.3g} of itself within a cycle.",
@@ -159,10 +159,9 @@ std::vector<Formula> motor_formulas(const Sizing& s) {
                                s.soft->drive_inertia, s.soft->flywheel,
                                std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
                                s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
-        .note =
-            s.soft_cycle && s.soft_cycle->found
-                ? fmt::format("Its mean speed (ω_max + ω_min)/2 is then {:.6g} rpm.", rpm(s.soft_cycle->mean_speed()))
-                : ""});
+        .note = s.soft_cycle && s.soft_cycle->found
+                    ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {:.6g} rpm.", rpm(s.soft_cycle->mid_speed()))
+                    : ""});
   return list;
 }
 

@@ -63,7 +63,7 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
                    .y = {"M", torque.unit},
                    .series = {curve("M_c", Role::orange, d.load_torque, torque.factor),
                               curve("M_d", Role::green, d.drive_torque, torque.factor)},
-                   .note = fmt::format("Mean torque {:.6g} N·m at {:.5g} rpm.", d.mean_torque(), rpm(s.mean_speed))});
+                   .note = fmt::format("Mean torque {:.6g} N·m at {:.5g} rpm.", d.mean_torque(), rpm(s.mid_speed))});
   plots.push_back({.title = "Work of resistance and of the drive: equal at the end of the cycle",
                    .x = angle,
                    .y = {"A", energy.unit},
@@ -130,7 +130,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
          .series = {}};
   const auto add = [&](const std::string& name, Role role, double inertia, bool dashed) {
     try {
-      const SpeedCycle cycle(s.diagram, s.cycle.mechanism, inertia, s.mean_speed);
+      const SpeedCycle cycle(s.diagram, s.cycle.mechanism, inertia, s.mid_speed);
       Series series{.name = name, .role = role, .x = {}, .y = {}, .dashed = dashed};
       for (const double phi : angles_of(s.diagram.excess)) {
         series.x.push_back(phi * degrees);

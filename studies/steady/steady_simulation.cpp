@@ -148,7 +148,7 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
     result.cycles = static_cast<int>(whole);
     result.link_delta = last.delta(0);
     result.motor_delta = last.delta(1);
-    result.mean_speed = last.mid(0);
+    result.mid_speed = last.mid(0);
     result.phi = last.phi;
     result.link = last.speed[0];
     result.motor = last.speed[1];

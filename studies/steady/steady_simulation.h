@@ -11,9 +11,9 @@ namespace kurbel {
 struct SteadySimulation {
   bool complete = false;
   std::string diagnosis;
-  double link_delta = 0, motor_delta = 0;  // of the last cycle; the motor's shaft by its own mean speed
+  double link_delta = 0, motor_delta = 0;  // of the last cycle; the motor's shaft by its own mid speed
   double link_error = 0, motor_error = 0;  // difference to a run with 100 × looser tolerances
-  double mean_speed = 0;                   // of the link [rad/s]
+  double mid_speed = 0;                    // of the link [rad/s]
   bool settled = false;                    // speed and δ have come within 1e-5 of where they tend to
   double speed_change = 0;                 // of the link's mid speed from cycle to cycle, over itself
   double speed_to_come = 0;                // what it has still to change, over itself; ∞: it tends nowhere

@@ -64,8 +64,8 @@ TEST_P(CycleExtremes, AreThoseOfTheSolution) {
         most = std::max(most, omega);
         least = std::min(least, omega);
       }
-    const double slack = 0.01 * GetParam().tolerance * std::abs(c.mean_speed());
-    worst = std::max({worst, (most - c.omega_max) / c.mean_speed(), (c.omega_min - least) / c.mean_speed()});
+    const double slack = 0.01 * GetParam().tolerance * std::abs(c.mid_speed());
+    worst = std::max({worst, (most - c.omega_max) / c.mid_speed(), (c.omega_min - least) / c.mid_speed()});
     beyond += most > c.omega_max + slack || least < c.omega_min - slack;
   }
   EXPECT_EQ(beyond, 0u) << "of " << cycles.cycles().size() << " cycles, by up to " << worst;

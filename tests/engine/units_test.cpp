@@ -87,6 +87,10 @@ TEST(Units, FormsInUseHaveTheirValuesInSi) {
       {"0.5 kg\u00a0m²", 0.5, "kg*m2"},
       {"  3\tkg ", 3, "kg"},
       {"1.5 N*m/A", 1.5, "V*s"},
+      {"1/80", 0.0125, ""},
+      {"-3/4 kg", -0.75, "kg"},
+      {"1/2.5 %", 0.004, ""},
+      {"1/2 1/min", 1. / 120, "Hz"},
   };
   for (const Example& e : examples) {
     const Quantity q = read(e.text);
@@ -102,6 +106,29 @@ TEST(Units, AngleIsADimensionOfItsOwn) {
   EXPECT_EQ(dimension_of("rpm"), dimension_of("rad/s"));
 }
 
+double as_speed(const std::string& text) { return wanted_as(read(text), dimension_of("rad/s")).value; }
+
+TEST(Units, SpeedCountedPerMinuteOrInHertzIsOfWholeTurns) {
+  EXPECT_DOUBLE_EQ(as_speed("60 1/min"), as_speed("60 rpm"));
+  EXPECT_DOUBLE_EQ(as_speed("60 min^-1"), as_speed("60 rpm"));
+  EXPECT_DOUBLE_EQ(as_speed("25 Hz"), as_speed("25 rev/s"));
+  EXPECT_DOUBLE_EQ(as_speed("2 kHz"), as_speed("2000 rev/s"));
+  EXPECT_DOUBLE_EQ(as_speed("60 rpm"), 2 * pi);
+  EXPECT_DOUBLE_EQ(as_speed("3 rad/min"), 3. / 60);
+}
+
+// "25 1/s" is 25 rad/s to one and 25 rev/s to the other: neither is taken for granted.
+TEST(Units, SpeedPerSecondLeavesOpenWhetherTurnsOrRadiansAndStaysAFrequency) {
+  for (const char* text : {"25 1/s", "25 s^-1", "25 1/ms"})
+    EXPECT_EQ(wanted_as(read(text), dimension_of("rad/s")).dimension, dimension_of("1/s")) << text;
+}
+
+TEST(Units, FrequencyIsCountedInHertzAsBefore) {
+  EXPECT_DOUBLE_EQ(wanted_as(read("5 Hz"), dimension_of("1/s")).value, 5);
+  EXPECT_DOUBLE_EQ(wanted_as(read("300 1/min"), dimension_of("1/s")).value, 5);
+  EXPECT_DOUBLE_EQ(wanted_as(read("3 min"), dimension_of("s")).value, 180);
+}
+
 TEST(Units, SlashDividesByTheNextFactorAlone) {
   EXPECT_EQ(dimension_of("N/m*s"), dimension_of("N*s/m"));
   EXPECT_EQ(dimension_of("N*m/rad/s"), dimension_of("N*m*rad-1*s-1"));
@@ -115,6 +142,8 @@ TEST(Units, ErrorsNameTheSlip) {
   EXPECT_EQ(error_in("3 kg*"), "the unit ends in an operator");
   EXPECT_EQ(error_in("3 m^"), "an exponent must be a whole number from -9 to 9");
   EXPECT_EQ(error_in("3 m^1000000000000"), "an exponent must be a whole number from -9 to 9");
+  EXPECT_EQ(error_in("1/0"), "nothing can be divided by 0");
+  EXPECT_EQ(error_in("1/"), "unexpected \"/\" in a unit");
   EXPECT_EQ(error_in("3 m*5"), "unexpected \"5\" in a unit");
   for (const char* text : {"", " ", "kg", "--3 kg", "+-3 kg", "+ 3 kg", "e5 kg", ".", "-"})
     EXPECT_EQ(error_in(text), "a number must come first") << text;

@@ -92,7 +92,7 @@ TEST(Flywheel, TheThreeMethodsAgreeWhereTheMechanismHasConstantInertia) {
   const WorkDiagram d = with_constant_drive(load);
   const MechanismInertia constant{load.constant(2.5), load.constant(0)};
   const double exact = wittenbauer(d, constant, 12, 0.04).inertia;
-  // (a − b) = ω_mean² δ exactly, and the constant part shifts I₀.
+  // (a − b) = ω_mid² δ exactly, and the constant part shifts I₀.
   EXPECT_NEAR(exact, inertia_by_fluctuation(d.fluctuation(), 12, 0.04) - 2.5, 1e-11);
   EXPECT_NEAR(mertsalov(d, constant, 12, 0.04).inertia, exact + 2.5, 1e-11);
 }

@@ -133,7 +133,7 @@ until = "1 s"
 // The drive's torque over the angle stays what it is; the load that is missing is added to the scene's.
 TEST(Size, WhatTheLoadLacksIsAddedToTheLoad) {
   SizeOptions options;
-  options.delta = 0.04, options.mean_speed = 20, options.simulate = false;
+  options.delta = 0.04, options.mid_speed = 20, options.simulate = false;
   const Sizing s = size_flywheel(test::scene_from(R"(
 line = ["engine", "wheel", "work"]
 engine = { kind = "torque source", table = { over = "angle", unit = ["rad", "N*m"], points = [[0, 30], [3.141592653589793, -6], [6.283185307179586, 30]], period = "360 deg" }, inertia = "0.1 kg*m2" }
@@ -153,7 +153,7 @@ work = { kind = "load", torque = "5 N*m" }
 // "the upper end of the range"
 TEST(Size, CustomaryFluctuationIsTheLargestThatIsCustomary) {
   SizeOptions options;
-  options.mean_speed = 20, options.simulate = false;
+  options.mid_speed = 20, options.simulate = false;
   for (const auto& [machine, delta] : {std::pair("press", 0.15), std::pair("machine tool", 0.05),
                                        std::pair("pump", 0.05), std::pair("crusher", 0.2)}) {
     options.machine = machine;
@@ -171,7 +171,7 @@ pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia
 // v = ½ D ω_max of the flywheel's own shaft, which turns 2.5 times as fast as the crank: ω_max = i ω_m (1 + ½ δ).
 TEST(Size, RimSpeedIsThatOfTheFlywheelsShaft) {
   SizeOptions options;
-  options.delta = 0.1, options.mean_speed = 8, options.simulate = false, options.diameter = 0.9;
+  options.delta = 0.1, options.mid_speed = 8, options.simulate = false, options.diameter = 0.9;
   const Sizing s = size_flywheel(test::scene_from(R"(
 line = ["drive", "wheel", "gear", "press"]
 drive = { kind = "torque source", torque = "500 N*m" }

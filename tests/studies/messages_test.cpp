@@ -77,7 +77,7 @@ flywheel = { kind = "flywheel", inertia = "0.45 kg*m2" }
 TEST(Messages, SizeSaysWhatLoadTheSceneHasAndWhatIsAddedToIt) {
   SizeOptions options;
   options.delta = 0.05;
-  options.mean_speed = 300;
+  options.mid_speed = 300;
   options.simulate = false;
   const Sizing none = size_flywheel(test::scene_from(engine("")), options);
   ASSERT_TRUE(none.engine);

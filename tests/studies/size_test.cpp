@@ -61,7 +61,7 @@ std::string refusal(const std::string& scene, const SizeOptions& options) {
 
 TEST(Size, ConstantDriveTorqueGivesTheDemandedDeltaInSimulation) {
   SizeOptions options = demand(0.06, true);
-  options.mean_speed = 8.0;
+  options.mid_speed = 8.0;
   // The torque that balances the load, from a first sizing; then the same scene with it.
   const std::string source = "kind = \"torque source\", torque = \"{} N*m\"";
   options.simulate = false;
@@ -73,7 +73,7 @@ TEST(Size, ConstantDriveTorqueGivesTheDemandedDeltaInSimulation) {
   const DeltaReached& rigid = reached(s, "rigid, simulated", "Wittenbauer");
   EXPECT_NEAR(rigid.crank, 0.06, 1e-7);
   EXPECT_NEAR(rigid.crank, 0.06, 3 * *rigid.crank_error + 1e-9);
-  EXPECT_NEAR(rigid.mean_speed, 8.0, 1e-6);
+  EXPECT_NEAR(rigid.mid_speed, 8.0, 1e-6);
   // The inertia by hand: work of the blow from the constant torque, neglecting I_em, is near.
   EXPECT_NEAR(s.methods[2].drive_inertia * 64 * 0.06, s.diagram.fluctuation(), 1e-9);
   EXPECT_NEAR(s.diagram.work, 60e3 * (0.010 - 0.001), 1e-6);  // the force rises over 2 mm: half of them count
@@ -85,7 +85,7 @@ TEST(Size, SimulatedPressReachesWhatTheSlopeOfItsMotorLeavesOfDelta) {
   const DeltaReached& exact = reached(s, "rigid, simulated", "Wittenbauer");
   EXPECT_LT(exact.crank, 0.1);  // a motor that gives way helps
   EXPECT_NEAR(exact.crank, s.with_motor->delta(), 1e-6);
-  EXPECT_NEAR(exact.mean_speed, s.with_motor->mean_speed(), 1e-5);
+  EXPECT_NEAR(exact.mid_speed, s.with_motor->mid_speed(), 1e-5);
   const DeltaReached& soft = reached(s, "rigid, simulated", "motor's slope counted");
   EXPECT_NEAR(soft.crank, 0.1, 1e-6);
   EXPECT_LT(soft.flywheel, exact.flywheel);
@@ -105,7 +105,7 @@ TEST(Size, SteadyCycleAgreesWithALongSimulation) {
   const SteadySimulation run = simulate_steady(scene, Effects{}, 0.8 * near, 2 * pi, 0, {});
   ASSERT_TRUE(run.complete && run.settled);
   EXPECT_NEAR(run.link_delta, cycle.delta(), 1e-5 * cycle.delta());
-  EXPECT_NEAR(run.mean_speed, cycle.mean_speed(), 1e-5 * near);
+  EXPECT_NEAR(run.mid_speed, cycle.mid_speed(), 1e-5 * near);
   // Energy of the cycle: the motor's work is the blow's.
   EXPECT_NEAR(cycle.drive.total(), 540, 1e-7);
 }
@@ -122,7 +122,7 @@ TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
   for (const double slope : {100.0, 200.0, 400.0}) {  // N·m·s/rad
     const Sizing s = sized_with_slope(slope);
     ASSERT_TRUE(s.operating);
-    EXPECT_NEAR(s.mean_speed, 8, 1e-9);
+    EXPECT_NEAR(s.mid_speed, 8, 1e-9);
     EXPECT_NEAR(s.operating->slope, -slope, 1e-4 * slope);
     ASSERT_TRUE(s.soft) << s.soft_why;
     EXPECT_LT(s.soft->drive_inertia, std::min(last, s.exact.inertia));
@@ -136,7 +136,7 @@ TEST(Size, MotorWithoutSlopeNeedsTheFlywheelOfWittenbauer) {
   const auto difference = [](double slope) {
     const Sizing s = sized_with_slope(slope);
     EXPECT_TRUE(s.soft && s.soft_cycle->found) << s.soft_why;
-    const double classical = wittenbauer(s.diagram, s.cycle.mechanism, s.soft_cycle->mean_speed(), 0.1).inertia;
+    const double classical = wittenbauer(s.diagram, s.cycle.mechanism, s.soft_cycle->mid_speed(), 0.1).inertia;
     return std::abs(s.soft->drive_inertia / classical - 1);
   };
   const double steep = difference(1), half = difference(0.5), soft = difference(0.1);
@@ -234,7 +234,7 @@ TEST(Size, RefusesInWords) {
   EXPECT_NE(weak.find("85.94"), std::string::npos) << weak;
   const std::string constant = refusal(press("kind = \"torque source\", torque = \"80 N*m\""), [] {
     SizeOptions o = demand(0.1);
-    o.mean_speed = 5.0;
+    o.mid_speed = 5.0;
     return o;
   }());
   EXPECT_NE(constant.find("5.94"), std::string::npos) << constant;  // N·m missing
@@ -242,7 +242,7 @@ TEST(Size, RefusesInWords) {
             std::string::npos);
   // No net resistance: a spring-like force along the stroke gives back what it takes.
   SizeOptions at_speed = demand(0.1);
-  at_speed.mean_speed = 5.0;
+  at_speed.mid_speed = 5.0;
   const std::string idle = test::with(
       sound, "load = { kind = \"press\", nominal_force = \"60 kN\", nominal_travel = \"10 mm\", rise = \"2 mm\" }",
       "load = { kind = \"constant\", force = \"100 N\" }");
