@@ -1,7 +1,6 @@
 // run_command.cpp — run one model of a scene, or compare two.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,7 +13,6 @@
 #include "app/verb.h"
 #include "engine/model/model.h"
 #include "engine/run/checkpoint.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
 #include "studies/run/run_findings.h"
@@ -78,13 +76,6 @@ void use_setting(const std::string& file, const Scene& scene, const Effects& eff
   options.chosen_because = known.describe();
 }
 
-// Clutches that slip are no springs.
-std::string label_of(const Model& model) {
-  const bool springs = std::any_of(model.elastic.begin(), model.elastic.end(),
-                                   [](const ElasticJoint& e) { return !e.slips && !e.springless; });
-  return springs || further_coordinates(model) > 0 ? "elastic" : "rigid";
-}
-
 std::string text_of_state(const std::string& file) {
   std::error_code error;
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
@@ -122,7 +113,7 @@ int run(const RunArguments& arguments) {
     throw std::invalid_argument("--from-state and --save-state belong to the reduced model; set model = \"reduced\"");
   Result result;
   try {
-    result = simulate(model, label_of(*model), options);
+    result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
   } catch (const UnfitCheckpoint& unfit) {
     throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
   }
@@ -130,22 +121,16 @@ int run(const RunArguments& arguments) {
   return present(output_of(result), arguments.study);
 }
 
-// Rigid against the scene's own effects; a scene without any is compared with all of its elasticity.
 int compare(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
-  Effects full = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
+  const auto asked = [&](const std::string& list) -> std::optional<Effects> {
+    if (list.empty()) return {};
+    return parse_effects(list, scene);
+  };
   check_arguments(arguments, scene);
-  if (arguments.effects.empty() && full.describe() == "none") full.all_elastic = true;
-  Effects simple;
-  if (!arguments.against.empty()) simple = parse_effects(arguments.against, scene);
-  const bool rigid = simple.describe() == "none";
-  const std::string full_label = full.describe() == "none" ? "rigid" : rigid ? "elastic" : "second";
-  if (full.describe() == simple.describe())
-    throw std::invalid_argument(fmt::format(
-        "both models have the same effects ({}); choose others with --effects and --against", full.describe()));
+  const ModelPair models = models_to_compare(scene, asked(arguments.effects), asked(arguments.against));
   Progress progress(arguments.study.quiet);
-  const Comparison c =
-      kurbel::compare(scene, simple, rigid ? "rigid" : "first", full, full_label, options_of(arguments, progress));
+  const Comparison c = kurbel::compare(scene, models, options_of(arguments, progress));
   return present(output_of(c), arguments.study);
 }
 
@@ -167,7 +152,9 @@ void set_up_run(CLI::App& command, int& code) {
 void set_up_compare(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
-  command.add_option("--against", arguments->against, "effects of the first model (default: none)");
+  command.add_option("--against", arguments->against,
+                     "effects of the first model; none for the bare machine (default: those of the second without "
+                     "elasticity)");
   command.callback([&code, arguments] { code = compare(*arguments); });
 }
 
@@ -189,7 +176,8 @@ const Verb compare_verb{{.place = 20,
                          .name = "compare",
                          .arguments = "scene.toml",
                          .help = "the rigid against the elastic model, or any two sets of effects",
-                         .does = "rigid against elastic, or any two sets of effects (`--effects`, `--against`)",
+                         .does = "rigid against elastic with the same other effects on both sides, or any two sets "
+                                 "of effects (`--effects`, `--against`); `--against none`: the bare machine",
                          .set_up = set_up_compare}};
 
 }  // namespace

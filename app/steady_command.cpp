@@ -7,6 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/verb.h"
+#include "studies/run/compare.h"
 #include "studies/steady/steady_findings.h"
 
 namespace kurbel::app {
@@ -43,8 +44,8 @@ std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& s
   if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
   Effects full = scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (!compile(scene, full)->has_springs()) return {scene.effects};
-  return {Effects{}, full};
+  if (!is_elastic(*compile(scene, full))) return {scene.effects};
+  return {without_elasticity(full), full};
 }
 
 int steady(const SteadyArguments& arguments) {

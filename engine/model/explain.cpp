@@ -59,10 +59,6 @@ std::string Model::node_label(int node) const {
   return n.label.empty() ? n.component : n.component + "." + n.label;
 }
 
-bool Model::has_springs() const {
-  return std::any_of(elastic.begin(), elastic.end(), [](const ElasticJoint& e) { return !e.slips && !e.springless; });
-}
-
 bool Model::has_contacts() const {
   return !relations.empty() ||
          std::any_of(elastic.begin(), elastic.end(), [](const ElasticJoint& e) { return e.slips; });

@@ -153,8 +153,6 @@ struct Model {
   std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
   // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
   bool has_contacts() const;
-  // Something yields: what is called elastic. A clutch or a film that slips is none of it.
-  bool has_springs() const;
   std::string node_label(int node) const;
   // What was merged, the coordinates, their inertias, and why.
   std::string explain() const;

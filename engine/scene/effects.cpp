@@ -93,16 +93,16 @@ std::span<const EffectFlag> effect_flags() {
        "none; dead centres and standstill are events", "efficiency, heat in the joints, starting under load"},
       {"backlash", &Effects::backlash, "backlash", Unsaid::where_given,
        "gaps between flanks, with contact and flight as modes", "the backlash of a coupling or a gear stage",
-       "none; flanks part and touch at events", "where the torque changes its sign"},
+       "none; flanks part and touch at events", "where the torque changes its sign", true},
       {"mesh_variation", &Effects::mesh_variation, "mesh variation", Unsaid::where_given,
        "tooth stiffness that varies at the frequency of mesh", "mesh_variation of a gear mesh", "an angle",
-       "where the frequency of mesh meets a mode"},
+       "where the frequency of mesh meets a mode", true},
       {"transients", &Effects::transients, "electrical transients", Unsaid::where_given,
        "currents and fluxes of motors as states", "the inductance of a DC motor or the frequency of an induction motor",
        "a current of a DC motor, four currents of an induction motor", "at switching, and for fast changes of load"},
       {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
        "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling", "a twist per branch",
-       "where damping must fit over a range of frequencies"},
+       "where damping must fit over a range of frequencies", true},
       {"bearing_friction", &Effects::bearing_friction, "bearing friction", Unsaid::where_given,
        "dry and mixed friction of bearings, with sticking", "a bearing",
        "none, of LuGre's law a deflection; standstill is an event", "at low speed, for starts and stops"},
@@ -115,7 +115,7 @@ std::span<const EffectFlag> effect_flags() {
        "noise, wear and impact forces; where a joint's reaction reverses"},
       {"flexible_rod", &Effects::flexible_rod, "flexible rod", Unsaid::where_given,
        "bending and stretching of a slider-crank's rod", "the rod_flexibility of a slider-crank",
-       "an amplitude and its rate per mode", "slender rods at high speed; stress in the rod"},
+       "an amplitude and its rate per mode", "slender rods at high speed; stress in the rod", true},
       {"gravity", &Effects::gravity, "gravity", Unsaid::part_of_machine, "weight of a mechanism's links",
        "the gravity of a mechanism", "none", "heavy links at low speed"},
       {"variable_inertia", &Effects::variable_inertia, "variable inertia", Unsaid::part_of_machine,
@@ -138,6 +138,37 @@ bool has_parameters(const Scene& scene, const EffectFlag& effect) {
 
 bool Effects::is_elastic(const std::string& component) const {
   return all_elastic || std::count(elastic.begin(), elastic.end(), component) > 0;
+}
+
+Effects without_elasticity(const Effects& effects) {
+  Effects rigid = effects;
+  rigid.all_elastic = false;
+  rigid.elastic.clear();
+  for (const EffectFlag& effect : effect_flags())
+    if (effect.of_elasticity) rigid.*(effect.flag) = false;
+  return rigid;
+}
+
+Effects bare_machine(const Effects& effects) {
+  Effects bare;
+  for (const EffectFlag& effect : effect_flags())
+    if (effect.unsaid == EffectFlag::Unsaid::part_of_machine) bare.*(effect.flag) = effects.*(effect.flag);
+  bare.locked = effects.locked;
+  return bare;
+}
+
+Effects in_both(const Effects& a, const Effects& b) {
+  Effects common;
+  common.all_elastic = a.all_elastic && b.all_elastic;
+  if (!common.all_elastic)
+    for (const std::string& component : a.all_elastic ? b.elastic : a.elastic)
+      if (b.is_elastic(component)) common.elastic.push_back(component);
+  for (const EffectFlag& effect : effect_flags()) {
+    const bool usual = effect.unsaid == EffectFlag::Unsaid::part_of_machine;  // on: not worth a word
+    common.*(effect.flag) = usual ? a.*(effect.flag) || b.*(effect.flag) : a.*(effect.flag) && b.*(effect.flag);
+  }
+  common.locked = a.locked && b.locked;
+  return common;
 }
 
 std::string Effects::describe() const {

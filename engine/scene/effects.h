@@ -43,8 +43,28 @@ struct EffectFlag {
   const char* parameters;  // what a scene needs for it
   const char* states;      // what it adds to the state and to the events
   const char* matters;     // when it matters
+  // A body that gives way, or what only an elastic connection has: it goes where elasticity goes.
+  bool of_elasticity = false;
 };
 std::span<const EffectFlag> effect_flags();
+
+// The same machine made rigid, which is what "rigid" means wherever it stands beside "elastic": elasticity alone is taken
+// away, everything else stays. Elasticity is whatever lets two ends of one body turn or move against each other:
+//   taken away   couplings, shafts, belts, meshes of teeth, supports of housings: their ends are one;
+//                the flexible rod of a slider-crank;
+//                what only an elastic connection has: backlash (rigid flanks always touch, there is no law of rigid
+//                impact here), mesh variation, relaxation;
+//   kept         friction of joints and bearings (LuGre's bristle is the friction's own memory), losses of gears and
+//                their self-locking, slip of belts, clutches and fluid couplings, currents of motors; joint clearance (the
+//                journal's way within its gap, not the bodies' compliance, is what it adds); and what is part of the
+//                machine: gravity, variable inertia, load edges.
+Effects without_elasticity(const Effects& effects);
+
+// The bare machine: no effect at all but what is part of the machine, as it is in `effects`.
+Effects bare_machine(const Effects& effects);
+
+// What two models share: effects that are on in both; of what is part of the machine, what is off in both.
+Effects in_both(const Effects& a, const Effects& b);
 
 // A key that this effect needs stands somewhere in the scene.
 bool has_parameters(const Scene& scene, const EffectFlag& effect);

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "studies/run/compare.h"
 #include "studies/accuracy/accuracy_work.h"
 
 namespace kurbel {
@@ -74,7 +75,7 @@ void make_reference(AccuracyWork& work, LevelAtWork& level) {
   ModelLevel& told = level.told;
   told.effects = level.model->effects.describe();
   told.coordinates = level.model->free_shafts + level.model->twist_count();
-  if (!level.model->has_springs()) {
+  if (!is_elastic(*level.model)) {
     if (const std::string why = WorkTables::refusal(level.model); !why.empty())
       work.omit(told.name + ", work equation", why);
     else
@@ -122,16 +123,16 @@ void choose_levels(AccuracyWork& work) {
   Effects full = work.scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
   const auto model = compile(work.scene, full);
-  if (!model->has_springs() && (full.joint_clearance || full.flexible_rod))
+  if (!is_elastic(*model) && (full.joint_clearance || full.flexible_rod))
     work.omit("joint clearance and flexible rod", "the levels are those of ideal joints and a rigid rod");
-  if (!model->has_springs() && !full.joint_friction) {
+  if (!is_elastic(*model) && !full.joint_friction) {
     work.omit("elastic", "the scene has no coupling or shaft with a stiffness");
     return;
   }
-  const std::string name = !model->has_springs() ? "joint friction" : "elastic";
+  const std::string name = !is_elastic(*model) ? "joint friction" : "elastic";
   if (model->elastic.size() > 1)
     add_lean(work, full, *model);
-  else if (model->has_springs())
+  else if (is_elastic(*model))
     work.omit("elastic lean", "one elastic element only: the lean model is the full one");
   work.levels.push_back({.told = {.name = name}, .model = model, .tables = {}, .reference = {}});
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "engine/scene/units.h"
+#include "mechanisms/reduced/deforming_mechanism.h"
 #include "studies/findings/figure_changes.h"
 #include "studies/findings/figure_text.h"
 #include "studies/run/run_findings.h"
@@ -50,7 +52,8 @@ std::map<std::string, double> torques_at_start(const Result& result) {
 
 // Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (theory 5.15).
 void note_sudden_loads(Comparison& c) {
-  if (c.b.model && !c.b.model->has_springs()) return;  // nothing swings
+  if (c.b.model && !is_elastic(*c.b.model)) return;  // nothing swings
+  if (c.a.model && is_elastic(*c.a.model)) return;   // both do
   std::vector<std::string> sudden;
   const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
   for (const ComparisonRow& row : c.amplification) {
@@ -73,6 +76,14 @@ void note_sudden_loads(Comparison& c) {
   c.notes.push_back(text +
                     "): however stiff the drive, after a step its peak torque tends not to the rigid one but to as "
                     "much as twice it, the less it is damped; the motion does converge");
+}
+
+// "; both with joint friction": what the two have in common beyond the bare machine.
+std::string shared(const Comparison& c) {
+  const std::string none = "none";
+  if (c.in_both == none) return "";
+  if (c.in_both.starts_with(none + ", ")) return "; both" + c.in_both.substr(none.size() + 1);
+  return "; both with " + c.in_both;
 }
 
 void conclude(Comparison& c) {
@@ -106,8 +117,8 @@ void conclude(Comparison& c) {
                                     : fmt::format("{} changes by {:+.2g} %", what, 100 * (*row.ratio - 1)));
   }
   if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";
-  c.conclusion += fmt::format("; the {} model costs {:.3g} × the time.", c.b.label,
-                              c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9));
+  c.conclusion += fmt::format("; the {} model costs {:.3g} × the time{}.", c.b.label,
+                              c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9), shared(c));
   for (const Result* r : {&c.a, &c.b})
     if (r->unconfirmed())
       c.conclusion += fmt::format(" NOT confirmed, {} model: {}.", r->label, r->accuracy_in_words());
@@ -115,16 +126,56 @@ void conclude(Comparison& c) {
 
 }  // namespace
 
+bool is_elastic(const Model& model) {
+  return (model.effects.flexible_rod && further_coordinates(model) > 0) ||
+         std::any_of(model.elastic.begin(), model.elastic.end(),
+                     [](const ElasticJoint& e) { return !e.slips && !e.springless; });
+}
+
+ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& effects,
+                            const std::optional<Effects>& against) {
+  const auto elastic = [&](const Effects& e) { return is_elastic(*compile(scene, e)); };
+  ModelPair pair;
+  pair.b = effects.value_or(scene.effects);
+  // With nothing else asked, elasticity is what the comparison is about.
+  if (!effects && (against ? pair.b.describe() == "none" : !elastic(pair.b))) {
+    Effects all = pair.b;
+    all.all_elastic = true;
+    if (elastic(all)) pair.b = all;
+  }
+  const Effects rigid = without_elasticity(pair.b);
+  pair.a = against ? *against : elastic(pair.b) ? rigid : bare_machine(pair.b);
+  const std::string a = pair.a.describe(), b = pair.b.describe();
+  if (a == b && (effects || against))
+    throw std::invalid_argument(
+        fmt::format("both models have the same effects ({}); choose others with --effects and --against", b));
+  const bool of_scene = !effects || b == scene.effects.describe();
+  if (a == b)
+    pair.label_a = "rigid", pair.label_b = "same";
+  else if (a == rigid.describe() && elastic(pair.b))
+    pair.label_a = "rigid", pair.label_b = "elastic";
+  else if (of_scene && a == bare_machine(pair.a).describe())
+    pair.label_a = "bare", pair.label_b = "full";
+  else
+    pair.label_a = "first", pair.label_b = "second";
+  return pair;
+}
+
 Comparison compare(const Scene& scene, const Effects& a, const std::string& label_a, const Effects& b,
                    const std::string& label_b, const SimulateOptions& options) {
   Comparison c;
   c.title = scene.heading();
   c.a = simulate(scene, a, label_a, options);
   c.b = simulate(scene, b, label_b, options);
+  c.in_both = in_both(a, b).describe();
   add_rows(c);
   if (c.a.trajectory && c.b.trajectory) note_sudden_loads(c);
   conclude(c);
   return c;
+}
+
+Comparison compare(const Scene& scene, const ModelPair& models, const SimulateOptions& options) {
+  return compare(scene, models.a, models.label_a, models.b, models.label_b, options);
 }
 
 }  // namespace kurbel

@@ -5,6 +5,7 @@
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/run/compare.h"
 #include "studies/findings/trace.h"
 #include "studies/run/run_findings.h"
 
@@ -149,7 +150,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
       std::clamp(frames_per_turn * turns, 1.0 * fewest_frames, 1.0 * most_frames));  // of 1e12 turns, too
   for (int i = 0; i < frames; ++i) view.time.push_back(begin + (end - begin) * i / (frames - 1));
   for (const Result* r : results)
-    view.motions.push_back(motion_of(*r, view, !r->model->has_springs() ? Role::rigid : Role::elastic));
+    view.motions.push_back(motion_of(*r, view, !is_elastic(*r->model) ? Role::rigid : Role::elastic));
   double largest = 0;
   for (const MachineView::Motion& motion : view.motions)
     for (const auto* side : {&motion.twist_in, &motion.twist_out})

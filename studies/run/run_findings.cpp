@@ -190,6 +190,7 @@ Findings findings_of(const Comparison& c) {
     f.say(figures, Sentences{.lines = model_words(*r), .page = false, .apart = r == &c.a});
     f.say(figures, Sentences{.lines = balance_words(*r), .page = false});
   }
+  f.tell("in_both", c.in_both);
   f.tell("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
   const Rows table = comparison_table(c);
   f.say(figures, table);

@@ -1,4 +1,5 @@
 // run_plots.cpp — speeds, torques, motion of the mechanism and energies over time and over the crank's angle.
+#include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace kurbel {
 namespace {
 
 Role role_of(const Result& r, const Results& all) {
-  const bool elastic = r.model && r.model->has_springs();
+  const bool elastic = r.model && is_elastic(*r.model);
   if (!elastic) return Role::rigid;
   // Two elastic models: the first steps back.
   return all.size() > 1 && &r == all.front() ? Role::orange : Role::elastic;

@@ -1,4 +1,5 @@
 // cycle_search.cpp — from a guess to the return map's fixed point, and what is told of it.
+#include "studies/run/compare.h"
 #include "studies/steady/cycle_search.h"
 
 #include <fmt/format.h>
@@ -91,7 +92,7 @@ class Search {
   }
   void describe_model(std::shared_ptr<const Model> model) {
     out_.model = std::move(model);
-    out_.label = out_.model->has_springs() ? "elastic" : "rigid";
+    out_.label = is_elastic(*out_.model) ? "elastic" : "rigid";
   }
 
   RegimeOptions regime_options() const {

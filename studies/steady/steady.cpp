@@ -1,4 +1,5 @@
 // steady.cpp — from operating point to steady cycle to start, for every model asked for.
+#include "studies/run/compare.h"
 #include "studies/steady/steady.h"
 
 #include <fmt/format.h>
@@ -166,7 +167,7 @@ class Study {
   void find_start() {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
-      if (c.found && !c.model->has_springs()) rigid = &c;
+      if (c.found && !is_elastic(*c.model)) rigid = &c;
     if (!rigid || !out_.diagram || options_.mean_speed) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;

@@ -1,4 +1,5 @@
 // steady_findings.cpp — words, tables and plots of steady cycles.
+#include "studies/run/compare.h"
 #include "studies/steady/steady_findings.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr double per_minute = 30 / std::numbers::pi, degrees = 180 / std::number
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
-Role role_of(const SteadyCycle& c) { return !c.model->has_springs() ? Role::rigid : Role::elastic; }
+Role role_of(const SteadyCycle& c) { return !is_elastic(*c.model) ? Role::rigid : Role::elastic; }
 
 std::string complex_text(std::complex<double> z) {
   if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
