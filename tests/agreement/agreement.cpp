@@ -21,13 +21,14 @@ namespace kurbel::agreement {
 namespace {
 
 constexpr double left_by_runs = 1e-7;       // of the scale
+constexpr double settled_within = 1e-5;     // δ as `size` simulates it, by its own account, over itself
 constexpr double most_whole_periods = 100;  // of the run within a study's cycle
 
 // --- which figure of `steady` stands for which of the run: the only place that knows their names ---
 
 const Figure* figure_of(const SteadyCycle& cycle, const Name& name) {
-  const auto found = std::find_if(cycle.figures.begin(), cycle.figures.end(),
-                                  [&](const Figure& f) { return f.name == name.text; });
+  const auto found =
+      std::find_if(cycle.figures.begin(), cycle.figures.end(), [&](const Figure& f) { return f.name == name.text; });
   return found == cycle.figures.end() ? nullptr : &*found;
 }
 
@@ -39,6 +40,14 @@ using Find = std::optional<Told> (*)(const SteadyCycle&, const Measured&);
 std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
   const Figure* f = figure_of(cycle, m.name);
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+}
+// Two elements of one component may have accounts of one name: their sum.
+std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
+  std::optional<Told> sum;
+  for (const Figure& f : cycle.figures)
+    if (f.name == m.name.text)
+      sum = Told{(sum ? sum->value : 0) + f.value, (sum ? sum->error : 0) + f.error.value_or(0)};
+  return sum;
 }
 // (ω_max + ω_min)/2 by its own name, else of the two.
 std::optional<Told> mid_speed(const SteadyCycle& cycle, const Measured& m) {
@@ -66,7 +75,7 @@ constexpr Counterpart counterparts[] = {
     {QuantityKind::useful_work_per_cycle, Topic::works, by_name, true},
     {QuantityKind::harmful_work_per_cycle, Topic::works, by_name, true},
     {QuantityKind::weight_work_per_cycle, Topic::works, by_name, true},
-    {QuantityKind::work_per_cycle, Topic::works, by_name, true},
+    {QuantityKind::work_per_cycle, Topic::works, summed_by_name, true},
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -104,9 +113,11 @@ class Comparison {
       for (const Counterpart& c : counterparts)
         if (m.needed && c.what == m.name.what && std::find(topics.begin(), topics.end(), c.topic) == topics.end())
           topics.push_back(c.topic);
-    if (questions_.multipliers) topics.push_back(Topic::multipliers);
+    if (questions_.multipliers && dies_away()) topics.push_back(Topic::multipliers);
     return topics;
   }
+  // Elsewhere a phase stays behind, and no section is the same for run and disturbed run.
+  bool dies_away() const { return run_.base == Base::angle || run_.base == Base::time; }
   // What a verb throws is a refusal of all that it was asked for.
   void refusable(const std::vector<Topic>& topics, const std::function<void()>& ask) {
     try {
@@ -151,6 +162,7 @@ class Comparison {
   void judge(const Measured& m, const SteadyCycle& cycle, const std::vector<std::string>& notes) {
     for (const Counterpart& c : counterparts) {
       if (c.what != m.name.what || (c.what == QuantityKind::other && !m.needed)) continue;
+      if (c.per_cycle && run_.base == Base::none) return;  // any time is a period
       const std::optional<Told> told = c.find(cycle, m);
       if (!told) {
         if (m.needed) refuse({c.topic}, m.name.text + " is not told");
@@ -159,20 +171,20 @@ class Comparison {
       const double rounds = c.per_cycle ? periods_in(cycle) : 1;
       double study = told->value;
       if (is_peak(m.name.what)) study = std::copysign(study, m.value);  // of two equal ones either may be taken
-      compare(c.topic, m.name.text, rounds * m.value, study,
-              rounds * (m.error + left_by_runs * m.scale) + told->error, notes);
+      compare(c.topic, m.name.text, rounds * m.value, study, rounds * (m.error + left_by_runs * m.scale) + told->error,
+              notes);
       return;
     }
   }
   // A study's cycle may be several periods of the run.
   double periods_in(const SteadyCycle& cycle) const {
     const double rounds = std::round(cycle.cycle_time / run_.period);
-    const bool whole = rounds >= 1 && rounds < most_whole_periods &&
-                       std::abs(cycle.cycle_time / run_.period - rounds) < 1e-3 * rounds;
+    const bool whole =
+        rounds >= 1 && rounds < most_whole_periods && std::abs(cycle.cycle_time / run_.period - rounds) < 1e-3 * rounds;
     return whole ? rounds : 1;
   }
   void judge_multipliers(const SteadyCycle& cycle, const std::vector<std::string>& notes) {
-    if (cycle.neutral) return;
+    if (cycle.neutral || !dies_away()) return;
     const Decay decay = decay_of(run_);
     const double told = std::pow(cycle.point.largest(), 1 / periods_in(cycle));
     if (decay.measured) return compare(Topic::multipliers, "largest", decay.factor, told, decay.error + 1e-3, notes);
@@ -201,7 +213,8 @@ class Comparison {
     }
     const double allowed = error / std::abs(run_.angle);
     compare(Topic::mean_torques, "mean drive torque", driving / run_.angle, reduced.mean_drive, allowed, reduced.notes);
-    compare(Topic::mean_torques, "mean load torque", -resisting / run_.angle, reduced.mean_load, allowed, reduced.notes);
+    compare(Topic::mean_torques, "mean load torque", -resisting / run_.angle, reduced.mean_load, allowed,
+            reduced.notes);
   }
   // ½ I_r ω² at the run's speeds against the kinetic energy that the run has.
   void compare_energies(const MachineReduction& reduced, const std::vector<Place>& places) {
@@ -237,17 +250,19 @@ class Comparison {
     options.delta = 0.6 * delta->value;
     if (*options.delta < 1e-4) return;
     const Sizing sizing = size_flywheel(scene_, options);
-    if (!sizing.needed) return refuse({Topic::sized_delta}, "no flywheel is needed");
+    if (!sizing.needed)
+      return compare(Topic::sized_delta, "as it is, said to be enough", delta->value, *options.delta, 0, sizing.notes);
     const DeltaReached* told = reached_by(sizing);
-    if (!told) return refuse({Topic::sized_delta}, sizing.diagnosis.empty() ? "no δ is told as reached" : sizing.diagnosis);
+    if (!told)
+      return refuse({Topic::sized_delta}, sizing.diagnosis.empty() ? "no δ is told as reached" : sizing.diagnosis);
     const Scene sized = with_flywheel(scene_, sizing.flywheel, told->flywheel, sizing.link);
     const SettledRun run = settle(sized, scene_.effects, settings_);
     const Measured* reached = run.find(QuantityKind::delta, run_.link);
     std::vector<std::string> notes = sizing.notes;
-    if (!reached)
-      return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
+    if (!reached) return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
     compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, told->flywheel), reached->value,
-            told->crank, reached->error + told->crank_error.value_or(0) + left_by_runs, notes);
+            told->crank, reached->error + told->crank_error.value_or(0) + left_by_runs + settled_within * told->crank,
+            notes);
   }
   // Of the scene's effects: the elastic machine where something of it is elastic; by the better of the sizings.
   const DeltaReached* reached_by(const Sizing& sizing) const {

@@ -24,7 +24,19 @@ namespace kurbel::agreement {
 enum class Verdict { agrees, told, refused, silent };  // ascending: the worst counts
 const char* name_of(Verdict verdict);
 
-enum class Topic { mean_speed, mid_speed, delta, period, peaks, rms, works, multipliers, energy, mean_torques, sized_delta };
+enum class Topic {
+  mean_speed,
+  mid_speed,
+  delta,
+  period,
+  peaks,
+  rms,
+  works,
+  multipliers,
+  energy,
+  mean_torques,
+  sized_delta
+};
 inline constexpr std::size_t topic_count = 11;
 const char* name_of(Topic topic);
 

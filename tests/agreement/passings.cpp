@@ -9,6 +9,12 @@
 
 namespace kurbel::agreement {
 
+double difference(const Passing& a, const Passing& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.state.size(); ++i) most = std::max(most, std::abs(a.state[i] - b.state[i]));
+  return most;
+}
+
 double Passings::place(double t, std::span<const double> y, Equations& equations) const {
   return of_ == Of::time ? t : equations.angle_with_turns(at(equations.model().reduction_angle), y);
 }
@@ -19,7 +25,8 @@ void Passings::begin(double t, std::span<const double> y, Equations& equations) 
   scale_ = equations.error_control(1).scale;
   looked_at_.clear();
   for (std::size_t j = 0; j < m.elastic.size(); ++j)
-    if (!m.elastic[j].slips && !m.elastic[j].springless) looked_at_.push_back(equations.twist_index(static_cast<int>(j)));
+    if (!m.elastic[j].slips && !m.elastic[j].springless)
+      looked_at_.push_back(equations.twist_index(static_cast<int>(j)));
   for (std::size_t s = 0; s < m.free_shafts; ++s) looked_at_.push_back(equations.speed_index(static_cast<int>(s)));
 }
 

@@ -16,6 +16,9 @@ struct Passing {
   std::vector<double> state;  // speeds and spring twists over their scales
 };
 
+// The largest difference of speeds and twists, over their scales.
+double difference(const Passing& a, const Passing& b);
+
 // Where the link passes multiples of an angle, or time those of a period; located on the continuous solution.
 class Passings final : public Observer {
  public:

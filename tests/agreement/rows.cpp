@@ -15,8 +15,9 @@ const char* name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 const char* name_of(Topic topic) {
-  static constexpr const char* names[topic_count] = {"mean speed", "mid speed",   "δ",      "period",       "peaks",     "RMS",
-                                                     "works",      "multipliers", "energy", "mean torques", "δ as sized"};
+  static constexpr const char* names[topic_count] = {"mean speed", "mid speed",    "δ",         "period",
+                                                     "peaks",      "RMS",          "works",     "multipliers",
+                                                     "energy",     "mean torques", "δ as sized"};
   return names[static_cast<std::size_t>(topic)];
 }
 
@@ -71,11 +72,11 @@ std::vector<std::string> columns_of(const std::string& line) {
 }  // namespace
 
 std::string lines_of(const Row& row) {
-  std::string text = fmt::format("{}\t{}\t{}\t{}\n", plain(row.scene), static_cast<int>(row.kind), plain(row.regime),
-                                 row.cpu_seconds);
+  std::string text =
+      fmt::format("{}\t{}\t{}\t{}\n", plain(row.scene), static_cast<int>(row.kind), plain(row.regime), row.cpu_seconds);
   for (const Compared& c : row.figures)
-    text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\n", static_cast<int>(c.topic), plain(c.figure), c.run, c.study, c.allowed,
-                        static_cast<int>(c.verdict), plain(c.words));
+    text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\n", static_cast<int>(c.topic), plain(c.figure), c.run, c.study,
+                        c.allowed, static_cast<int>(c.verdict), plain(c.words));
   return text;
 }
 

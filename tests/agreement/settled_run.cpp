@@ -22,6 +22,7 @@ constexpr std::size_t most_places = 64;  // of one base within a period
 constexpr double same = 1e-7;            // of rated values, from one period to the next
 constexpr double near_enough = 1e-7;     // what the mean speed may still have to change, over itself
 constexpr double looser = 100;
+constexpr double looks = 61.803;  // at what may stand still, in the length of a run
 
 RunOptions options_of(double tolerance, double until, double budget) {
   RunOptions run{.tolerance = tolerance,
@@ -66,12 +67,6 @@ struct Repeat {
   double period = 0;  // [s]
   double to_come = HUGE_VAL;
 };
-
-double difference(const Passing& a, const Passing& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.state.size(); ++i) most = std::max(most, std::abs(a.state[i] - b.state[i]));
-  return most;
-}
 
 // The smallest k that the last places repeat with, seen over two periods and at three places at least.
 Repeat repeat_of(const std::vector<Passing>& p) {
@@ -132,10 +127,11 @@ class Settling {
     const double base_time = time_base(*run_.model);
     std::vector<Event> events;
     while (true) {
-      Passings by_angle(Passings::Of::angle, cycle), by_time(Passings::Of::time, base_time > 0 ? base_time : 1);
+      Passings by_angle(Passings::Of::angle, cycle), by_time(Passings::Of::time, base_time > 0 ? base_time : 1),
+          now_and_then(Passings::Of::time, (until - run_.time) / looks);
       RunOptions options = options_of(settings_.tolerance, until, settings_.budget);
       if (run_.time > 0) options.checkpoint = &run_.at;
-      std::vector<Observer*> observers = {&by_angle};
+      std::vector<Observer*> observers = {&by_angle, &now_and_then};
       if (base_time > 0) observers.push_back(&by_time);
       const RunOutcome outcome = integrate(equations, options, observers);
       if (!outcome.complete) {
@@ -150,9 +146,9 @@ class Settling {
         run_.words = "at rest";
         return;
       }
-      if (found(by_angle.list(), Base::angle) ||
-          (base_time > 0 && found(by_time.list(), Base::time)) ||
-          found(as_passings(events), Base::event))
+      if (found(by_angle.list(), Base::angle) || (base_time > 0 && found(by_time.list(), Base::time)) ||
+          found(as_passings(events), Base::event) ||
+          (nothing_changes(now_and_then.list()) && found(now_and_then.list(), Base::none)))
         return;
       if (2 * run_.time > settings_.longest || processor_time() - begin > 0.5 * settings_.budget) {
         run_.words = fmt::format("does not repeat within {:.4g} s", run_.time);
@@ -172,8 +168,18 @@ class Settling {
     run_.words = fmt::format("repeats every {} {} after {:.9g} s", repeat.k,
                              base == Base::angle  ? "cycles of the link"
                              : base == Base::time ? "periods of time"
+                             : base == Base::none ? "looks"
                                                   : "events",
                              repeat.period);
+    return true;
+  }
+
+  // Over the last quarter of the looks, which no cycle is in step with.
+  static bool nothing_changes(const std::vector<Passing>& looks_at) {
+    const std::size_t n = looks_at.size();
+    if (n < 8) return false;
+    for (std::size_t i = n - n / 4; i < n; ++i)
+      if (difference(looks_at[i], looks_at[i - 1]) > same) return false;
     return true;
   }
 
@@ -221,7 +227,7 @@ class Settling {
       if (extremes.wanted()[i].name.what == QuantityKind::min_speed) least = extremes.found()[i].value;
     }
     const double mid = 0.5 * (most + least);
-    add(w, Name::make(QuantityKind::cycle_time), run_.period, run_.period, true);
+    add(w, Name::make(QuantityKind::cycle_time), run_.period, run_.period, run_.base != Base::none);
     add(w, Name::make(QuantityKind::mean_speed, run_.link), w.angle / run_.period, scale, true);
     add(w, Name::own("mid_speed", run_.link), mid, scale, true);
     add(w, Name::make(QuantityKind::max_speed, run_.link), most, scale, false);
@@ -248,17 +254,18 @@ class Settling {
     const double scale = m.torque_scale * 2 * std::numbers::pi;
     std::map<Account, double> of_kind = {
         {Account::driving, 0}, {Account::useful, 0}, {Account::harmful, 0}, {Account::weight, 0}};
+    std::map<std::string, double> of_account;  // two elements of a component may have accounts of one name
     for (std::size_t a = 0; a < m.accounts.size(); ++a) {
       const double work = state[equations.work_index(a)];
       of_kind[m.accounts[a].kind] += work;
-      if (work != 0)
-        add(w,
-            Name::make(QuantityKind::work_per_cycle,
-                       fmt::format("{} ({})", m.accounts[a].name, name_of(m.accounts[a].kind))),
-            work, scale, std::abs(work) > 1e-6 * scale);
+      const std::string name = fmt::format("{} ({})", m.accounts[a].name, name_of(m.accounts[a].kind));
+      of_account[name] += work;
     }
+    for (const auto& [name, work] : of_account)
+      add(w, Name::make(QuantityKind::work_per_cycle, name), work, scale,
+          run_.base != Base::none && std::abs(work) > 1e-6 * scale);
     for (const auto& [kind, work] : of_kind)
-      add(w, Name::make(work_per_cycle_of(kind)), work, scale, kind != Account::weight);
+      add(w, Name::make(work_per_cycle_of(kind)), work, scale, run_.base != Base::none && kind != Account::weight);
   }
 
   // What a figure has still to change, from three periods: d₁, d₂ shrink geometrically or stay as they are.
@@ -302,83 +309,13 @@ bool SettledRun::equilibrium() const {
 }
 
 const Measured* SettledRun::find(QuantityKind what, const std::string& of) const {
-  const auto found =
-      std::find_if(figures.begin(), figures.end(), [&](const Measured& f) { return f.name.what == what && f.name.of == of; });
+  const auto found = std::find_if(figures.begin(), figures.end(),
+                                  [&](const Measured& f) { return f.name.what == what && f.name.of == of; });
   return found == figures.end() ? nullptr : &*found;
 }
 
 SettledRun settle(const Scene& scene, const Effects& effects, const SettleSettings& settings) {
   return Settling(scene, effects, settings).find();
-}
-
-namespace {
-
-std::vector<Passing> passings_from(const SettledRun& run, const Checkpoint& from, double periods, Passings::Of of,
-                                   double base, bool energies) {
-  Equations equations(run.model, false);
-  Passings passings(of, base, energies);
-  RunOptions options = options_of(1e-11, from.state.t + periods * run.period, 20);
-  options.checkpoint = &from;
-  integrate(equations, options, {&passings});
-  return passings.list();
-}
-
-// Speeds of all free shafts by a small part more: what is tied stays so.
-Checkpoint disturbed(const SettledRun& run, double part) {
-  Checkpoint checkpoint = run.at;
-  Equations equations(run.model, false);
-  for (std::size_t s = 0; s < run.model->free_shafts; ++s)
-    checkpoint.state.y[equations.speed_index(static_cast<int>(s))] *= 1 + part;
-  return checkpoint;
-}
-
-}  // namespace
-
-// At equal angles of the link, so that a phase that stays behind is none of it; at equal times where time drives.
-Decay decay_of(const SettledRun& run) {
-  constexpr int periods = 14;
-  constexpr double part = 1e-4, noise = 3e-9;
-  Decay decay;
-  const bool by_angle = run.base == Base::angle;
-  const double base = by_angle ? std::abs(run.angle) : run.period;
-  if (run.kind != Kind::repeats || !(base > 0)) return decay;
-  const auto of = by_angle ? Passings::Of::angle : Passings::Of::time;
-  const std::vector<Passing> as_it_is = passings_from(run, run.at, periods, of, base, false),
-                             aside = passings_from(run, disturbed(run, part), periods + 0.5, of, base, false);
-  std::vector<double> deviation;
-  for (std::size_t i = 0; i < std::min(as_it_is.size(), aside.size()); ++i) {
-    const double d = difference(as_it_is[i], aside[i]);
-    if (d < noise) break;
-    deviation.push_back(d);
-  }
-  const std::size_t n = deviation.size();
-  decay.periods = static_cast<int>(n);
-  if (n < 4) {
-    decay.factor = std::pow(noise / part, 1.0 / static_cast<double>(n + 1));
-    return decay;
-  }
-  const auto rate = [&](std::size_t from, std::size_t to) {
-    return std::pow(deviation[to] / deviation[from], 1.0 / static_cast<double>(to - from));
-  };
-  const std::size_t middle = n / 2;
-  decay.measured = true;
-  decay.factor = rate(middle, n - 1);
-  decay.error = std::abs(decay.factor - rate(middle - 1, n - 2)) +
-                decay.factor * 2 * noise / (deviation[n - 1] * static_cast<double>(n - 1 - middle)) + 10 * part * decay.factor;
-  return decay;
-}
-
-std::vector<Place> places_of(const SettledRun& run, double cycle, int number) {
-  const double base = cycle / number;
-  std::vector<Place> places;
-  if (run.kind != Kind::repeats || std::abs(run.angle) < 1e-9) return places;
-  const double periods = 1.2 * std::max(1.0, cycle / std::abs(run.angle));
-  for (const Passing& p : passings_from(run, run.at, periods, Passings::Of::angle, base, true)) {
-    if (static_cast<int>(places.size()) == number) break;
-    const double angle = p.angle - cycle * std::floor(p.angle / cycle + 1e-9);
-    places.push_back({std::max(0.0, angle), p.speed, p.kinetic_energy});
-  }
-  return places;
 }
 
 }  // namespace kurbel::agreement

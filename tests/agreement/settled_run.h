@@ -6,6 +6,7 @@
 //   angle   the link passes a multiple of its cycle's angle (2π where there is none)
 //   time    a law over time begins anew
 //   event   the same component does the same thing again (a table that sticks and slips)
+//   none    nothing changes, but the link stands or turns slowly: an equilibrium, looked at every so often
 // Repeats: the time from the k-th place before to this one, and speeds and spring twists there, are the same, k ≤ 64.
 // Twists of what slips and the elements' own states are not asked: some of them drift.
 #pragma once
@@ -19,7 +20,7 @@
 namespace kurbel::agreement {
 
 enum class Kind { repeats, rests, none };
-enum class Base { angle, time, event };  // what comes again
+enum class Base { angle, time, event, none };  // what comes again; none: nothing changes, so that any time is a period
 
 struct SettleSettings {
   double tolerance = 1e-10;
@@ -39,11 +40,11 @@ struct SettledRun {
   std::shared_ptr<const Model> model;
   Kind kind = Kind::none;
   Base base = Base::angle;
-  std::string words;  // how it was found, or why not
-  std::string link;   // name of the reduction link's shaft in figures
-  double period = 0;  // [s]
-  double angle = 0;   // by which the link turns in it [rad]
-  double time = 0;    // from the start until settled [s]
+  std::string words;   // how it was found, or why not
+  std::string link;    // name of the reduction link's shaft in figures
+  double period = 0;   // [s]
+  double angle = 0;    // by which the link turns in it [rad]
+  double time = 0;     // from the start until settled [s]
   double to_come = 0;  // what the mean speed has still to change, over itself
   Checkpoint at;       // settled
   std::vector<Measured> figures;
