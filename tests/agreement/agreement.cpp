@@ -1,0 +1,306 @@
+// agreement.cpp — each verb's answer held against the settled run.
+#include "tests/agreement/agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+#include "studies/reduce/reduce.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady.h"
+
+namespace kurbel::agreement {
+namespace {
+
+constexpr double left_by_runs = 1e-7;       // of the scale
+constexpr double settled_within = 1e-5;     // δ as `size` simulates it, by its own account, over itself
+constexpr double most_whole_periods = 100;  // of the run within a study's cycle
+
+// --- which figure of `steady` stands for which of the run: the only place that knows their names ---
+
+const Figure* figure_of(const SteadyCycle& cycle, const Name& name) {
+  const auto found =
+      std::find_if(cycle.figures.begin(), cycle.figures.end(), [&](const Figure& f) { return f.name == name.text; });
+  return found == cycle.figures.end() ? nullptr : &*found;
+}
+
+struct Told {
+  double value = 0, error = 0;
+};
+using Find = std::optional<Told> (*)(const SteadyCycle&, const Measured&);
+
+std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
+  const Figure* f = figure_of(cycle, m.name);
+  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+}
+// Two elements of one component may have accounts of one name: their sum.
+std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
+  std::optional<Told> sum;
+  for (const Figure& f : cycle.figures)
+    if (f.name == m.name.text)
+      sum = Told{(sum ? sum->value : 0) + f.value, (sum ? sum->error : 0) + f.error.value_or(0)};
+  return sum;
+}
+// (ω_max + ω_min)/2 by its own name, else of the two.
+std::optional<Told> mid_speed(const SteadyCycle& cycle, const Measured& m) {
+  if (const auto own = by_name(cycle, m)) return own;
+  const Figure *most = figure_of(cycle, Name::make(QuantityKind::max_speed, m.name.of)),
+               *least = figure_of(cycle, Name::make(QuantityKind::min_speed, m.name.of));
+  if (!most || !least) return {};
+  return Told{0.5 * (most->value + least->value), 0.5 * (most->error.value_or(0) + least->error.value_or(0))};
+}
+
+struct Counterpart {
+  QuantityKind what;
+  Topic topic;
+  Find find;
+  bool per_cycle = false;  // of a study's cycle of r periods of the run: r times as much
+};
+constexpr Counterpart counterparts[] = {
+    {QuantityKind::mean_speed, Topic::mean_speed, by_name},
+    {QuantityKind::other, Topic::mid_speed, mid_speed},  // the only one of the run without a kind
+    {QuantityKind::delta, Topic::delta, by_name},
+    {QuantityKind::cycle_time, Topic::period, by_name, true},
+    {QuantityKind::peak_torque, Topic::peaks, by_name},
+    {QuantityKind::rms_torque, Topic::rms, by_name},
+    {QuantityKind::driving_work_per_cycle, Topic::works, by_name, true},
+    {QuantityKind::useful_work_per_cycle, Topic::works, by_name, true},
+    {QuantityKind::harmful_work_per_cycle, Topic::works, by_name, true},
+    {QuantityKind::weight_work_per_cycle, Topic::works, by_name, true},
+    {QuantityKind::work_per_cycle, Topic::works, summed_by_name, true},
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+Verdict worse_of(bool agrees, const std::vector<std::string>& notes) {
+  return agrees ? Verdict::agrees : tells_how_much(notes) ? Verdict::told : Verdict::silent;
+}
+
+class Comparison {
+ public:
+  Comparison(const Scene& scene, const Questions& questions, const SettleSettings& settings)
+      : scene_(scene), questions_(questions), settings_(settings) {}
+
+  Row run() {
+    const double begin = processor_time();
+    run_ = settle(scene_, scene_.effects, settings_);
+    row_.kind = run_.kind;
+    row_.regime = run_.words;
+    if (run_.kind != Kind::none) {
+      if (questions_.steady) refusable(steady_topics(), [this] { ask_steady(); });
+      if (questions_.reduce && run_.kind == Kind::repeats)
+        refusable({Topic::energy, Topic::mean_torques}, [this] { ask_reduce(); });
+      if (questions_.size && run_.kind == Kind::repeats && !run_.equilibrium())
+        refusable({Topic::sized_delta}, [this] { ask_size(); });
+    }
+    row_.cpu_seconds = processor_time() - begin;
+    return std::move(row_);
+  }
+
+ private:
+  std::vector<Topic> steady_topics() const {
+    if (run_.kind == Kind::rests) return {Topic::mean_speed};
+    std::vector<Topic> topics;
+    for (const Measured& m : run_.figures)
+      for (const Counterpart& c : counterparts)
+        if (m.needed && c.what == m.name.what && std::find(topics.begin(), topics.end(), c.topic) == topics.end())
+          topics.push_back(c.topic);
+    if (questions_.multipliers && dies_away()) topics.push_back(Topic::multipliers);
+    return topics;
+  }
+  // Elsewhere a phase stays behind, and no section is the same for run and disturbed run.
+  bool dies_away() const { return run_.base == Base::angle || run_.base == Base::time; }
+  // What a verb throws is a refusal of all that it was asked for.
+  void refusable(const std::vector<Topic>& topics, const std::function<void()>& ask) {
+    try {
+      ask();
+    } catch (const SceneError& error) {
+      refuse(topics, error.what());
+    } catch (const std::invalid_argument& error) {
+      refuse(topics, error.what());
+    }
+  }
+  void refuse(const std::vector<Topic>& topics, const std::string& why) {
+    for (const Topic topic : topics)
+      row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why.empty() ? "no reason given" : why});
+  }
+  void compare(Topic topic, const std::string& figure, double run, double study, double allowed,
+               const std::vector<std::string>& notes) {
+    const Verdict verdict = worse_of(std::abs(run - study) <= allowed, notes);
+    row_.figures.push_back({topic, figure, run, study, allowed, verdict, {}});
+  }
+
+  // --- steady ---
+
+  void ask_steady() {
+    const SteadyStudy study = steady(scene_, {scene_.effects}, {.start_search = false});
+    const SteadyCycle* cycle = study.cycles.empty() ? nullptr : &study.cycles.front();
+    const std::string why = cycle && !cycle->why.empty() ? cycle->why : study.diagnosis;
+    if (run_.kind == Kind::rests) return judge_rest(study, cycle && cycle->found, why);
+    if (!cycle || !cycle->found) return refuse(steady_topics(), why);
+    for (const Measured& m : run_.figures) judge(m, *cycle, study.notes);
+    if (questions_.multipliers) judge_multipliers(*cycle, study.notes);
+  }
+  // A machine that comes to rest has no cycle: that it has none is the answer.
+  void judge_rest(const SteadyStudy& study, bool found, const std::string& why) {
+    Compared c{Topic::mean_speed, "at rest", 0, 0, 0, Verdict::agrees, why};
+    if (found) {
+      const Figure* mean = figure_of(study.cycles.front(), Name::make(QuantityKind::mean_speed, run_.link));
+      c.study = mean ? mean->value : NAN;
+      c.verdict = worse_of(mean && std::abs(mean->value) <= mean->error.value_or(0), study.notes);
+    }
+    row_.figures.push_back(std::move(c));
+  }
+  void judge(const Measured& m, const SteadyCycle& cycle, const std::vector<std::string>& notes) {
+    for (const Counterpart& c : counterparts) {
+      if (c.what != m.name.what || (c.what == QuantityKind::other && !m.needed)) continue;
+      if (c.per_cycle && run_.base == Base::none) return;  // any time is a period
+      const std::optional<Told> told = c.find(cycle, m);
+      if (!told) {
+        if (m.needed) refuse({c.topic}, m.name.text + " is not told");
+        return;
+      }
+      const double rounds = c.per_cycle ? periods_in(cycle) : 1;
+      double study = told->value;
+      if (is_peak(m.name.what)) study = std::copysign(study, m.value);  // of two equal ones either may be taken
+      compare(c.topic, m.name.text, rounds * m.value, study, rounds * (m.error + left_by_runs * m.scale) + told->error,
+              notes);
+      return;
+    }
+  }
+  // A study's cycle may be several periods of the run.
+  double periods_in(const SteadyCycle& cycle) const {
+    const double rounds = std::round(cycle.cycle_time / run_.period);
+    const bool whole =
+        rounds >= 1 && rounds < most_whole_periods && std::abs(cycle.cycle_time / run_.period - rounds) < 1e-3 * rounds;
+    return whole ? rounds : 1;
+  }
+  void judge_multipliers(const SteadyCycle& cycle, const std::vector<std::string>& notes) {
+    if (cycle.neutral || !dies_away()) return;
+    const Decay decay = decay_of(run_);
+    const double told = std::pow(cycle.point.largest(), 1 / periods_in(cycle));
+    if (decay.measured) return compare(Topic::multipliers, "largest", decay.factor, told, decay.error + 1e-3, notes);
+    if (decay.periods == 0 && decay.factor == 0) return;
+    // Too fast to be measured: it must be told as so fast.
+    const Verdict verdict = worse_of(told <= decay.factor + 1e-3, notes);
+    row_.figures.push_back({Topic::multipliers, "largest, at most", decay.factor, told, 0, verdict, {}});
+  }
+
+  // --- reduce ---
+
+  void ask_reduce() {
+    constexpr int number = 12;
+    ReduceOptions options;
+    options.positions = number;
+    const MachineReduction reduced = reduce(scene_, options);
+    compare_energies(reduced, places_of(run_, reduced.cycle, number));
+    double driving = 0, resisting = 0, error = 0;
+    for (const Measured& m : run_.figures) {
+      const bool drives = m.name.what == QuantityKind::driving_work_per_cycle;
+      if (!drives && m.name.what != QuantityKind::useful_work_per_cycle &&
+          m.name.what != QuantityKind::harmful_work_per_cycle && m.name.what != QuantityKind::weight_work_per_cycle)
+        continue;
+      (drives ? driving : resisting) += m.value;
+      error += m.error + left_by_runs * m.scale;
+    }
+    const double allowed = error / std::abs(run_.angle);
+    compare(Topic::mean_torques, "mean drive torque", driving / run_.angle, reduced.mean_drive, allowed, reduced.notes);
+    compare(Topic::mean_torques, "mean load torque", -resisting / run_.angle, reduced.mean_load, allowed,
+            reduced.notes);
+  }
+  // ½ I_r ω² at the run's speeds against the kinetic energy that the run has.
+  void compare_energies(const MachineReduction& reduced, const std::vector<Place>& places) {
+    if (reduced.to_output || places.empty() || reduced.positions.empty()) return;
+    Compared worst{Topic::energy, "", 0, 0, 0, Verdict::agrees, {}};
+    double largest = -1;
+    for (const Place& place : places) {
+      const ReducedPosition* nearest = nullptr;
+      double distance = HUGE_VAL;
+      for (const ReducedPosition& p : reduced.positions) {
+        const double apart = std::abs(std::remainder(p.phi - place.angle, reduced.cycle));
+        if (apart < distance) distance = apart, nearest = &p;
+      }
+      if (distance > 1e-6) continue;
+      const double told = 0.5 * nearest->inertia * place.speed * place.speed;
+      if (std::abs(told - place.kinetic_energy) <= largest) continue;
+      largest = std::abs(told - place.kinetic_energy);
+      worst.figure = fmt::format("at {:.4g} deg", nearest->phi * 180 / std::numbers::pi);
+      worst.run = place.kinetic_energy, worst.study = told;
+      worst.allowed = left_by_runs * std::max(place.kinetic_energy, 1e-300);
+    }
+    if (largest < 0) return;
+    worst.verdict = worse_of(largest <= worst.allowed, reduced.notes);
+    row_.figures.push_back(std::move(worst));
+  }
+
+  // --- size ---
+
+  // A flywheel for three fifths of the fluctuation that is there; what is told to be reached, put into the scene.
+  void ask_size() {
+    const Measured* delta = run_.find(QuantityKind::delta, run_.link);
+    SizeOptions options;
+    options.delta = 0.6 * delta->value;
+    if (*options.delta < 1e-4) return;
+    const Sizing sizing = size_flywheel(scene_, options);
+    if (!sizing.needed)
+      return compare(Topic::sized_delta, "as it is, said to be enough", delta->value, *options.delta, 0, sizing.notes);
+    const DeltaReached* told = reached_by(sizing);
+    if (!told)
+      return refuse({Topic::sized_delta}, sizing.diagnosis.empty() ? "no δ is told as reached" : sizing.diagnosis);
+    const Scene sized = with_flywheel(scene_, sizing.flywheel, told->flywheel, sizing.link);
+    const SettledRun run = settle(sized, scene_.effects, settings_);
+    const Measured* reached = run.find(QuantityKind::delta, run_.link);
+    std::vector<std::string> notes = sizing.notes;
+    if (!reached) return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
+    compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, told->flywheel), reached->value,
+            told->crank, reached->error + told->crank_error.value_or(0) + left_by_runs + settled_within * told->crank,
+            notes);
+  }
+  // Of the scene's effects: the elastic machine where something of it is elastic; by the better of the sizings.
+  const DeltaReached* reached_by(const Sizing& sizing) const {
+    const SizedModel wanted = run_.model->elastic.empty() ? SizedModel::rigid : SizedModel::elastic;
+    const DeltaReached* best = nullptr;
+    for (const DeltaReached& r : sizing.reached)
+      if (r.model == wanted && (!best || r.by == SizedBy::slope)) best = &r;
+    return best;
+  }
+
+  const Scene& scene_;
+  Questions questions_;
+  SettleSettings settings_;
+  SettledRun run_;
+  Row row_;
+};
+
+}  // namespace
+
+Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings) {
+  return Comparison(scene, questions, settings).run();
+}
+
+bool tells_how_much(const std::vector<std::string>& notes) {
+  static const char* const leaving[] = {"left out", "leaves out", "taken as", "counts as", "neglected", "not counted"};
+  return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    const bool leaves = std::any_of(std::begin(leaving), std::end(leaving),
+                                    [&](const char* words) { return note.find(words) != std::string::npos; });
+    return leaves && note.find_first_of("0123456789") != std::string::npos;
+  });
+}
+
+std::vector<std::string> scene_files(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    if (file.path().extension() == ".toml") found.push_back(file.path().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace kurbel::agreement

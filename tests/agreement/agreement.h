@@ -1,0 +1,88 @@
+// agreement.h — one machine under every study: `run` until it is settled against what the other verbs say of it.
+//
+// A **cell** is one scene and one topic. Each figure of the topic is held against the run, and the worst decides:
+//   agrees   |run − study| ≤ e_run + e_study + 1e-7 · scale
+//            e_run    of the settled run (settled_run.h);  e_study  stated by the study, 0 where it states none
+//            scale    rated quantity of the figure;  1e-7  what a run to 1e-10 a step, settled to 1e-7, leaves
+//   told     it does not, and the study says what it leaves out and how much that is: a note of what is left out or
+//            taken otherwise, with a number
+//   refused  the study answers no question of this scene, or not this one, and says why
+//   silent   it does not agree, and nothing is said
+// A scene whose run never settles is not judged; neither is a topic that has nothing to compare (no coupling, no
+// flywheel to size because the speed does not vary).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/agreement/settled_run.h"
+
+namespace kurbel::agreement {
+
+enum class Verdict { agrees, told, refused, silent };  // ascending: the worst counts
+const char* name_of(Verdict verdict);
+
+enum class Topic {
+  mean_speed,
+  mid_speed,
+  delta,
+  period,
+  peaks,
+  rms,
+  works,
+  multipliers,
+  energy,
+  mean_torques,
+  sized_delta
+};
+inline constexpr std::size_t topic_count = 11;
+const char* name_of(Topic topic);
+
+struct Compared {
+  Topic topic = Topic::mean_speed;
+  std::string figure;
+  double run = 0, study = 0;
+  double allowed = 0;  // by which they may differ
+  Verdict verdict = Verdict::agrees;
+  std::string words;  // why it was refused, or what was told
+};
+
+struct Row {
+  std::string scene;
+  Kind kind = Kind::none;
+  std::string regime;  // of the run, in words
+  std::vector<Compared> figures;
+  double cpu_seconds = 0;
+
+  // The worst figure of a topic; null: nothing is compared.
+  const Compared* cell(Topic topic) const;
+};
+
+// Which verbs are asked.
+struct Questions {
+  bool steady = true, multipliers = true, reduce = true, size = true;
+};
+
+// Throws SceneError where the scene makes no machine.
+Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings = {});
+
+// Names of tests/agreement/*.toml, in alphabetic order. Templates are files of scenes/.
+std::vector<std::string> scene_files(const std::string& folder);
+
+// Notes that say what is left out, and how much that is.
+bool tells_how_much(const std::vector<std::string>& notes);
+
+struct Totals {
+  std::array<std::size_t, 4> of{};  // per verdict
+  std::size_t cells = 0, unsettled = 0;
+  double share(Verdict verdict) const;
+};
+Totals totals_of(const std::vector<Row>& rows);
+
+// Rows as lines of text, for processes that measure apart, and back.
+std::string lines_of(const Row& row);
+Row read_row(const std::string& lines);
+
+}  // namespace kurbel::agreement
