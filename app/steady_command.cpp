@@ -29,10 +29,10 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   if (arguments.periods < 1 || arguments.periods > 64)
     throw std::invalid_argument(fmt::format("--periods {}: must be 1 … 64", arguments.periods));
   options.periods = arguments.periods;
-  options.at = moment_of(arguments.at, options.mean_speed);
+  options.at = moment_of(arguments.at, options.mid_speed);
   if (!arguments.mid_speed.empty()) {
-    options.mean_speed = quantity_of("--mid-speed", arguments.mid_speed, "a speed other than 0", "60 rpm", any_number);
-    if (*options.mean_speed == 0)
+    options.mid_speed = quantity_of("--mid-speed", arguments.mid_speed, "a speed other than 0", "60 rpm", any_number);
+    if (*options.mid_speed == 0)
       throw std::invalid_argument(
           fmt::format("--mid-speed \"{}\": must be a speed other than 0, e.g. \"60 rpm\"", arguments.mid_speed));
   }

@@ -1,6 +1,6 @@
 // cycle_search.cpp — from a guess to the return map's fixed point, and what is told of it.
-#include "studies/run/compare.h"
 #include "studies/steady/cycle_search.h"
+#include "studies/run/compare.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ class LinkSpeed {
  public:
   explicit LinkSpeed(const Model& m) : recorder_(wanted(m)) {}
   Observer* observer() { return &recorder_; }
-  double mean() const { return 0.5 * (recorder_.found()[0].value + recorder_.found()[1].value); }
+  double mid() const { return 0.5 * (recorder_.found()[0].value + recorder_.found()[1].value); }
 
  private:
   static std::vector<ExtremeOf> wanted(const Model& m) {
@@ -67,8 +67,8 @@ class Search {
   SteadyCycle run() {
     const double begin = processor_time();
     out_.effects = effects_.describe();
-    if (options_.mean_speed) {
-      at_speed(*options_.mean_speed);
+    if (options_.mid_speed) {
+      at_speed(*options_.mid_speed);
     } else {
       freely();
     }
@@ -201,7 +201,7 @@ class Search {
     cost_ += map.cost();
     if (image_.end != ReturnMap::End::returned) return false;
     residual.resize(n + 1);
-    residual << image_.z - x.head(n), (link.mean() - speed) / std::abs(speed);
+    residual << image_.z - x.head(n), (link.mid() - speed) / std::abs(speed);
     return true;
   }
 
@@ -279,7 +279,7 @@ class Search {
     ReturnMap loose(out_.model, map_options(looser_tolerance));
     loose.follow(*map_);
     SteadyPoint point = out_.point;
-    if (!out_.neutral && !options_.mean_speed) point = find_steady(loose, out_.point.z, enough * 100);
+    if (!out_.neutral && !options_.mid_speed) point = find_steady(loose, out_.point.z, enough * 100);
     if (!point.found) return;
     const Round other = go_round(loose, point, looser_tolerance);
     for (Figure& f : fine.figures)

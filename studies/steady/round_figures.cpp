@@ -159,6 +159,7 @@ class RoundFigures {
                    .progress = {}};
     std::vector<double> y = map.place(equations_, point.z);
     run.stop = map.round_end(equations_, y);
+    begin_ = equations_.angle_with_turns(at(m_.reduction_angle), y);
     y.resize(drives_.size(), 0.0);
     run.from = {map.start_time(), y};
     run.extension = &drives_;
@@ -186,11 +187,13 @@ class RoundFigures {
       ShaftFluctuation f{shafts[i].name, m_.node_ratio[at(shafts[i].node)], extremes_.found()[2 * i].value,
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
-        add(Name::make(QuantityKind::mean_speed, f.shaft), f.mean(), "rad/s", m_.speed_scale);
+        const double turned = equations_.angle_with_turns(at(m_.reduction_angle), outcome_.state) - begin_;
+        add(Name::make(QuantityKind::mean_speed, f.shaft), turned / time, "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::mid_speed, f.shaft), f.mid(), "rad/s", m_.speed_scale);
         add(Name::make(QuantityKind::max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
         add(Name::make(QuantityKind::min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
       }
-      add(Name::make(QuantityKind::delta, f.shaft), f.delta(), "", 1);
+      if (const auto delta = f.delta()) add(Name::make(QuantityKind::delta, f.shaft), *delta, "", 1);
       round_.shafts.push_back(std::move(f));
     }
   }
@@ -252,6 +255,7 @@ class RoundFigures {
   ExtremeRecorder extremes_;
   Equations equations_;
   DriveQuadratures drives_;
+  double begin_ = 0;  // angle of the link [rad]
   RunOutcome outcome_;
   Round round_;
 };

@@ -1,6 +1,6 @@
 // steady.cpp — from operating point to steady cycle to start, for every model asked for.
-#include "studies/run/compare.h"
 #include "studies/steady/steady.h"
+#include "studies/run/compare.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ class Study {
     out_.title = scene_.heading();
     out_.scene_file = scene_.file;
     out_.link = model->node_label(model->reduction_node);
-    out_.mean_speed = options_.mean_speed;
+    out_.mid_speed = options_.mid_speed;
     find_diagram(*model);
     refuse_family();
     for (const Effects& effects : effects_) find_cycle(effects);
@@ -99,14 +99,14 @@ class Study {
     return {};
   }
   int sense() const {
-    const double speed = options_.mean_speed.value_or(scene_.run.start.speed);
+    const double speed = options_.mid_speed.value_or(scene_.run.start.speed);
     const StartSettings& start = scene_.run.start;
     const int on =
-        start.on.empty() || options_.mean_speed ? rigid_->reduction_node : rigid_->network.ports.at(start.on).in;
+        start.on.empty() || options_.mid_speed ? rigid_->reduction_node : rigid_->network.ports.at(start.on).in;
     return speed / rigid_->node_ratio[at(on)] < 0 ? -1 : 1;
   }
   void refuse_family() const {
-    if (out_.diagram && !out_.diagram->uses_speed && !options_.mean_speed)
+    if (out_.diagram && !out_.diagram->uses_speed && !options_.mid_speed)
       throw std::invalid_argument(family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link));
   }
 
@@ -136,7 +136,7 @@ class Study {
 
   // The mean torques tell why there can be none; else what the machine did.
   std::string diagnose(const SteadyCycle& cycle) const {
-    if (is_interrupted(cycle) || !out_.diagram || options_.mean_speed) return cycle.why;
+    if (is_interrupted(cycle) || !out_.diagram || options_.mid_speed) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint& p = *out_.diagram->working_point();
     if (cycle.kind == Regime::Kind::at_rest)
@@ -168,7 +168,7 @@ class Study {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
       if (c.found && !is_elastic(*c.model)) rigid = &c;
-    if (!rigid || !out_.diagram || options_.mean_speed) return;
+    if (!rigid || !out_.diagram || options_.mid_speed) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
@@ -186,10 +186,11 @@ class Study {
     for (const SteadyCycle& c : out_.cycles) {
       const Figure* mean = c.find("mean_speed." + out_.link);
       const Figure* delta = c.find("delta." + out_.link);
-      text += fmt::format("{}{}: mean speed {}, δ = {}, {}", text.empty() ? "Steady cycle, " : "; ", c.label,
+      const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, " : "Steady cycle, ";
+      text += fmt::format("{}{}: mean speed {}{}, {}", text.empty() ? begin : "; ", c.label,
                           with_error(mean->value * 30 / std::numbers::pi, scaled(mean->error), "rpm"),
-                          with_error(delta->value, delta->error, ""), c.stability);
-      if (options_.mean_speed)
+                          delta ? ", δ = " + with_error(delta->value, delta->error, "") : "", c.stability);
+      if (options_.mid_speed)
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);

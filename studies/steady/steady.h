@@ -18,11 +18,11 @@ namespace kurbel {
 struct Traces;
 
 struct SteadyOptions {
-  std::optional<double> mean_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
-  Moment at = {};                         // as the machine is then; default: when all is switched
-  int periods = 1;                        // cycles after which the motion repeats
-  bool traces = false;                    // for plots
-  bool start_search = true;               // start from rest and the gearbox ratio that starts fastest
+  std::optional<double> mid_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
+  Moment at = {};                        // as the machine is then; default: when all is switched
+  int periods = 1;                       // cycles after which the motion repeats
+  bool traces = false;                   // for plots
+  bool start_search = true;              // start from rest and the gearbox ratio that starts fastest
   Watch watch = {};
 };
 
@@ -31,8 +31,12 @@ struct ShaftFluctuation {
   std::string shaft;  // "motor", "gearbox.in"
   double ratio = 1;   // of its mean speed to the link's
   double max = 0, min = 0;
-  double mean() const { return 0.5 * (max + min); }
-  double delta() const { return (max - min) / std::abs(mean()); }  // also of a shaft that turns backwards
+  double mid() const { return 0.5 * (max + min); }
+  // Also of a shaft that turns backwards; none of one that stands or swings to and fro.
+  std::optional<double> delta() const {
+    if (!(max * min > 0)) return {};
+    return (max - min) / std::abs(mid());
+  }
 };
 
 struct MotorUse {
@@ -78,7 +82,7 @@ struct SteadyCycle {
 
 struct SteadyStudy {
   std::string title, scene_file, link;
-  std::optional<double> mean_speed;
+  std::optional<double> mid_speed;
   std::optional<OperatingDiagram> diagram;  // none where time drives or a speed is prescribed
   std::string no_diagram;                   // why
   std::vector<SteadyCycle> cycles;          // of the models asked for

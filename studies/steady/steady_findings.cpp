@@ -1,6 +1,6 @@
 // steady_findings.cpp — words, tables and plots of steady cycles.
-#include "studies/run/compare.h"
 #include "studies/steady/steady_findings.h"
+#include "studies/run/compare.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   words.push_back(c.stability);
   if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
   words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' worth "
+      "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' "
+      "worth "
       "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees,
       c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
@@ -153,7 +154,8 @@ Rows shaft_table(const SteadyStudy& s) {
   table.only_for_people("ratio to the link", [&](std::size_t i) { return first[i].ratio; }, {.digits = 5});
   for (const SteadyCycle& c : s.cycles)
     if (c.found) {
-      table.only_for_people("mean [1/min], " + c.label, [&](std::size_t i) { return per_minute * c.shafts[i].mean(); });
+      table.only_for_people("mid speed [1/min], " + c.label,
+                            [&](std::size_t i) { return per_minute * c.shafts[i].mid(); });
       table.only_for_people("δ, " + c.label, [&](std::size_t i) { return c.shafts[i].delta(); });
     }
   return table;

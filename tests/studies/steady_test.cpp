@@ -121,7 +121,7 @@ TEST(Steady, FamilyAsksForTheMeanSpeedAndSaysWhy) {
 // T = ½ I ω² stays: ω_max/ω_min = √(I_max/I_min) = √(0.6028418696/0.5600826531), and the mean is the one demanded.
 TEST(Steady, MemberOfTheFreeCranksFamilyKeepsItsEnergy) {
   const SteadyStudy study =
-      steady(scene_file("scenes/free_slider_crank.toml"), {Effects{}}, {.mean_speed = 25, .start_search = false});
+      steady(scene_file("scenes/free_slider_crank.toml"), {Effects{}}, {.mid_speed = 25, .start_search = false});
   ASSERT_TRUE(study.complete) << study.diagnosis;
   const SteadyCycle& c = study.cycles[0];
   const double max = value_of(c, "max_speed.crank"), min = value_of(c, "min_speed.crank");
@@ -140,19 +140,19 @@ TEST(Steady, DemandedSpeedOfAFamilyNeedsTheMeanLoadTorque) {
   const std::string why = thrown_by(scene);
   EXPECT_TRUE(has(why, "slows down")) << why;
   for (const double speed : {18.0, 30.0}) {
-    const SteadyStudy study = steady(scene, {Effects{}}, {.mean_speed = speed, .start_search = false});
+    const SteadyStudy study = steady(scene, {Effects{}}, {.mid_speed = speed, .start_search = false});
     ASSERT_TRUE(study.complete) << study.diagnosis;
     EXPECT_NEAR(study.cycles[0].added_torque, 200 / (2 * pi) - 20, 1e-8);
     EXPECT_TRUE(study.cycles[0].neutral);
-    EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.crank"), speed, 1e-8);
+    EXPECT_NEAR(value_of(study.cycles[0], "mid_speed.crank"), speed, 1e-8);
   }
 }
 
 TEST(Steady, DemandedSpeedOfAnElasticMachineIsReached) {
   const Scene scene = scene_file("scenes/compressor.toml");
-  const SteadyStudy study = steady(scene, {scene.effects}, {.mean_speed = 70, .start_search = false});
+  const SteadyStudy study = steady(scene, {scene.effects}, {.mid_speed = 70, .start_search = false});
   ASSERT_TRUE(study.complete) << study.diagnosis;
-  EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.compressor"), 70, 1e-8);
+  EXPECT_NEAR(value_of(study.cycles[0], "mid_speed.compressor"), 70, 1e-8);
   EXPECT_LE(study.cycles[0].cost, study.cycles[0].cost_limit);
 }
 
@@ -161,7 +161,7 @@ TEST(Steady, MeanSpeedOfAMachineThatTimeDrivesIsRefused) {
       "line = [\"drive\", \"crank\"]\ndrive = { kind = \"prescribed speed\", speed = \"20 "
       "rad/s\" }\n" +
       crank + " }\n");
-  EXPECT_TRUE(has(thrown_by(scene, {.mean_speed = 10}), "time drives"));
+  EXPECT_TRUE(has(thrown_by(scene, {.mid_speed = 10}), "time drives"));
 }
 
 // --- no steady cycle ---
