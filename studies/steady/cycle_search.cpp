@@ -21,7 +21,8 @@ namespace kurbel {
 namespace {
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
-constexpr double enough = 1e-11;          // residual of the map, over the rated values
+constexpr double enough = 1e-11;  // residual of the map, over the rated values
+constexpr double rounding_of_multipliers = 1e-12;
 constexpr double neutral_within = 1e-6;   // of 1
 constexpr double regime_cost_limit = 40;  // cycles
 
@@ -55,6 +56,12 @@ class LinkSpeed {
   }
   ExtremeRecorder recorder_;
 };
+
+double nearest_of(const std::vector<std::complex<double>>& list, std::complex<double> wanted) {
+  double least = HUGE_VAL;
+  for (const std::complex<double>& z : list) least = std::min(least, std::abs(z - wanted));
+  return least;
+}
 
 // One model of the study.
 class Search {
@@ -281,6 +288,9 @@ class Search {
     SteadyPoint point = out_.point;
     if (!out_.neutral && !options_.mid_speed) point = find_steady(loose, out_.point.z, enough * 100);
     if (!point.found) return;
+    for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
+      out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
+                                       rounding_of_multipliers);
     const Round other = go_round(loose, point, looser_tolerance);
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)

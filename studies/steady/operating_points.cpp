@@ -31,7 +31,7 @@ std::string speed_text(double omega) { return with_unit(std::abs(omega) * 30 / s
 
 }  // namespace
 
-MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction)
+MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction, int finer)
     : machine_(machine), direction_(direction) {
   std::vector<double> ends = machine.edges(direction);
   ends.push_back(0);
@@ -40,7 +40,7 @@ MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction)
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double length = ends[i + 1] - ends[i];
     if (length < 1e-12) continue;
-    const int parts = static_cast<int>(std::ceil(length / widest_interval));
+    const int parts = finer * static_cast<int>(std::ceil(length / widest_interval));
     for (int k = 0; k < parts; ++k) {
       begin_.push_back(ends[i] + length * k / parts);
       width_.push_back(length / parts);
@@ -96,6 +96,25 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
       link);
 }
 
+namespace {
+
+// What twice as many intervals say at the same speeds; a speed is off by the rest of the balance over its slope.
+void measure_errors(RigidMachine& machine, OperatingDiagram& found) {
+  MeanCharacteristic finer(machine, found.direction, 2);
+  for (OperatingPoint& point : found.points) {
+    const MeanTorques mean = finer.at(point.mean.omega);
+    const double slope = std::abs(point.drive_slope - point.load_slope);
+    const double rounding = 1e-14 * std::abs(point.mean.load);
+    if (slope > 0) point.speed_error = (std::abs(mean.net() - point.mean.net()) + rounding) / slope;
+    point.torque_error =
+        std::abs(mean.load - point.mean.load) + std::abs(point.load_slope) * point.speed_error + rounding;
+  }
+  found.strongest_error = std::abs(finer.at(found.strongest.omega).drive - found.strongest.drive) +
+                          1e-9 * std::abs(found.strongest.drive);  // of the golden section
+}
+
+}  // namespace
+
 OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
   OperatingDiagram result;
   result.direction = direction;
@@ -127,6 +146,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
     point.load_slope = (above.load - below.load) / (2 * h);
     result.points.push_back(point);
   }
+  measure_errors(machine, result);
   return result;
 }
 
@@ -161,7 +181,7 @@ double link_start_angle(const Model& m) {
 }  // namespace
 
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
-                         const std::atomic<bool>* interrupted, int node) {
+                         const std::atomic<bool>* interrupted, int node, bool with_error) {
   Equations equations(rigid, false);
   const Model& m = *rigid;
   StartSettings settings{};
@@ -178,7 +198,12 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   };
   SpeedLog log;
   const RunOutcome outcome = integrate(equations, run, {&log});
-  StartRun result{outcome.stopped, outcome.t, std::move(log.t), std::move(log.w), outcome.diagnosis};
+  StartRun result{outcome.stopped, outcome.t, 0, std::move(log.t), std::move(log.w), outcome.diagnosis};
+  if (result.reached && with_error) {
+    run.tolerance *= 100;
+    run.from = {0, equations.start(0, settings)};
+    result.error = std::abs(integrate(equations, run, {}).t - result.time) + 1e-12 * result.time;
+  }
   if (result.reached || !result.why.empty()) return result;
   result.why =
       fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
@@ -229,7 +254,7 @@ class RatioTrial {
     Network net = network_;
     net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
     const auto model = compile_network(std::move(net), scene_, rigid_effects());
-    const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_);
+    const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_, false);
     const double time = run.reached ? run.time : HUGE_VAL;
     tried_.emplace_back(ratio, time);
     return time;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,8 +26,8 @@ struct MeanTorques {
 // Gauss–Legendre between the load edges.
 class MeanCharacteristic {
  public:
-  // direction: ±1, of the link's rotation.
-  MeanCharacteristic(RigidMachine& machine, int direction);
+  // direction: ±1, of the link's rotation; finer: so many times as many intervals.
+  MeanCharacteristic(RigidMachine& machine, int direction, int finer = 1);
   MeanTorques at(double omega);  // |omega| > 0
 
  private:
@@ -37,14 +38,16 @@ class MeanCharacteristic {
 
 struct OperatingPoint {
   MeanTorques mean;
-  double drive_slope = 0, load_slope = 0;  // dM̄/d|ω| [N·m·s/rad]
+  double drive_slope = 0, load_slope = 0;    // dM̄/d|ω| [N·m·s/rad]
+  double speed_error = 0, torque_error = 0;  // against twice as many intervals [rad/s], [N·m]
   bool stable() const { return drive_slope < load_slope; }
 };
 
 struct OperatingDiagram {
   std::vector<MeanTorques> curve;  // over |ω|, ascending
   std::vector<OperatingPoint> points;
-  MeanTorques strongest;  // where the drive's mean torque is greatest (breakdown; of a shunt motor: at standstill)
+  MeanTorques strongest;       // where the drive's mean torque is greatest (breakdown; of a shunt motor: at standstill)
+  double strongest_error = 0;  // of its torque [N·m]
   bool uses_speed = true;
   int direction = 1;
 
@@ -52,6 +55,9 @@ struct OperatingDiagram {
   const OperatingPoint* working_point() const;
   // Greatest over needed mean torque at the working point, 1 = none to spare.
   double margin(const OperatingPoint& point) const { return strongest.drive / point.mean.load; }
+  double margin_error(const OperatingPoint& point) const {
+    return (strongest_error + std::abs(margin(point)) * point.torque_error) / std::abs(point.mean.load);
+  }
   // Why there is no working point: stall (and by how much the drive is too weak) or runaway. Empty where there is one.
   std::string why_none(const std::string& link) const;
 };
@@ -65,12 +71,13 @@ bool is_switched(const Network& network);
 struct StartRun {
   bool reached = false;
   double time = 0;           // from rest to the target [s]
+  double error = 0;          // against a hundred times looser steps [s]
   std::vector<double> t, w;  // the link's speed on the way [s, rad/s]
   std::string why;           // where it was not reached
 };
 // A rigid model from rest at the scene's start angle until a node (−1: the link) turns at `target` [rad/s].
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
-                         const std::atomic<bool>* interrupted = nullptr, int node = -1);
+                         const std::atomic<bool>* interrupted = nullptr, int node = -1, bool with_error = true);
 
 // Ratio of the gearbox between motor and machine with which the machine's shaft starts fastest under constant torques:
 //     α = (η i T_m − T_c)/(J + η i² J_m)  is greatest at  i = [T_c + √(T_c² + η T_m² J/J_m)]/(η T_m)

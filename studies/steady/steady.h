@@ -61,14 +61,15 @@ struct SteadyCycle {
   double section = 0;  // angle of the link where the map is taken [rad]
   SteadyPoint point;
   std::size_t unknowns = 0;
-  int rounds = 0;                   // of the run, before Newton's method took over
-  double cost = 0, cost_limit = 0;  // of the search, run included [cycles]
-  double cycle_time = 0;            // of one round [s]
-  std::string stability;            // in words
-  std::optional<double> halving;    // cycles in which the slowest deviation halves
-  bool neutral = false;             // a multiplier of 1: one of a family
-  bool uncertain = false;           // the derivative of the map, and with it the stability
-  std::vector<Figure> figures;      // with errors measured by a looser search
+  int rounds = 0;                         // of the run, before Newton's method took over
+  double cost = 0, cost_limit = 0;        // of the search, run included [cycles]
+  double cycle_time = 0;                  // of one round [s]
+  std::string stability;                  // in words
+  std::optional<double> halving;          // cycles in which the slowest deviation halves
+  std::vector<double> multiplier_errors;  // against a looser search; empty: not known
+  bool neutral = false;                   // a multiplier of 1: one of a family
+  bool uncertain = false;                 // the derivative of the map, and with it the stability
+  std::vector<Figure> figures;            // with errors measured by a looser search
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;
   double work_residual = 0;  // of the cycle's works against each other, over the driving work

@@ -71,15 +71,17 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
-    words.push_back(fmt::format("operating point {} rpm at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                                number(p.mean.omega * per_minute, 6), with_unit(p.mean.load, "N*m", 6),
-                                p.stable() ? "stable" : "unstable", beside(p.drive_slope, p.load_slope),
-                                p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
+    words.push_back(fmt::format("operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+                                with_error(p.mean.omega * per_minute, p.speed_error * per_minute, "rpm"),
+                                with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
+                                beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥",
+                                beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format(
-        "margin: the drive gives at most {} in the mean (at {} rpm), {}", with_unit(d.strongest.drive, "N*m", 5),
-        number(d.strongest.omega * per_minute, 5),
-        std::isfinite(d.margin(*p)) ? number(d.margin(*p), 4) + " times what it needs" : "and it needs nothing"));
+    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {} rpm), {}",
+                                with_unit(d.strongest.drive, "N*m", 5), number(d.strongest.omega * per_minute, 5),
+                                std::isfinite(d.margin(*p))
+                                    ? with_error(d.margin(*p), d.margin_error(*p), "") + " times what it needs"
+                                    : "and it needs nothing"));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }
@@ -88,7 +90,7 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
   std::vector<std::string> words;
   if (s.start)
     words.push_back(s.start->reached ? fmt::format("start: from rest to 95 % of the steady speed in {}",
-                                                   with_unit(s.start->time, "s", 5))
+                                                   with_error(s.start->time, s.start->error, "s"))
                                      : "start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
@@ -131,17 +133,24 @@ Rows figure_table(const SteadyStudy& s) {
   });
 }
 
-RowsOf<std::complex<double>> multiplier_table(const SteadyCycle& c) {
-  const auto magnitude = [](const std::complex<double>& m) { return std::abs(m); };
-  return table_of("", fmt::format("Floquet multipliers, {} model", c.label), c.point.multipliers)
-      .fold(c.point.multipliers.size() > 6)
+// By number, largest first; halving is told within what the error leaves of it.
+auto multiplier_table(const SteadyCycle& c) {
+  const std::vector<std::complex<double>>& all = c.point.multipliers;
+  const auto error = [&c](std::size_t i) {
+    return i < c.multiplier_errors.size() ? std::optional(c.multiplier_errors[i]) : std::nullopt;
+  };
+  return table_of("", fmt::format("Floquet multipliers, {} model", c.label), numbers_below(all.size()))
+      .fold(all.size() > 6)
       .not_on_terminal()
       .always()
-      .only_for_people("multiplier", complex_text)
-      .only_for_programs("real", [](const std::complex<double>& m) { return m.real(); })
-      .only_for_programs("imaginary", [](const std::complex<double>& m) { return m.imag(); })
-      .column("magnitude", "magnitude", magnitude)
-      .only_for_people("halves in cycles", magnitude, [](double size) {
+      .only_for_people("multiplier", [&](std::size_t i) { return complex_text(all[i]); })
+      .only_for_programs("real", [&](std::size_t i) { return all[i].real(); })
+      .only_for_programs("imaginary", [&](std::size_t i) { return all[i].imag(); })
+      .column("magnitude", "magnitude", [&](std::size_t i) { return std::abs(all[i]); })
+      .only_for_people("error", [&, error](std::size_t i) { return error_cell(std::abs(all[i]), error(i)); })
+      .only_for_programs("error", error)
+      .only_for_people("halves in cycles", [&](std::size_t i) {
+        const double size = std::abs(all[i]);
         return size < 1 - 1e-6 && size > 0 ? number(std::log(2.0) / -std::log(size), 4) : std::string("—");
       });
 }
@@ -204,8 +213,9 @@ Record cycle_record(const SteadyCycle& c) {
 }
 
 Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  return {{"speed", p.mean.omega},      {"torque", p.mean.load}, {"drive_slope", p.drive_slope},
-          {"load_slope", p.load_slope}, {"stable", p.stable()},  {"margin", d.margin(p)}};
+  return {{"speed", p.mean.omega},        {"torque", p.mean.load},          {"drive_slope", p.drive_slope},
+          {"load_slope", p.load_slope},   {"stable", p.stable()},           {"margin", d.margin(p)},
+          {"speed_error", p.speed_error}, {"torque_error", p.torque_error}, {"margin_error", d.margin_error(p)}};
 }
 
 Record ratio_record(const RatioSearch& r) {
@@ -352,7 +362,10 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
                            mean->error ? std::optional(*mean->error * per_minute) : std::nullopt});
     if (const Figure* delta = c.find("delta." + s.link))
       f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error});
-    f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "", {}, c.stability, 4});
+    if (!c.point.multipliers.empty())
+      f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "",
+                           c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front()),
+                           c.stability, 4});
   }
   if (const SteadyCycle& last = s.cycles.back(); last.found)
     for (const MotorUse& m : last.motors)
@@ -384,7 +397,9 @@ void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
          s.diagram ? each(s.diagram->points, [&](const OperatingPoint& p) { return operating_point(*s.diagram, p); })
                    : List{});
   if (s.start)
-    f.tell("start", Record{{"reached", s.start->reached}, {"time", s.start->reached ? Value(s.start->time) : Value()}});
+    f.tell("start", Record{{"reached", s.start->reached},
+                           {"time", s.start->reached ? Value(s.start->time) : Value()},
+                           {"error", s.start->reached ? Value(s.start->error) : Value()}});
   f.tell("fastest_ratios", each(s.ratios, ratio_record));
 }
 

@@ -124,5 +124,36 @@ TEST(Regime, OfExampleScenesComesAgain) {
   }
 }
 
+// From where a machine starts decides no more than on which cycle it ends: here there is one.
+TEST(Regime, IsTheSameFromDifferentStarts) {
+  Scene scene = scene_file("scenes/crank_press.toml");
+  const double rated = scene.run.start.speed;
+  double time = 0;
+  for (const double part : {1.0, 0.7, 0.95, 1.05}) {
+    scene.run.start.speed = part * rated;
+    const Regime regime = regime_of(scene);
+    ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+    if (time == 0) time = regime.point.time;
+    EXPECT_NEAR(regime.point.time, time, 1e-9 * time) << part;
+  }
+}
+
+// Rubber's branches are states: their creep is among the unknowns, with the multiplier that a disturbed round has.
+TEST(Regime, OwnStatesAreAmongTheUnknowns) {
+  const Scene scene = scene_from(std::string("line = [\"motor\", \"rubber\", \"crank\"]\n") + dc_motor +
+                                 "rubber = { kind = \"rubber coupling\", stiffness = \"2 kN*m/rad\", branches = [{ "
+                                 "stiffness = \"0.8 kN*m/rad\", time = \"20 ms\" }] }\n"
+                                 "crank = { kind = \"slider-crank\", radius = \"100 mm\", rod = \"350 mm\", "
+                                 "crank_inertia = \"0.5 kg*m2\", slider_mass = \"3 kg\" }\n"
+                                 "[effects]\nelasticity = true\nrelaxation = true\n"
+                                 "[run]\nstart = { speed = \"30 rad/s\" }\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_EQ(regime.map->size(), 4u);  // twist, creep, two speeds
+  const Eigen::VectorXd beside = regime.point.z + 1e-4 * Eigen::VectorXd::Ones(4);
+  const Eigen::VectorXd back = regime.map->image(beside, false).z - regime.point.z;
+  EXPECT_LT((back - regime.point.derivative * (beside - regime.point.z)).cwiseAbs().maxCoeff(), 1e-7);
+}
+
 }  // namespace
 }  // namespace kurbel::test
