@@ -15,10 +15,11 @@
 namespace kurbel {
 namespace {
 
-constexpr double overlap = 0.02;          // of a round, by which the first run goes on
-constexpr double slowest = 20;            // a round may take this many times what it takes at the guessed speed
-constexpr double difference_step = 2e-5;  // of unknowns of order one
-constexpr double grazes = 0.05;           // that differences to either side differ, of the greatest of them
+constexpr std::size_t most_unknowns = 400;  // the derivative is full
+constexpr double overlap = 0.02;            // of a round, by which the first run goes on
+constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
+constexpr double difference_step = 2e-5;    // of unknowns of order one
+constexpr double grazes = 0.05;             // that differences to either side differ, of the greatest of them
 
 Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -77,6 +78,11 @@ ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions option
 void ReturnMap::take_period(const Periodicity& periodicity) {
   if (options_.cycles < 1) throw std::invalid_argument(fmt::format("{} cycles; must be ≥ 1", options_.cycles));
   const Model& m = *shared_;
+  if (const std::size_t unknowns = m.state_count() - m.angle_count(); unknowns > most_unknowns)
+    throw std::invalid_argument(fmt::format(
+        "a steady cycle is sought for up to {} twists, speeds and own states; this model has {}. Switch elasticity off "
+        "where it matters least (--effects), or simulate with kurbel run",
+        most_unknowns, unknowns));
   periodicity_ = periodicity;
   variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty();
   set_pace(m.speed_scale);

@@ -32,7 +32,7 @@ struct ReturnMapOptions {
 
 class ReturnMap {
  public:
-  // Throws std::invalid_argument where the machine has no section (see periodicity_of).
+  // Throws std::invalid_argument where the machine has no section (see periodicity_of), or more than 400 unknowns.
   ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options);
   // Of a machine that swings by itself, or by its repeated sequence, with a period [s] that only its motion tells.
   ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options, double own_period);

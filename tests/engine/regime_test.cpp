@@ -142,7 +142,7 @@ TEST(Regime, IsTheSameFromDifferentStarts) {
 TEST(Regime, OwnStatesAreAmongTheUnknowns) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"rubber\", \"crank\"]\n") + dc_motor +
                                  "rubber = { kind = \"rubber coupling\", stiffness = \"2 kN*m/rad\", branches = [{ "
-                                 "stiffness = \"0.8 kN*m/rad\", time = \"20 ms\" }] }\n"
+                                 "stiffness = \"0.8 kN*m/rad\", relaxation_time = \"20 ms\" }] }\n"
                                  "crank = { kind = \"slider-crank\", radius = \"100 mm\", rod = \"350 mm\", "
                                  "crank_inertia = \"0.5 kg*m2\", slider_mass = \"3 kg\" }\n"
                                  "[effects]\nelasticity = true\nrelaxation = true\n"
