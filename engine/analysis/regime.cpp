@@ -164,10 +164,12 @@ class Search {
     const double omega = std::abs(link_speed());
     if (omega > still * m_.speed_scale) return;  // it creeps
     end(Regime::Kind::equilibrium,
-        fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link()));
+        with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
   std::string at_rest() {
-    std::string text = fmt::format("the machine comes to rest at {:.4g} s and stays there", state_.t);
+    return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", state_.t));
+  }
+  std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
     return text;
   }

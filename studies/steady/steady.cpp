@@ -136,6 +136,12 @@ class Study {
 
   // The mean torques tell why there can be none; else what the machine did.
   std::string diagnose(const SteadyCycle& cycle) const {
+    const bool stands = cycle.kind == Regime::Kind::at_rest || cycle.kind == Regime::Kind::equilibrium;
+    if (stands && !scene_.sequence.steps.empty() && !options_.at.any())
+      return fmt::format(
+          "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine "
+          "would keep after the Nth of them ({} in all)",
+          cycle.why, scene_.sequence.steps.size());
     if (is_interrupted(cycle) || !out_.diagram || options_.mid_speed) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint& p = *out_.diagram->working_point();
