@@ -216,9 +216,8 @@ class Search {
     point.rounds = 1;
     if (round.end != ReturnMap::End::returned || point.residual > 10 * enough_by_run) return spend(*map);
     point.found = true;
-    point.grazed = true;
     accept(map, point);
-    out_.polished = false;
+    out_.polished = out_.stable = false;
   }
 
   // The same event again and again after the same time, with the whole state: so many events may lie between.

@@ -37,7 +37,7 @@ struct Regime {
   };
   Kind kind = Kind::failed;
   std::string words;               // what it is, and what decides that
-  bool stable = true;              // a run does not come to another; false with an uncertain derivative
+  bool stable = true;              // as its multipliers say; false where they are uncertain or unknown
   bool polished = false;           // by Newton on the return map; else as near as the run came
   double still_changes = 0;        // from round to round, of the rated values
   int rounds = 0;                  // that the run took

@@ -261,10 +261,11 @@ class Search {
     out_.unknowns = map_->size();
     out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
-    out_.stability = out_.uncertain
-                         ? "of uncertain stability: an event is only just touched, or contacts change at one "
-                           "instant; the run comes here and stays"
-                         : stability_text(out_.point.multipliers, &out_.halving);
+    out_.stability = !out_.uncertain ? stability_text(out_.point.multipliers, &out_.halving)
+                     : out_.point.grazed
+                         ? "of uncertain stability, for an event is only just touched; the run comes here "
+                           "and stays"
+                         : "without multipliers, but the run comes here and stays";
     out_.neutral = std::abs(out_.point.largest() - 1) < neutral_within;
     Round fine = go_round(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {
