@@ -236,8 +236,20 @@ ReturnMap::Image ReturnMap::approach(double link_speed) {
   settings.angle = start.angle / m.node_ratio[at(on)];
   settings.speed = link_speed;
   const double from = std::max(0.0, periodicity_.settled_from);
+  if (prescribed_node(m) >= 0) return approach_as_given(from);
   std::vector<double> y = equations_.start(from, settings);
   return approach_from({from, std::move(y), equations_.modes()});
+}
+
+// A given speed tells where the machine has turned to until its law repeats.
+ReturnMap::Image ReturnMap::approach_as_given(double from) {
+  RunOptions run = run_options(0, from);
+  run.tolerance = std::max(options_.tolerance, 1e-9);
+  run.from->y = equations_.start(0);
+  if (from == 0) return approach_from({0, run.from->y, equations_.modes()});
+  const RunOutcome outcome = integrate(equations_, run, {});
+  if (!outcome.complete) return judge(outcome, 0, 0, equations_);
+  return approach_from({outcome.t, outcome.state, equations_.modes()});
 }
 
 ReturnMap::Image ReturnMap::approach_from(State state) {

@@ -86,6 +86,7 @@ class ReturnMap {
   double time_limit() const { return time_limit_; }
 
  private:
+  Image approach_as_given(double from);
   RunOptions run_options(double from, double until) const;
   void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);

@@ -52,6 +52,9 @@ class Study {
     out_.scene_file = scene_.file;
     out_.link = model->node_label(model->reduction_node);
     out_.mid_speed = options_.mid_speed;
+    if (options_.at.any())
+      out_.notes.push_back(
+          fmt::format("the machine as it is {}: what is switched later is left out", options_.at.describe()));
     find_diagram(*model);
     refuse_family();
     for (const Effects& effects : effects_) find_cycle(effects);
