@@ -194,7 +194,7 @@ void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
   if (best->mean.net() > 0)
     throw std::invalid_argument(fmt::format(
         "no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, at the end "
-        "{:.4g} against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
+        "{:.4g} against {:.4g} N·m; give --mid-speed, or a motor whose torque falls with its speed",
         rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
   const std::string balance = fmt::format(
       "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
@@ -253,7 +253,7 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
   if (!machine.uses_speed())
     throw std::invalid_argument(
         "no torque of the machine depends on its speed: every speed is as steady as any other, and the mid speed must "
-        "be given; write e.g. --mean-speed \"60 rpm\"");
+        "be given; write e.g. --mid-speed \"60 rpm\"");
   const std::vector<Balance> scan = scan_of_speeds(machine);
   OperatingSpeed found = where_balance_falls(machine, scan);
   if (!(found.speed > 0)) refuse_unbalanced(machine, scan);

@@ -25,7 +25,8 @@ struct KeyFigure {
   std::string unit = {};  // SI, as in a scene: "N*m"
   std::optional<double> error = {};
   std::string note = {};
-  int digits = 0;  // significant ones; 0: by the error
+  int digits = 0;          // significant ones; 0: by the error
+  std::string means = {};  // its name in the dictionary: "delta.press"; empty: it has none
 };
 
 struct Axis {
@@ -71,6 +72,7 @@ struct Table {
   // Per cell as the rows, or none at all; words for those who point at a cell.
   std::vector<std::vector<Tone>> tones = {};
   std::vector<std::vector<std::string>> hints = {};
+  std::vector<std::string> means = {};  // per row, the definition of what it tells; none, or one each
 };
 
 struct Formula {
@@ -160,12 +162,18 @@ struct ReportSection {
   std::vector<Card> cards = {};
 };
 
+// What a figure means, for those who follow its name.
+struct Meaning {
+  std::string id, title, text;  // "delta", "delta.SHAFT — speed fluctuation δ", sentences
+};
+
 struct Report {
   std::string title, subtitle = {}, conclusion = {};
   bool complete = true;
   std::vector<KeyFigure> figures = {};
   std::deque<ReportSection> sections = {};
-  std::string footer = {};  // versions
+  std::string footer = {};             // versions
+  std::vector<Meaning> meanings = {};  // of the figures that it shows
 
   ReportSection& add(const std::string& section_title);  // stays where it is
 };

@@ -29,15 +29,17 @@ std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.p
 struct NamedPeak {
   std::string name, unit;  // as in JSON
   const Peak* peak;
+  std::string means;  // its name in the dictionary
 };
 
 std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
   std::vector<NamedPeak> peaks;
   for (std::size_t k = 0; k < joint_count; ++k)
-    peaks.push_back({fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k]});
-  peaks.push_back({"balancing torque", "N*m", &c.torque});
-  peaks.push_back({"shaking force", "N", &c.shaking_force});
-  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment});
+    peaks.push_back(
+        {fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k], "reaction"});
+  peaks.push_back({"balancing torque", "N*m", &c.torque, "balancing_torque"});
+  peaks.push_back({"shaking force", "N", &c.shaking_force, "shaking_force"});
+  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment, "shaking_moment"});
   return peaks;
 }
 
@@ -381,7 +383,7 @@ Findings findings_of(const Forces& f) {
               .footer = report_footer()};
   for (const NamedPeak& p : peaks_of(front_of(f)))
     to.figures.push_back({"largest " + p.name, p.peak->value, p.unit, p.peak->error,
-                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6});
+                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6, p.means});
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 polar = to.chapter("Polar diagrams of the bearings' loads"),
                 shaking = to.chapter("Shaking force and moment; balancing"),

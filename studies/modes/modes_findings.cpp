@@ -285,11 +285,13 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
                          "Hz",
                          {},
                          m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "",
-                         6});
+                         6,
+                         "natural_frequency"});
   if (!is_forced(m)) return;
   const std::size_t j = joint_with_largest_swing(m.here);
   if (std::isfinite(m.here.joints[j].peak))
-    f.figures.push_back({"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5});
+    f.figures.push_back(
+        {"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5, "largest_swing"});
 }
 
 Formula rayleigh(const ModesStudy& m) {

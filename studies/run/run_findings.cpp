@@ -12,7 +12,9 @@
 namespace kurbel {
 namespace {
 
-KeyFigure key_of(const Figure& f, const std::string& note) { return {in_words(f), f.value, f.unit, f.error, note}; }
+KeyFigure key_of(const Figure& f, const std::string& note) {
+  return {in_words(f), f.value, f.unit, f.error, note, 0, f.name};
+}
 
 // --- one run ---
 
@@ -24,6 +26,7 @@ Rows figures_table(const Result& r, bool on_terminal) {
                         std::move(figures))
                    .always()
                    .close()
+                   .explained_by(&Figure::name)
                    .only_for_people("figure", &Figure::name)
                    .only_for_people("value", [](F f) { return figure_text(f.value, f.error).value; })
                    .only_for_people("error", [](F f) { return error_cell(f.value, f.error); })
@@ -43,7 +46,9 @@ void add_key_figures(Findings& f, const Result& r) {
                        static_cast<double>(r.coordinates),
                        "",
                        {},
-                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds)});
+                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds),
+                       0,
+                       "coordinates"});
 }
 
 // --- two models ---
@@ -58,6 +63,7 @@ std::string sure_to(const std::optional<double>& value, const std::optional<doub
 Rows comparison_table(const Comparison& c) {
   using R = const ComparisonRow&;
   auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
+  table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
   table.only_for_programs(c.a.label, &ComparisonRow::a)
       .only_for_programs(c.a.label + "_error", &ComparisonRow::a_error)
@@ -117,7 +123,8 @@ void add_key_figures(Findings& f, const Comparison& c) {
                        "ms",
                        {},
                        fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
-                       3});
+                       3,
+                       "processor_time"});
 }
 
 // As it is told of a run alone.

@@ -170,7 +170,7 @@ class Sizer {
     } else {
       throw std::invalid_argument(
           "with torques that do not depend on speed every speed is a steady one, so it must be given: "
-          "--mean-speed \"60 rpm\"");
+          "--mid-speed \"60 rpm\"");
     }
   }
 

@@ -305,17 +305,22 @@ std::string diagrams_csv(const Sizing& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const Sizing& s) {
-  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s)}};
-  if (s.soft) f.figures.push_back({"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, ""});
+  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s), 0, "flywheel"}};
+  if (s.soft)
+    f.figures.push_back(
+        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, "", 0, "flywheel_with_slope"});
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
       const char* note = r.settled ? "" : "last cycle, not settled";
-      f.figures.push_back({fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note});
+      f.figures.push_back(
+          {fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note, 0, "delta_reached"});
       if (r.model == SizedModel::elastic && !s.motor.empty())
-        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note});
+        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note, 0,
+                             "delta_reached"});
     }
-  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, ""});
-  if (s.dimensions) f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name});
+  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, "", 0, "fluctuation_of_energy"});
+  if (s.dimensions)
+    f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {

@@ -106,7 +106,7 @@ std::vector<std::string> names_of_figures(const SteadyStudy& s) {
 // A row per figure, the models side by side.
 Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
-  table.only_for_people("figure", std::identity());
+  table.explained_by(std::identity()).only_for_people("figure", std::identity());
   for (const SteadyCycle& c : s.cycles) {
     table.only_for_people(c.label, [&](const std::string& name) {
       const Figure* f = c.find(name);
@@ -338,17 +338,19 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
 void add_key_figures(Findings& f, const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
-    if (const Figure* mean = c.find("mean_speed." + s.link))
-      f.figures.push_back({"mean speed, " + c.label, mean->value * per_minute, "rpm",
-                           mean->error ? std::optional(*mean->error * per_minute) : std::nullopt});
+    if (const Figure* mid = c.find("mid_speed." + s.link))
+      f.figures.push_back({"mid speed, " + c.label, mid->value * per_minute, "rpm",
+                           mid->error ? std::optional(*mid->error * per_minute) : std::nullopt, "", 0, mid->name});
     if (const Figure* delta = c.find("delta." + s.link))
-      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error});
-    f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "", {}, c.stability, 4});
+      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
+    f.figures.push_back(
+        {"largest multiplier, " + c.label, c.point.largest(), "", {}, c.stability, 4, "largest_multiplier"});
   }
   if (const SteadyCycle& last = s.cycles.back(); last.found)
     for (const MotorUse& m : last.motors)
       if (m.rated)
-        f.figures.push_back({"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4});
+        f.figures.push_back(
+            {"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4, "thermal_use"});
 }
 
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
