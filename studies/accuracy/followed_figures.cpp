@@ -1,11 +1,13 @@
 // followed_figures.cpp — which figures the study of accuracy follows, and how far off they are.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "studies/accuracy/accuracy_work.h"
+#include "studies/dictionary/dictionary.h"
 
 namespace kurbel {
 namespace {
@@ -31,10 +33,12 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
   if (!wanted.empty()) {
     const Figure* asked = full.find(wanted);
     if (!asked) {
-      std::string names;
-      for (const Figure& f : full.figures) names += (names.empty() ? "" : ", ") + f.name;
-      throw std::invalid_argument(
-          fmt::format("--figure \"{}\": the scene yields no such figure; it yields {}", wanted, names));
+      std::vector<std::string> names;
+      for (const Figure& f : full.figures) names.push_back(f.name);
+      const std::string instead = told_instead(wanted, names);
+      throw std::invalid_argument(fmt::format("--figure \"{}\": the scene yields no such figure; {}", wanted,
+                                              instead.empty() ? fmt::format("it yields {}", fmt::join(names, ", "))
+                                                              : fmt::format("what it yields is \"{}\"", instead)));
     }
     std::erase(peaks, asked);
     peaks.insert(peaks.begin(), asked);

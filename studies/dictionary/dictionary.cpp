@@ -115,6 +115,20 @@ const Definition* meant_by(std::string_view asked) {
   return nullptr;
 }
 
+std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {
+  using enum QuantityKind;
+  const std::string_view what = asked.substr(0, asked.find('.'));
+  const std::string owner(asked.substr(what.size()));
+  std::vector<std::string> others = {"cycle_" + std::string(what)};
+  if (what.starts_with("cycle_")) others.emplace_back(what.substr(std::string_view("cycle_").size()));
+  if (what == word(delta)) others.emplace_back(word(cycle_fluctuation));
+  if (what == word(cycle_fluctuation)) others.emplace_back(word(delta));
+  for (const std::string& other : others)
+    for (const std::string& name : names)
+      if (name == other + owner || (owner.empty() && name.starts_with(other + "."))) return name;
+  return {};
+}
+
 std::vector<std::string> names_like(std::string_view asked, std::size_t most) {
   const std::string name = as_name(asked.substr(0, asked.find('.')));
   std::vector<std::string> names, like;

@@ -42,6 +42,10 @@ const Definition* definition_of(const Name& name);
 
 // What a person may mean by it: its name as above, or its words: "mean speed", "speed fluctuation".
 const Definition* meant_by(std::string_view asked);
+// Under which of these names a figure is told that is not told under the one asked for: δ of motion that does not
+// repeat, what is of a whole run and of a cycle; empty: under none.
+std::string told_instead(std::string_view asked, const std::vector<std::string>& names);
+
 // Names that are like it, nearest first; at most so many.
 std::vector<std::string> names_like(std::string_view asked, std::size_t most);
 

@@ -155,6 +155,16 @@ TEST(Dictionary, WordsFindWhatIsMeant) {
   EXPECT_EQ(names_like("meanspeed", 3).front(), "mean_speed");
 }
 
+TEST(Dictionary, AFigureUnderAnotherNameIsNamed) {
+  const std::vector<std::string> told = {"cycle_fluctuation.press", "peak_torque.main", "cycle_max_speed.press"};
+  EXPECT_EQ(told_instead("delta.press", told), "cycle_fluctuation.press");
+  EXPECT_EQ(told_instead("delta", told), "cycle_fluctuation.press");
+  EXPECT_EQ(told_instead("cycle_peak_torque.main", told), "peak_torque.main");
+  EXPECT_EQ(told_instead("max_speed.press", told), "cycle_max_speed.press");
+  EXPECT_EQ(told_instead("delta.flywheel", told), "");
+  EXPECT_EQ(told_instead("impacts.press", told), "");
+}
+
 // The peaks of a cycle have names of their own: none is that of a whole run.
 TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
   using enum QuantityKind;
