@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/scene/speed_unit.h"
+
 namespace kurbel {
 
 // What a colour stands for; the same everywhere. The rest of the palette is that of Okabe and Ito.
@@ -183,11 +185,11 @@ struct Report {
 // Versions, for the foot of a page.
 std::string report_footer();
 
-// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; "rad/s" → 1/min.
+// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; speeds in the scene's unit.
 struct ReadableUnit {
   std::string unit;
   double factor = 1;  // value in this unit = factor · value in SI
 };
-ReadableUnit readable_unit(double largest, const std::string& si_unit);
+ReadableUnit readable_unit(double largest, const std::string& si_unit, const SpeedUnit& speed = {});
 
 }  // namespace kurbel

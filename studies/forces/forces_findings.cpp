@@ -50,7 +50,7 @@ std::string conclusion_of(const Forces& f) {
   const Peak& bearing = c.reaction[0];
   std::string text = fmt::format(
       "{} at {}: the main bearing carries up to {} (at {}), {}, the shaking force peaks at {}", f.mechanism,
-      with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
+      f.speed_unit.text(c.mean_speed, 4), in_words(bearing, "N"), at_angle(bearing),
       is_nothing(c.torque)
           ? std::string("no balancing torque is needed")
           : fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque)),
@@ -377,6 +377,7 @@ Findings findings_of(const Forces& f) {
               .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front_of(f).description),
               .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
               .scene_file = f.scene_file,
+              .speed_unit = f.speed_unit.name,
               .conclusion = conclusion_of(f),
               .complete = f.complete,
               .diagnosis = f.diagnosis,

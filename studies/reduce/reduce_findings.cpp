@@ -253,6 +253,7 @@ Findings findings_of(const MachineReduction& r) {
       .title = r.title,
       .subtitle = fmt::format("Machine reduced to {}", r.to),
       .scene_file = r.scene_file,
+      .speed_unit = r.speed_unit.name,
       .conclusion = conclusion_of(r),
       .tells_complete = false,
       .figures = {{"constant inertia of the drive",

@@ -47,6 +47,7 @@ struct OperatingDiagram {
   MeanTorques strongest;  // where the drive's mean torque is greatest (breakdown; of a shunt motor: at standstill)
   bool uses_speed = true;
   int direction = 1;
+  SpeedUnit speed_unit;
 
   // The fastest stable one; null if there is none.
   const OperatingPoint* working_point() const;
