@@ -8,6 +8,7 @@
 
 #include "studies/accuracy/accuracy_work.h"
 #include "studies/dictionary/dictionary.h"
+#include "studies/findings/figure_changes.h"
 
 namespace kurbel {
 namespace {
@@ -55,7 +56,7 @@ void follow_figures(AccuracyWork& work) {
     work.study.figures.push_back({f->name, f->unit});
   for (LevelAtWork& level : work.levels)
     for (const FollowedFigure& followed : work.study.figures) {
-      const Figure* f = level.reference.find(followed.name);
+      const Figure* f = like_in(level.reference, *full.reference.find(followed.name));
       const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
       level.told.value.push_back(sound ? f->value : not_known);
       // Two runs may agree by luck: never below their tolerance.
