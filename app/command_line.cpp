@@ -151,6 +151,12 @@ Watch watch_of(const StudyOptions& options, Progress& progress) {
           .log = make_log(options.verbose)};
 }
 
+void add_former_name(CLI::App& command, const std::string& name, std::string& value) {
+  command.add_option(name, value)->group("");
+}
+
+bool is_former_name(const CLI::Option& option) { return option.get_group().empty(); }
+
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress) {
   SimulateOptions simulation;
   simulation.traces = !options.no_files;

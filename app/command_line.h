@@ -66,6 +66,10 @@ void check_folder(const StudyOptions& options);
 // Ctrl-C, the line of progress, and what --verbose says.
 Watch watch_of(const StudyOptions& options, Progress& progress);
 
+// The name that an option once had: taken still, and told nowhere.
+void add_former_name(CLI::App& command, const std::string& name, std::string& value);
+bool is_former_name(const CLI::Option& option);
+
 // Options of a simulation within a study: the same, and traces for the report.
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
 

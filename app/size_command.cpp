@@ -43,8 +43,9 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--delta", arguments->delta, "demanded δ = (ω_max − ω_min)/ω_mid, e.g. 0.05, 5% or 1/20");
   command.add_option("--machine", o.machine,
                      "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …");
-  command.add_option("--mid-speed,--mean-speed", arguments->mid_speed,
+  command.add_option("--mid-speed", arguments->mid_speed,
                      "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)");
+  add_former_name(command, "--mean-speed", arguments->mid_speed);
   command.add_option("--flywheel", o.flywheel,
                      "component to size (default: the scene's flywheel, else one on the crank)");
   command.add_option("--form", arguments->form, "rim (on spokes; default) or disc");

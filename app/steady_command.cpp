@@ -61,8 +61,9 @@ void set_up(CLI::App& command, int& code) {
   add_study_options(command, arguments->study);
   command.add_option("--effects", arguments->effects,
                      "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)");
-  command.add_option("--mid-speed,--mean-speed", arguments->mid_speed,
+  command.add_option("--mid-speed", arguments->mid_speed,
                      "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\": finds the drive torque that it needs");
+  add_former_name(command, "--mean-speed", arguments->mid_speed);
   command.add_option(
       "--at", arguments->at,
       "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "

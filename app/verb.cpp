@@ -85,7 +85,7 @@ std::string verbs_as_manual() {
     const SetUp made(verb);
     for (const CLI::Option* option : made.command->get_options()) {
       if (option->get_name() == "--help" || (verb.of_scene && shared.count(option->get_name()))) continue;
-      if (option->get_positional()) continue;
+      if (option->get_positional() || is_former_name(*option)) continue;
       text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name()), roff(option->get_description()));
     }
   }
@@ -119,7 +119,8 @@ std::string options_of_verb(const std::string& name) {
     const SetUp made(verb);
     std::string text;
     for (const CLI::Option* option : made.command->get_options())
-      for (const std::string& word : option->get_lnames()) text += "--" + word + "\n";
+      if (!is_former_name(*option))
+        for (const std::string& word : option->get_lnames()) text += "--" + word + "\n";
     return text;
   }
   throw std::invalid_argument(fmt::format("no command \"{}\"; allowed: {}", name, listed(names)));

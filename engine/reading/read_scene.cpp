@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "engine/model/build_network.h"
 #include "engine/model/network.h"
 #include "engine/reading/scene_reading.h"
@@ -45,6 +48,30 @@ void read_sequence_table(SceneReading& r) {
   r.scene.sequence = read_sequence(sequence->value, r.component_names(), is_component, r.messages);
 }
 
+// Takes over the unit of a speed that stands before those seen so far. A frequency has the unit of one, too: by a key
+// that is of a speed it is none.
+void see_speed(const DocumentEntry& entry, Location& first, SpeedUnit& unit) {
+  UnitError error;
+  const std::string& text = entry.value.text;
+  const std::optional<Quantity> given = parse_quantity(text, error);
+  if (!given || (first.line > 0 && first < entry.value.at)) return;
+  const Dimension speed = parse_unit("rad/s", error)->dimension;
+  const bool is_one = given->dimension == speed || entry.key.find("speed") != std::string::npos;
+  if (!is_one || wanted_as(*given, speed).dimension != speed) return;
+  const std::size_t begin = std::min(text.find_first_not_of(' ', given->unit_at), text.size());
+  const std::string name = text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+  unit = {name, wanted_as(*parse_unit(name, error), speed).factor};
+  first = entry.value.at;
+}
+
+void find_speed_unit(const DocumentValue& table, Location& first, SpeedUnit& unit) {
+  for (const DocumentEntry& entry : table.entries) {
+    if (entry.value.type == DocumentValue::Type::text) see_speed(entry, first, unit);
+    find_speed_unit(entry.value, first, unit);
+    for (const DocumentValue& item : entry.value.items) find_speed_unit(item, first, unit);
+  }
+}
+
 // What building finds wrong with the parameters of a component is said together with what reading found; a file
 // without errors is built later, once.
 void try_components(SceneReading& r) {
@@ -69,6 +96,8 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   read_run(r);
   if (!r.messages.empty()) try_components(r);
   r.messages.throw_if_any();
+  Location first;
+  find_speed_unit(r.document, first, r.scene.speed_unit);
   return std::move(r.scene);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/scene/effects.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
+#include "engine/scene/speed_unit.h"
 
 namespace kurbel {
 
@@ -70,6 +71,7 @@ struct Scene {
   Effects effects;
   Sequence sequence;
   RunSettings run;
+  SpeedUnit speed_unit;  // of the first speed in the file
 
   const Section* find(const std::string& name) const;
   // Its title, else its file, and what was set beside it.

@@ -288,7 +288,7 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
     error = {"the number is out of range (1e-308 … 1e308)", begin};
     return std::nullopt;
   }
-  return Quantity{value, unit->dimension, unit->counted};
+  return Quantity{value, unit->dimension, unit->counted, at};
 }
 
 Unit wanted_as(Unit unit, const Dimension& wanted) {

@@ -29,6 +29,7 @@ struct Quantity {
   double value = 0;  // SI
   Dimension dimension;
   bool counted = false;
+  std::size_t unit_at = 0;  // where in its text the unit begins, or blanks before it
 };
 
 // What was wrong in a quantity's text, and at which column of it (0-based).

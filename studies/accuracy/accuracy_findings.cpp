@@ -169,7 +169,7 @@ void add_key_figures(Findings& f, const AccuracyStudy& study) {
   const ModelLevel& full = study.levels[study.fullest];
   for (std::size_t i = 0; i < std::min<std::size_t>(study.figures.size(), 3); ++i)
     f.figures.push_back({fmt::format("{}, {}", study.figures[i].name, full.name), full.value[i], study.figures[i].unit,
-                         full.floor[i] * std::abs(full.value[i])});
+                         full.floor[i] * std::abs(full.value[i]), "", 0, study.figures[i].name});
   const auto fastest =
       std::min_element(study.settings.begin(), study.settings.end(),
                        [](const MeasuredSetting& a, const MeasuredSetting& b) { return a.seconds < b.seconds; });
@@ -178,7 +178,8 @@ void add_key_figures(Findings& f, const AccuracyStudy& study) {
                        "",
                        {},
                        fmt::format("the fastest: {}", study.name_of(*fastest)),
-                       4});
+                       4,
+                       "settings_measured"});
 }
 
 Text how_measured(const AccuracyStudy& study) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "studies/accuracy/accuracy_work.h"
+#include "studies/findings/figure_changes.h"
 
 namespace kurbel {
 namespace {
@@ -76,7 +77,7 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
   const double difference = trajectory_difference(*r.trajectory, *level.reference.trajectory);
   s.trajectory_error = std::max(difference, level.told.agreement);
   measure_figures(s, work, level, [&](const std::string& name) {
-    const Figure* f = r.find(name);
+    const Figure* f = like_in(r, *work.levels[work.study.fullest].reference.find(name));
     return f ? f->value : not_known;
   });
   const StepperStatistics& counts = r.statistics.stepper;

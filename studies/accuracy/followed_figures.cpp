@@ -1,11 +1,14 @@
 // followed_figures.cpp — which figures the study of accuracy follows, and how far off they are.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "studies/accuracy/accuracy_work.h"
+#include "studies/dictionary/dictionary.h"
+#include "studies/findings/figure_changes.h"
 
 namespace kurbel {
 namespace {
@@ -31,10 +34,12 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
   if (!wanted.empty()) {
     const Figure* asked = full.find(wanted);
     if (!asked) {
-      std::string names;
-      for (const Figure& f : full.figures) names += (names.empty() ? "" : ", ") + f.name;
-      throw std::invalid_argument(
-          fmt::format("--figure \"{}\": the scene yields no such figure; it yields {}", wanted, names));
+      std::vector<std::string> names;
+      for (const Figure& f : full.figures) names.push_back(f.name);
+      const std::string instead = told_instead(wanted, names);
+      throw std::invalid_argument(fmt::format("--figure \"{}\": the scene yields no such figure; {}", wanted,
+                                              instead.empty() ? fmt::format("it yields {}", fmt::join(names, ", "))
+                                                              : fmt::format("what it yields is \"{}\"", instead)));
     }
     std::erase(peaks, asked);
     peaks.insert(peaks.begin(), asked);
@@ -51,7 +56,7 @@ void follow_figures(AccuracyWork& work) {
     work.study.figures.push_back({f->name, f->unit});
   for (LevelAtWork& level : work.levels)
     for (const FollowedFigure& followed : work.study.figures) {
-      const Figure* f = level.reference.find(followed.name);
+      const Figure* f = like_in(level.reference, *full.reference.find(followed.name));
       const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
       level.told.value.push_back(sound ? f->value : not_known);
       // Two runs may agree by luck: never below their tolerance.

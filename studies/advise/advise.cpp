@@ -11,6 +11,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/advise/advise_screens.h"
+#include "studies/dictionary/dictionary.h"
 
 namespace kurbel {
 namespace {
@@ -69,8 +70,10 @@ class Adviser {
       if (known) continue;
       std::vector<std::string> names;
       for (const Figure& f : a_.full.figures) names.push_back(f.name);
-      throw std::invalid_argument(
-          fmt::format("--figures: no figure \"{}\"{}; see kurbel figures", name, suggestion(name, names)));
+      const std::string instead = told_instead(name, names);
+      throw std::invalid_argument(fmt::format(
+          "--figures: no figure \"{}\"{}; see kurbel figures", name,
+          instead.empty() ? suggestion(name, names) : fmt::format(" here; what is told is \"{}\"", instead)));
     }
   }
 

@@ -126,10 +126,10 @@ Findings findings_of(const Advice& a) {
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
-  f.figures = {{"deviation", 100 * chosen.deviation, "", {}, "% at most, measured", 3},
-               {"time of the full model", 1e3 * full.cpu_seconds, "", {}, "ms a run", 3},
-               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", {}, "ms a run", 3},
-               {"sets run", static_cast<double>(a.tried.size()), "", {}, "", 3}};
+  f.figures = {{"deviation", 100 * chosen.deviation, "", {}, "% at most, measured", 3, "deviation"},
+               {"time of the full model", 1e3 * full.cpu_seconds, "", {}, "ms a run", 3, "processor_time"},
+               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", {}, "ms a run", 3, "processor_time"},
+               {"sets run", static_cast<double>(a.tried.size()), "", {}, "", 3, "sets_run"}};
   const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
   f.tell("within", a.tolerance);
   f.draw(advice, [&a] { return plane(a); });

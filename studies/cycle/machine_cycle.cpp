@@ -17,8 +17,6 @@ namespace {
 // The reduced inertia comes from tables good to 1e-12; their seams must not be taken for corners.
 constexpr double sampling_tolerance = 1e-11;
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 struct MeanTorque {
   double drive = 0, load = 0;
   double net() const { return drive - load; }
@@ -191,15 +189,16 @@ void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
 [[noreturn]] void refuse_unbalanced(const RigidMachine& machine, const std::vector<Balance>& scan) {
   const auto best = std::max_element(scan.begin(), scan.end(),
                                      [](const Balance& a, const Balance& b) { return a.mean.net() < b.mean.net(); });
+  const SpeedUnit& unit = machine.model().scene.speed_unit;
   if (best->mean.net() > 0)
     throw std::invalid_argument(fmt::format(
-        "no speed up to {:.6g} rpm balances the machine: the drive gives more there than the load takes, at the end "
-        "{:.4g} against {:.4g} N·m; give --mean-speed, or a motor whose torque falls with its speed",
-        rpm(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
+        "no speed up to {} balances the machine: the drive gives more there than the load takes, at the end "
+        "{:.4g} against {:.4g} N·m; give --mid-speed, or a motor whose torque falls with its speed",
+        unit.text(scan.back().speed), scan.back().mean.drive, scan.back().mean.load));
   const std::string balance = fmt::format(
-      "at its best, at {:.6g} rpm of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
+      "at its best, at {} of the reduction link, it gives a mean torque of {:.6g} N·m there while the load "
       "takes {:.6g} N·m; {:.6g} N·m are missing{}",
-      rpm(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
+      unit.text(best->speed), best->mean.drive, best->mean.load, -best->mean.net(),
       best->mean.load == 0
           ? ""
           : fmt::format(" ({:.3g} % of the load)", 100 * -best->mean.net() / std::abs(best->mean.load)));
@@ -253,7 +252,7 @@ OperatingSpeed operating_speed(RigidMachine& machine) {
   if (!machine.uses_speed())
     throw std::invalid_argument(
         "no torque of the machine depends on its speed: every speed is as steady as any other, and the mid speed must "
-        "be given; write e.g. --mean-speed \"60 rpm\"");
+        "be given; write e.g. --mid-speed \"60 rpm\"");
   const std::vector<Balance> scan = scan_of_speeds(machine);
   OperatingSpeed found = where_balance_falls(machine, scan);
   if (!(found.speed > 0)) refuse_unbalanced(machine, scan);
@@ -277,8 +276,9 @@ SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& c
     double growth = 0, time = 0;
     const double after = pass.run(energy, growth, time);
     if (!(after > 0)) {
-      result.why = fmt::format("from {:.5g} rpm the machine stalls at {:.5g}° of the cycle",
-                               rpm(std::sqrt(2 * energy / inertia)), pass.stalled_at() * 180 / std::numbers::pi);
+      result.why = fmt::format("from {} the machine stalls at {:.5g}° of the cycle",
+                               machine.model().scene.speed_unit.text(std::sqrt(2 * energy / inertia), 5),
+                               pass.stalled_at() * 180 / std::numbers::pi);
       if (i > 20 || energy > 1e3 * inertia * near * near) return result;
       energy *= 1.5;
       continue;

@@ -131,7 +131,8 @@ Findings findings_of(const EffectStudy& s) {
                            "",
                            {},
                            "% off in " + l.changes.front().figure,
-                           3});
+                           3,
+                           "change_without"});
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
   f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});
   f.draw(ranked, [&s] { return plane(s); });

@@ -16,6 +16,19 @@ bool is_telling(const Figure& figure) {
   return figure.scale > 0 && telling.count(figure.what) > 0;
 }
 
+bool measure_the_same(const Figure& a, const Figure& b) {
+  const auto fluctuates = [](const Figure& f) {
+    return f.what == QuantityKind::delta || f.what == QuantityKind::cycle_fluctuation;
+  };
+  return a.name == b.name || (fluctuates(a) && fluctuates(b) && a.of == b.of);
+}
+
+const Figure* like_in(const Result& run, const Figure& figure) {
+  const auto found = std::find_if(run.figures.begin(), run.figures.end(),
+                                  [&](const Figure& f) { return measure_the_same(f, figure); });
+  return found == run.figures.end() ? nullptr : &*found;
+}
+
 double floor_of(const Figure& figure, const Result& run) {
   constexpr double rounding = 1e-9;
   return figure.error.value_or(0) + std::max(rounding, run.tolerance) * figure.scale;
@@ -29,7 +42,7 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
       return figure.name == name || figure.name.starts_with(name + ".");
     });
     if (wanted.empty() ? !is_telling(figure) : !asked) continue;
-    const Figure* same = other.find(figure.name);
+    const Figure* same = like_in(other, figure);
     if (!same) continue;
     const double nothing = floor_of(figure, full);
     if (std::abs(figure.value) <= nothing && std::abs(same->value) <= floor_of(*same, other)) continue;  // both zero

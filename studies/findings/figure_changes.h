@@ -21,6 +21,10 @@ struct FigureChange {
 // What a figure of a run does not tell from nothing: its measured error, and what steps and rounding resolve of the
 // rated quantity.
 double floor_of(const Figure& figure, const Result& run);
+// δ and a fluctuation that is none differ by what a run found of its motion, not by how they are measured.
+bool measure_the_same(const Figure& a, const Figure& b);
+// What in a run measures the same as a figure of another one; null: nothing.
+const Figure* like_in(const Result& run, const Figure& figure);
 // Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.
 bool is_telling(const Figure& figure);
 // Changes of the telling figures of `other` against `full`; only `wanted`, unless empty (names or their beginnings).

@@ -72,6 +72,13 @@ std::string with_error(double value, const std::optional<double>& error, std::st
   return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
 }
 
+FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,
+                         const SpeedUnit& speed) {
+  if (si_unit != "rad/s") return {figure_text(value, error).value, error_cell(value, error), pretty_unit(si_unit)};
+  const std::optional<double> shown = error ? std::optional(speed.of(*error)) : std::nullopt;
+  return {figure_text(speed.of(value), shown).value, error_cell(speed.of(value), shown), pretty_unit(speed.name)};
+}
+
 std::string error_cell(double value, const std::optional<double>& error) {
   const FigureText text = figure_text(value, error);
   return text.error.empty() ? "not measured" : text.error;

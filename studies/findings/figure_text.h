@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/scene/speed_unit.h"
+
 namespace kurbel {
 
 struct FigureText {
@@ -24,6 +26,13 @@ FigureText figure_text(double value, const std::optional<double>& error);
 
 // "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
 std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
+
+// A figure in a row of a table: a speed in the scene's unit, all else in SI.
+struct FigureCells {
+  std::string value, error, unit;  // "6257.16998", "± 0.00006", "N·m"
+};
+FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,
+                         const SpeedUnit& speed);
 
 // What a column of errors says where none was measured.
 std::string error_cell(double value, const std::optional<double>& error);

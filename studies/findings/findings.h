@@ -60,6 +60,7 @@ struct Findings {
   std::string title, subtitle = {};
   std::string page_title = {};       // empty: the title
   std::string scene_file = {};       // for programs; empty: not told
+  std::string speed_unit = {};       // that people are told speeds in, for programs; empty: there are none
   std::string conclusion = {};       // one line
   std::string page_conclusion = {};  // empty: the conclusion
   bool complete = true;

@@ -41,16 +41,16 @@ inline double largest_of(const Plot& plot) {
 }
 
 // From SI into the unit in which values up to `largest` are read easily.
-inline Plot in_readable_unit(Plot plot, const std::string& si_unit, double largest) {
-  const ReadableUnit unit = readable_unit(largest, si_unit);
+inline Plot in_readable_unit(Plot plot, const std::string& si_unit, double largest, const SpeedUnit& speed = {}) {
+  const ReadableUnit unit = readable_unit(largest, si_unit, speed);
   plot.y.unit = unit.unit;
   for (Series& series : plot.series)
     for (double& y : series.y) y *= unit.factor;
   return plot;
 }
-inline Plot in_readable_unit(Plot plot, const std::string& si_unit) {
+inline Plot in_readable_unit(Plot plot, const std::string& si_unit, const SpeedUnit& speed = {}) {
   const double largest = largest_of(plot);
-  return in_readable_unit(std::move(plot), si_unit, largest);
+  return in_readable_unit(std::move(plot), si_unit, largest, speed);
 }
 
 }  // namespace kurbel

@@ -63,6 +63,7 @@ std::string summary_json(const Findings& f) {
   Json j = {{"version", summary_version}};
   if (!f.title.empty()) j["title"] = f.title;
   if (!f.scene_file.empty()) j["scene"] = f.scene_file;
+  if (!f.speed_unit.empty()) j["speed_unit"] = f.speed_unit;
   if (f.tells_complete) j["complete"] = f.complete;
   if (!f.complete && f.tells_diagnosis) j["diagnosis"] = f.diagnosis;
   if (f.tells_conclusion) j["conclusion"] = f.conclusion;

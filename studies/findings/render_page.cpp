@@ -1,7 +1,10 @@
 // render_page.cpp — findings as a page: sections of cards; and all renderings together.
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <set>
 
+#include "studies/dictionary/dictionary.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
@@ -13,6 +16,20 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
+std::string definition_id(const std::string& figure) {
+  const Definition* known = figure.empty() ? nullptr : definition_of(figure);
+  return known ? std::string(known->name) : "";
+}
+
+// Of the rows that people see.
+std::vector<std::string> definition_ids(const Rows& rows) {
+  std::vector<std::string> ids;
+  if (rows.means.empty()) return ids;
+  for (const std::size_t i : rows.for_people ? *rows.for_people : numbers_below(rows.count))
+    ids.push_back(definition_id(rows.means[i]));
+  return ids;
+}
+
 void show(Cards& cards, const Rows& rows) {
   if (rows.page && rows.shown_to_people())
     cards.push_back(Table{.title = rows.title,
@@ -21,7 +38,8 @@ void show(Cards& cards, const Rows& rows) {
                           .folded = rows.folded,
                           .text_columns = rows.text_columns,
                           .tones = rows.tones,
-                          .hints = rows.hints});
+                          .hints = rows.hints,
+                          .means = definition_ids(rows)});
 }
 void show(Cards& cards, const Sentences& words) {
   if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
@@ -30,6 +48,20 @@ void show(Cards& cards, const Drawn& drawn) {
   for (Card& card : drawn.cards()) cards.push_back(std::move(card));
 }
 void show(Cards&, const Field&) {}
+
+// What the page shows, each once, in the dictionary's order.
+std::vector<Meaning> meanings_of(const Report& page) {
+  std::set<std::string, std::less<>> shown;
+  for (const KeyFigure& figure : page.figures) shown.insert(figure.means);
+  for (const ReportSection& section : page.sections)
+    for (const Card& card : section.cards)
+      if (const Table* table = std::get_if<Table>(&card)) shown.insert(table->means.begin(), table->means.end());
+  std::vector<Meaning> meanings;
+  for (const Definition& d : dictionary())
+    if (shown.contains(d.name))
+      meanings.push_back({std::string(d.name), d.form() + " — " + std::string(d.words), d.text()});
+  return meanings;
+}
 
 }  // namespace
 
@@ -90,6 +122,8 @@ Report page_of(const Findings& f) {
       std::visit([&](const auto& what) { show(cards[static_cast<std::size_t>(*s.chapter)], what); }, s.what);
   for (std::size_t i = 0; i < cards.size(); ++i)
     if (!cards[i].empty()) page.add(f.chapters[i]).cards = std::move(cards[i]);
+  for (KeyFigure& figure : page.figures) figure.means = definition_id(figure.means);
+  page.meanings = meanings_of(page);
   return page;
 }
 

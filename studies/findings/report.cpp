@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "engine/scene/units.h"
 
@@ -21,9 +20,9 @@ ReportSection& Report::add(const std::string& section_title) {
   return sections.back();
 }
 
-ReadableUnit readable_unit(double largest, const std::string& si_unit) {
+ReadableUnit readable_unit(double largest, const std::string& si_unit, const SpeedUnit& speed) {
   largest = std::abs(largest);
-  if (si_unit == "rad/s") return {"1/min", 30 / std::numbers::pi};
+  if (si_unit == "rad/s") return {speed.name, speed.of(1)};
   if (si_unit == "m") return largest < 2 ? ReadableUnit{"mm", 1e3} : ReadableUnit{"m", 1};
   if (si_unit == "N" || si_unit == "N*m" || si_unit == "J" || si_unit == "W") {
     const std::string unit = pretty_unit(si_unit);

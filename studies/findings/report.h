@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/scene/speed_unit.h"
+
 namespace kurbel {
 
 // What a colour stands for; the same everywhere. The rest of the palette is that of Okabe and Ito.
@@ -25,7 +27,8 @@ struct KeyFigure {
   std::string unit = {};  // SI, as in a scene: "N*m"
   std::optional<double> error = {};
   std::string note = {};
-  int digits = 0;  // significant ones; 0: by the error
+  int digits = 0;          // significant ones; 0: by the error
+  std::string means = {};  // its name in the dictionary: "delta.press"; empty: it has none
 };
 
 struct Axis {
@@ -71,6 +74,7 @@ struct Table {
   // Per cell as the rows, or none at all; words for those who point at a cell.
   std::vector<std::vector<Tone>> tones = {};
   std::vector<std::vector<std::string>> hints = {};
+  std::vector<std::string> means = {};  // per row, the definition of what it tells; none, or one each
 };
 
 struct Formula {
@@ -160,12 +164,18 @@ struct ReportSection {
   std::vector<Card> cards = {};
 };
 
+// What a figure means, for those who follow its name.
+struct Meaning {
+  std::string id, title, text;  // "delta", "delta.SHAFT — speed fluctuation δ", sentences
+};
+
 struct Report {
   std::string title, subtitle = {}, conclusion = {};
   bool complete = true;
   std::vector<KeyFigure> figures = {};
   std::deque<ReportSection> sections = {};
-  std::string footer = {};  // versions
+  std::string footer = {};             // versions
+  std::vector<Meaning> meanings = {};  // of the figures that it shows
 
   ReportSection& add(const std::string& section_title);  // stays where it is
 };
@@ -175,11 +185,11 @@ struct Report {
 // Versions, for the foot of a page.
 std::string report_footer();
 
-// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; "rad/s" → 1/min.
+// The unit in which a quantity of this size is read easily: (0.05, "m") → mm, factor 1000; speeds in the scene's unit.
 struct ReadableUnit {
   std::string unit;
   double factor = 1;  // value in this unit = factor · value in SI
 };
-ReadableUnit readable_unit(double largest, const std::string& si_unit);
+ReadableUnit readable_unit(double largest, const std::string& si_unit, const SpeedUnit& speed = {});
 
 }  // namespace kurbel

@@ -151,6 +151,7 @@ struct Rows {
   bool apart = true;                          // on the terminal, by a blank line before it
   std::vector<std::vector<Tone>> tones = {};  // report.h
   std::vector<std::vector<std::string>> hints = {};
+  std::vector<std::string> means = {};  // per row, the name of its figure in the dictionary; none, or one each
 
   List list() const;                                    // as programs get it
   std::vector<std::string> headings() const;            // as people read it
@@ -195,6 +196,13 @@ class RowsOf : public Rows {
   RowsOf& only_for_programs(std::string its_key, Get get) {
     Column& made = columns.emplace_back(Column{.key = std::move(its_key), .heading = "", .for_people = false});
     for (const T& row : rows_) made.values.emplace_back(std::invoke(get, row));
+    return *this;
+  }
+
+  // Whose rows are figures: `get` gives a row's name in the dictionary.
+  template <class Get>
+  RowsOf& explained_by(Get get) {
+    for (const T& row : rows_) means.push_back(std::invoke(get, row));
     return *this;
   }
 

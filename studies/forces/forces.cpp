@@ -45,7 +45,7 @@ const Section& chosen_slider_crank(const Scene& scene, const std::string& wanted
 void first_problem(const SliderCrankStatics& statics, SliderLoads& loads, int positions, double speed, Forces& out) {
   ForceCycle cycle;
   cycle.label = "prescribed";
-  cycle.description = fmt::format("crank turning at {} throughout", with_unit(speed * 60 / turn, "rpm"));
+  cycle.description = fmt::format("crank turning at {} throughout", out.speed_unit.text(speed));
   cycle.cycle = loads.cycle();
   CycleBuilder builder(statics, loads, cycle);
   for (const Abscissa& a : abscissae(cycle.cycle, loads.edges(speed < 0 ? -1 : 1), positions))
@@ -260,6 +260,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   const Section& section = chosen_slider_crank(scene, options.mechanism);
   Forces out;
   out.title = scene.heading();
+  out.speed_unit = scene.speed_unit;
   out.scene_file = scene.file;
   out.scene_text = scene.text;
   out.mechanism = section.name;
@@ -283,8 +284,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   double speed = options.speed.value_or(machine.start_speed());
   std::string source = options.speed ? "as asked for" : "the scene's start speed";
   if (speed == 0) speed = machine.rated_speed(), source = "rated speed, as the scene starts from rest";
-  options.watch.say(
-      fmt::format("first problem: {} at {} ({})", section.name, with_unit(speed * 60 / turn, "rpm"), source));
+  options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, out.speed_unit.text(speed), source));
   first_problem(statics, loads, options.positions, speed, out);
   out.prescribed->description += ", " + source;
   if (options.simulate) {

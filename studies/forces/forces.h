@@ -111,6 +111,7 @@ struct Counterweight {
 
 struct Forces {
   std::string title, scene_file, scene_text, mechanism;
+  SpeedUnit speed_unit;
   SliderCrankData data;
   SliderCrankJoints joints;
   double rotating_moment = 0;     // of crank and the rod's share in the crank pin, towards the pin [kg·m]

@@ -29,15 +29,17 @@ std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.p
 struct NamedPeak {
   std::string name, unit;  // as in JSON
   const Peak* peak;
+  std::string means;  // its name in the dictionary
 };
 
 std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
   std::vector<NamedPeak> peaks;
   for (std::size_t k = 0; k < joint_count; ++k)
-    peaks.push_back({fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k]});
-  peaks.push_back({"balancing torque", "N*m", &c.torque});
-  peaks.push_back({"shaking force", "N", &c.shaking_force});
-  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment});
+    peaks.push_back(
+        {fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k], "reaction"});
+  peaks.push_back({"balancing torque", "N*m", &c.torque, "balancing_torque"});
+  peaks.push_back({"shaking force", "N", &c.shaking_force, "shaking_force"});
+  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment, "shaking_moment"});
   return peaks;
 }
 
@@ -48,7 +50,7 @@ std::string conclusion_of(const Forces& f) {
   const Peak& bearing = c.reaction[0];
   std::string text = fmt::format(
       "{} at {}: the main bearing carries up to {} (at {}), {}, the shaking force peaks at {}", f.mechanism,
-      with_unit(c.mean_speed * 60 / turn, "rpm", 4), in_words(bearing, "N"), at_angle(bearing),
+      f.speed_unit.text(c.mean_speed, 4), in_words(bearing, "N"), at_angle(bearing),
       is_nothing(c.torque)
           ? std::string("no balancing torque is needed")
           : fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque)),
@@ -375,13 +377,14 @@ Findings findings_of(const Forces& f) {
               .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front_of(f).description),
               .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
               .scene_file = f.scene_file,
+              .speed_unit = f.speed_unit.name,
               .conclusion = conclusion_of(f),
               .complete = f.complete,
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   for (const NamedPeak& p : peaks_of(front_of(f)))
     to.figures.push_back({"largest " + p.name, p.peak->value, p.unit, p.peak->error,
-                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6});
+                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6, p.means});
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 polar = to.chapter("Polar diagrams of the bearings' loads"),
                 shaking = to.chapter("Shaking force and moment; balancing"),

@@ -273,17 +273,18 @@ std::vector<Formula> formulas_of(const GearStage& s) {
 void add_key_figures(Findings& f, const Gears& g) {
   for (const GearStage& s : g.stages) {
     const std::string prefix = g.stages.size() > 1 ? s.name + ": " : "";
-    const auto add = [&](const char* name, double value, const char* unit, const char* note, int digits) {
-      f.figures.push_back({prefix + name, value, unit, {}, note, digits});
+    const auto add = [&](const char* name, double value, const char* unit, const char* note, int digits,
+                         const char* means) {
+      f.figures.push_back({prefix + name, value, unit, {}, note, digits, means});
     };
-    add("centre distance", mm * std::abs(s.pair.centre_distance), "mm", "", 7);
-    add("contact ratio ε_α", s.pair.contact_ratio, "", "", 4);
+    add("centre distance", mm * std::abs(s.pair.centre_distance), "mm", "", 7, "centre_distance");
+    add("contact ratio ε_α", s.pair.contact_ratio, "", "", 4, "contact_ratio");
     add("greatest specific sliding",
         std::min(s.pair.specific_sliding(s.pair.start)[0], s.pair.specific_sliding(s.pair.end)[1]), "",
-        "at the foot of a flank", 3);
-    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", "", 4);
+        "at the foot of a flank", 3, "specific_sliding");
+    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", "", 4, "backlash_angle");
     if (s.stiffness.torsional > 0)
-      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad", "ISO 6336-1 B", 3);
+      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad", "ISO 6336-1 B", 3, "mesh_stiffness");
   }
 }
 

@@ -16,8 +16,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double rpm(double speed) { return speed * 30 / pi; }
-
 DriveLimits stated_limits(const Section* s) {
   if (!s || !s->kind) return {};
   const CouplingLimits given = coupling_limit_fields().read(*s);
@@ -94,9 +92,8 @@ void add_verdicts(std::size_t j, ModesStudy& found) {
   if (limits.maximum > 0) {
     found.verdicts.push_back({name, "maximum torque while passing resonances: |T| ≤ T_Kmax", std::max(passing, largest),
                               limits.maximum, "N*m",
-                              passing > largest ? fmt::format("steady swing at {:.5g} 1/min; a quick passage stays "
-                                                              "below it",
-                                                              rpm(speed))
+                              passing > largest ? fmt::format("steady swing at {}; a quick passage stays below it",
+                                                              found.speed_unit.text(speed, 5))
                                                 : "at the operating point"});
     if (found.history && found.history->component == name)
       found.verdicts.push_back({name, "maximum torque of the simulated run: |T| ≤ T_Kmax",

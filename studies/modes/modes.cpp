@@ -38,6 +38,7 @@ class Study {
     if (told_to("clutch")) found_.notes.push_back("clutches count as locked");
     if (told_to("brake")) found_.notes.push_back("brakes count as released");
     found_.title = scene.heading();
+    found_.speed_unit = scene.speed_unit;
     found_.scene_file = scene.file;
     found_.scene_text = scene.text;
     found_.link = model_->node_label(model_->reduction_node);
@@ -95,9 +96,9 @@ class Study {
     const double torque = found_.drive.mean_torque;
     if (speed != 0 && std::abs(torque) > 0.01 * model_->torque_scale)
       found_.notes.push_back(fmt::format(
-          "at {:.5g} 1/min the machine is not in steady motion: {:.4g} N·m on {} are left over; mean torques are those "
+          "at {} the machine is not in steady motion: {:.4g} N·m on {} are left over; mean torques are those "
           "of the machine that accelerates as a whole",
-          rpm(speed), torque, found_.link));
+          found_.speed_unit.text(speed, 5), torque, found_.link));
   }
 
   // A machine that starts from rest is looked at where it runs steadily near its rated speed, if it does: mean torques
@@ -125,7 +126,6 @@ class Study {
   }
 
   double signed_speed(double speed) const { return std::copysign(speed, found_.drive.at.speed); }
-  static double rpm(double speed) { return speed * 30 / pi; }
 
   void find_all_modes() {
     const ModesWanted wanted{.count = options_.count};

@@ -101,6 +101,7 @@ struct ModesStudy {
   std::vector<DampedMode> damped;  // all that were found
   std::vector<std::string> shaft_names, joint_names;
   std::string link;  // reduction link
+  SpeedUnit speed_unit;
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed

@@ -18,7 +18,9 @@ constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_progra
 
 // "unbounded" where it is: an undamped resonance.
 ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
-ReadAs in_rpm(int count = 5) { return {.factor = rpm(1), .digits = count, .otherwise = "unbounded"}; }
+ReadAs in_unit(const SpeedUnit& unit, int count = 5) {
+  return {.factor = unit.of(1), .digits = count, .otherwise = "unbounded"};
+}
 
 // Worst barred range: the one that exceeds its limit most.
 const BarredRange* worst_of(const ModesStudy& m) {
@@ -42,12 +44,12 @@ std::string conclusion_of(const ModesStudy& m) {
   }
   if (is_forced(m)) {
     const std::size_t j = joint_with_largest_swing(m.here);
-    text += fmt::format("; at {:.5g} 1/min {} swings by {} about {}", rpm(std::abs(m.drive.at.speed)), m.joint_names[j],
-                        torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
+    text += fmt::format("; at {} {} swings by {} about {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
+                        m.joint_names[j], torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
   }
   if (const BarredRange* b = worst_of(m))
-    text += fmt::format("; {} barred range{}, worst {:.5g} … {:.5g} 1/min ({})", m.barred.size(),
-                        m.barred.size() == 1 ? "" : "s", rpm(b->from), rpm(b->to), m.joint_names[b->joint]);
+    text += fmt::format("; {} barred range{}, worst {:.5g} … {} ({})", m.barred.size(), m.barred.size() == 1 ? "" : "s",
+                        m.speed_unit.of(b->from), m.speed_unit.text(b->to, 5), m.joint_names[b->joint]);
   std::size_t failed = 0;
   for (const Verdict& v : m.verdicts) failed += !v.holds();
   if (!m.verdicts.empty())
@@ -107,7 +109,7 @@ Rows mode_table(const ModesStudy& m) {
 Rows response_table(const ModesStudy& m) {
   const auto of = [&](auto member) { return [&m, member](std::size_t j) { return m.here.joints[j].*member; }; };
   const auto order = [&](std::size_t j) { return m.excitations.order(m.here.joints[j].dominant); };
-  return table_of("response", fmt::format("At {:.5g} 1/min of {}", rpm(std::abs(m.drive.at.speed)), m.link),
+  return table_of("response", fmt::format("At {} of {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5), m.link),
                   numbers_below(m.here.joints.size()))
       .headed("forced response at that speed")
       .programs_see_first(most_for_programs)
@@ -129,7 +131,7 @@ Rows critical_table(const ModesStudy& m) {
                           m.critical.size()))
       .text_in(0)
       .people_see(strongest_critical(m, critical_shown))
-      .column("speed", "speed [1/min]", &CriticalSpeed::speed, in_rpm(6))
+      .column("speed", fmt::format("speed [{}]", m.speed_unit.name), &CriticalSpeed::speed, in_unit(m.speed_unit, 6))
       .column("mode", "mode", &CriticalSpeed::mode)
       .column("order", "order", &CriticalSpeed::order, digits(4))
       .column("amplitude", "amplitude of that order [N·m]", &CriticalSpeed::amplitude, digits(5))
@@ -142,8 +144,8 @@ Rows barred_table(const ModesStudy& m) {
       .text_in(2)
       .column("joint", "joint", [&](const BarredRange& b) { return m.joint_names[b.joint]; })
       .column("reason", "barred because of", &BarredRange::reason)
-      .column("from", "from [1/min]", &BarredRange::from, in_rpm())
-      .column("to", "to [1/min]", &BarredRange::to, in_rpm())
+      .column("from", fmt::format("from [{}]", m.speed_unit.name), &BarredRange::from, in_unit(m.speed_unit))
+      .column("to", fmt::format("to [{}]", m.speed_unit.name), &BarredRange::to, in_unit(m.speed_unit))
       .column("peak", "largest [N·m]", &BarredRange::peak, digits(5))
       .column("limit", "limit there [N·m]", &BarredRange::limit, digits(5));
 }
@@ -156,10 +158,11 @@ Rows zone_table(const ModesStudy& m) {
       .column(
           "order", "order of the inertia", [&](const ParametricZone& z) { return m.excitations.order(z.harmonic); },
           digits(4))
-      .column("speed", "around [1/min]", &ParametricZone::centre, in_rpm(6))
+      .column("speed", fmt::format("around [{}]", m.speed_unit.name), &ParametricZone::centre, in_unit(m.speed_unit, 6))
       .column("variation", "variation ε", &ParametricZone::variation, digits(4))
       .only_for_people(
-          "half width [1/min]", [](const ParametricZone& z) { return z.centre * z.half_width; }, in_rpm(4))
+          fmt::format("half width [{}]", m.speed_unit.name),
+          [](const ParametricZone& z) { return z.centre * z.half_width; }, in_unit(m.speed_unit, 4))
       .column("relative_half_width", "state", &ParametricZone::half_width,
               [](double half_width) { return half_width > 0 ? "unstable inside" : "closed by damping"; });
 }
@@ -216,7 +219,7 @@ Rows rainflow_table(const TorqueHistory& h) {
 }
 
 std::string point_text(const ModesStudy& m) {
-  return fmt::format("linearised at {:.6g} 1/min of {}; {}", rpm(m.drive.at.speed), m.link, m.drive.mode_set);
+  return fmt::format("linearised at {} of {}; {}", m.speed_unit.text(m.drive.at.speed), m.link, m.drive.mode_set);
 }
 
 std::string method_text(const ModesStudy& m) {
@@ -285,11 +288,13 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
                          "Hz",
                          {},
                          m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "",
-                         6});
+                         6,
+                         "natural_frequency"});
   if (!is_forced(m)) return;
   const std::size_t j = joint_with_largest_swing(m.here);
   if (std::isfinite(m.here.joints[j].peak))
-    f.figures.push_back({"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5});
+    f.figures.push_back(
+        {"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5, "largest_swing"});
 }
 
 Formula rayleigh(const ModesStudy& m) {
@@ -311,10 +316,10 @@ Formula half_width(const ModesStudy& m) {
   return {.title = "Half width of a zone (theory 12.8)",
           .symbols = "ΔΩ/Ω = √(ε²/16 − ζ²) around Ω = 2 ω/r",
           .numbers = z.variation > 4 * zeta
-                         ? fmt::format("√({:.4g}²/16 − {:.4g}²) · {:.5g} 1/min = {:.4g} 1/min", z.variation, zeta,
-                                       rpm(z.centre), rpm(z.centre * z.half_width))
-                         : fmt::format("{:.4g} ≤ 4 · {:.4g}: closed by damping, around {:.5g} 1/min", z.variation, zeta,
-                                       rpm(z.centre)),
+                         ? fmt::format("√({:.4g}²/16 − {:.4g}²) · {} = {}", z.variation, zeta,
+                                       m.speed_unit.text(z.centre, 5), m.speed_unit.text(z.centre * z.half_width, 4))
+                         : fmt::format("{:.4g} ≤ 4 · {:.4g}: closed by damping, around {}", z.variation, zeta,
+                                       m.speed_unit.text(z.centre, 5)),
           .note = "ε: harmonic r of the reduced inertia in the mode, over its modal inertia. ε ≤ 4 ζ: closed."};
 }
 
@@ -347,6 +352,7 @@ Findings findings_of(const ModesStudy& m) {
              .subtitle = point_text(m),
              .page_title = fmt::format("{}: modes and critical speeds", m.title),
              .scene_file = m.scene_file,
+             .speed_unit = m.speed_unit.name,
              .conclusion = conclusion_of(m),
              .complete = m.complete,
              .diagnosis = m.diagnosis,

@@ -34,7 +34,7 @@ Series lines_of(const std::string& name, const AmplitudeSpectrum& s, double end)
 
 // From end to end of the range of speeds.
 Series level(const ModesStudy& m, const std::string& name, Role role, double y) {
-  return {.name = name, .role = role, .x = {rpm(m.slowest), rpm(m.fastest)}, .y = {y, y}};
+  return {.name = name, .role = role, .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)}, .y = {y, y}};
 }
 
 // Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
@@ -108,12 +108,12 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   }
   const auto curve = [&](const char* name, Role role, auto value) {
     return series_of(
-        name, role, finite, [](const SpeedResponse* s) { return rpm(s->speed); },
+        name, role, finite, [&m](const SpeedResponse* s) { return m.speed_unit.of(s->speed); },
         [&](const SpeedResponse* s) { return value(s->joints[j]); });
   };
   Plot plot{
       .title = fmt::format("Swinging torque in {} over the speed", m.joint_names[j]),
-      .x = {"speed of " + m.link, "1/min"},
+      .x = {"speed of " + m.link, m.speed_unit.name},
       .y = {"torque", ""},
       .series = {
           curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
@@ -123,18 +123,18 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
     plot.series.push_back(dashed(level(m, "allowed", Role::vermillion, m.limits[j].vibratory)));
   for (const BarredRange& b : m.barred) {
     if (b.joint != j) continue;
-    plot.marks.push_back({rpm(b.from), "barred from"});
-    plot.marks.push_back({rpm(b.to), "to"});
-    plot.note += fmt::format("{}Barred {:.5g} … {:.5g} 1/min by {}.", plot.note.empty() ? "" : " ", rpm(b.from),
-                             rpm(b.to), b.reason);
+    plot.marks.push_back({m.speed_unit.of(b.from), "barred from"});
+    plot.marks.push_back({m.speed_unit.of(b.to), "to"});
+    plot.note += fmt::format("{}Barred {:.5g} … {} by {}.", plot.note.empty() ? "" : " ", m.speed_unit.of(b.from),
+                             m.speed_unit.text(b.to, 5), b.reason);
   }
   return in_readable_unit(std::move(plot), "N*m", largest);
 }
 
 Plot order_plot(const ModesStudy& m) {
   const std::size_t j = joint_with_largest_swing(m.here);
-  Plot plot{.title = fmt::format("Orders of the torque in {} at {:.5g} 1/min", m.joint_names[j],
-                                 rpm(std::abs(m.drive.at.speed))),
+  Plot plot{.title = fmt::format("Orders of the torque in {} at {}", m.joint_names[j],
+                                 m.speed_unit.text(std::abs(m.drive.at.speed), 5)),
             .x = {"order of the turn of " + m.link, ""},
             .y = {"amplitude", "N·m"},
             .series = {}};
@@ -186,19 +186,19 @@ Plot history_orders_plot(const ModesStudy& m, const TorqueHistory& h) {
 Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
   Plot plot{.title = fmt::format("Waterfall of {}: spectra along the run, modes marked", h.channel),
             .x = {"frequency", "Hz"},
-            .y = {"speed of " + m.link + "; height of a line: amplitude", "1/min"},
+            .y = {"speed of " + m.link + "; height of a line: amplitude", m.speed_unit.name},
             .series = {}};
   double largest = 0, low = HUGE_VAL, high = -HUGE_VAL, end = 0;
   for (const WaterfallLine& line : h.lines) {
     for (const double a : line.spectrum.amplitude) largest = std::max(largest, a);
-    low = std::min(low, rpm(line.speed));
-    high = std::max(high, rpm(line.speed));
+    low = std::min(low, m.speed_unit.of(line.speed));
+    high = std::max(high, m.speed_unit.of(line.speed));
     end = std::max(end, end_of_spectrum(m, line.spectrum));
   }
   const double height = 0.25 * std::max(high - low, 0.05 * std::abs(high)) / std::max(largest, 1e-300);
   for (const WaterfallLine& line : h.lines) {
-    Series s = lines_of(fmt::format("{:.3g} s, {:.4g} 1/min", line.time, rpm(line.speed)), line.spectrum, end);
-    for (double& y : s.y) y = rpm(line.speed) + height * y;
+    Series s = lines_of(fmt::format("{:.3g} s, {}", line.time, m.speed_unit.text(line.speed, 4)), line.spectrum, end);
+    for (double& y : s.y) y = m.speed_unit.of(line.speed) + height * y;
     plot.series.push_back(std::move(s));
   }
   mark_modes(m, plot, end);
@@ -231,13 +231,13 @@ std::vector<std::size_t> strongest_critical(const ModesStudy& m, std::size_t cou
 
 Plot campbell_plot(const ModesStudy& m) {
   Plot plot{.title = "Campbell diagram: where excitation orders meet the modes",
-            .x = {"speed of " + m.link, "1/min"},
+            .x = {"speed of " + m.link, m.speed_unit.name},
             .y = {"frequency", "Hz"},
             .series = {},
             .note =
                 "Level lines are modes, rays are orders of the reduction link's turn; circles mark critical speeds, "
                 "dashed rays tooth meshes."};
-  const double to = rpm(m.fastest);
+  const double to = m.speed_unit.of(m.fastest);
   double top = 0;
   const std::vector<std::size_t> orders = orders_shown(m);
   for (const std::size_t r : orders) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
@@ -250,14 +250,14 @@ Plot campbell_plot(const ModesStudy& m) {
   for (const std::size_t r : orders) {
     rays.name += fmt::format("{} {:g}", rays.x.empty() ? "" : ",", m.excitations.order(r));
     rays.x.insert(rays.x.end(), {0, to, 0});
-    rays.y.insert(rays.y.end(), {0, m.excitations.order(r) * to / 60, 0});
+    rays.y.insert(rays.y.end(), {0, m.excitations.order(r) * hertz(m.fastest), 0});
   }
   if (!rays.x.empty()) plot.series.push_back(std::move(rays));
   Series meshes{.name = "tooth meshes", .role = Role::reference, .x = {}, .y = {}, .dashed = true};
   for (const GearMesh& mesh : m.excitations.meshes) {
-    const double end = std::min(to, 60 * top / mesh.order);
-    meshes.x.insert(meshes.x.end(), {0, end, 0});
-    meshes.y.insert(meshes.y.end(), {0, mesh.order * end / 60, 0});
+    const double end = std::min(m.fastest, top / (mesh.order * hertz(1)));
+    meshes.x.insert(meshes.x.end(), {0, m.speed_unit.of(end), 0});
+    meshes.y.insert(meshes.y.end(), {0, mesh.order * hertz(end), 0});
     plot.note += fmt::format(" Mesh of {}: order {:.5g}.", mesh.name, mesh.order);
   }
   if (!meshes.x.empty()) plot.series.push_back(std::move(meshes));
@@ -269,10 +269,10 @@ Plot campbell_plot(const ModesStudy& m) {
     if (std::find(orders.begin(), orders.end(), c.harmonic) != orders.end()) met.push_back(c);
   if (!met.empty())
     plot.series.push_back(marks(series_of(
-        "critical speeds", Role::orange, met, [](const CriticalSpeed& c) { return rpm(c.speed); },
+        "critical speeds", Role::orange, met, [&m](const CriticalSpeed& c) { return m.speed_unit.of(c.speed); },
         [](const CriticalSpeed& c) { return hertz(c.order * c.speed); })));
   for (const ParametricZone& z : m.zones)
-    if (z.half_width > 0) plot.marks.push_back({rpm(z.centre), fmt::format("parametric, mode {}", z.mode)});
+    if (z.half_width > 0) plot.marks.push_back({m.speed_unit.of(z.centre), fmt::format("parametric, mode {}", z.mode)});
   return plot;
 }
 

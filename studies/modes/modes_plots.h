@@ -10,7 +10,6 @@
 
 namespace kurbel::modes {
 
-inline double rpm(double omega) { return omega * 30 / std::numbers::pi; }
 inline double hertz(double omega) { return omega / (2 * std::numbers::pi); }
 // "12.3 kN·m"
 std::string torque_text(double value);

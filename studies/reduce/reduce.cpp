@@ -115,6 +115,7 @@ class Reducer {
     if (options.speed && !(*options.speed > 0 && std::isfinite(*options.speed)))
       throw std::invalid_argument("--speed: must be > 0");
     r_.title = scene.heading();
+    r_.speed_unit = scene.speed_unit;
     r_.scene_file = scene.file;
   }
 

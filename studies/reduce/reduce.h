@@ -71,6 +71,7 @@ struct MachineReduction {
   double to_ratio = 1;  // speed of the chosen shaft over the link's
   double speed = 0;     // of the link, where torques depend on it [rad/s]
   std::string speed_source;
+  SpeedUnit speed_unit;
   double cycle = 0;                   // of the link [rad]
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"

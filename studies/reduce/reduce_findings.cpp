@@ -253,11 +253,18 @@ Findings findings_of(const MachineReduction& r) {
       .title = r.title,
       .subtitle = fmt::format("Machine reduced to {}", r.to),
       .scene_file = r.scene_file,
+      .speed_unit = r.speed_unit.name,
       .conclusion = conclusion_of(r),
       .tells_complete = false,
-      .figures = {{"constant inertia of the drive", r.constant_inertia, "kg*m2", {}, r.to_output ? "on " + r.link : ""},
-                  {"mean driving torque", r.mean_drive, "N*m", {}, "on " + r.link},
-                  {"mean resisting torque", r.mean_load, "N*m", {}, "on " + r.link}}};
+      .figures = {{"constant inertia of the drive",
+                   r.constant_inertia,
+                   "kg*m2",
+                   {},
+                   r.to_output ? "on " + r.link : "",
+                   0,
+                   "constant_inertia"},
+                  {"mean driving torque", r.mean_drive, "N*m", {}, "on " + r.link, 0, "mean_driving_torque"},
+                  {"mean resisting torque", r.mean_load, "N*m", {}, "on " + r.link, 0, "mean_resisting_torque"}}};
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);

@@ -87,7 +87,7 @@ std::vector<std::size_t> acting(const MachineReduction& r) {
 bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude < 1e-10 * std::sqrt(s.mean_square); }
 
 std::string speed_text(const MachineReduction& r) {
-  return fmt::format("torques at {:.6g} rpm of {} ({})", r.speed * 30 / std::numbers::pi, r.link, r.speed_source);
+  return fmt::format("torques at {} of {} ({})", r.speed_unit.text(r.speed), r.link, r.speed_source);
 }
 
 std::vector<Plot> motion_plots(const MachineReduction& r) {

@@ -177,6 +177,7 @@ void write(Writer& w, const Table& table) {
     w.key("hints");
     w.list(table.hints, [&](const std::vector<std::string>& row) { w.value(row); });
   }
+  if (!table.means.empty()) w.field("means", table.means);
 }
 
 void write(Writer& w, const Formula& formula) {
@@ -309,6 +310,7 @@ std::string json_of(const Report& report) {
         w.field("unit", pretty_unit(figure.unit));
         w.field("error", text.error);
         w.field("note", figure.note);
+        if (!figure.means.empty()) w.field("means", figure.means);
       });
     });
     w.key("sections");
@@ -320,6 +322,16 @@ std::string json_of(const Report& report) {
                [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
       });
     });
+    if (!report.meanings.empty()) {
+      w.key("meanings");
+      w.list(report.meanings, [&](const Meaning& meaning) {
+        w.object([&] {
+          w.field("id", meaning.id);
+          w.field("title", meaning.title);
+          w.field("text", meaning.text);
+        });
+      });
+    }
     const std::vector<std::string> notes = theory_notes(w.text);  // of all that was said above
     if (!notes.empty()) w.field("theory", notes);
   });

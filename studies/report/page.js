@@ -114,6 +114,26 @@
     setTimeout(drawInTurn, 0, i + 1);
   }
 
+  // --- what figures mean: links to a list at the foot ------------------------------------------------------------------
+  const meanings = new Map((report.meanings || []).map(meaning => [meaning.id, meaning]));
+  function meaningOf(id, parent) {
+    const link = make('a', 'means', null, parent), meaning = meanings.get(id);
+    link.href = '#def-' + id;
+    link.title = `${meaning.title}: ${meaning.text}`;
+    link.onclick = () => { document.getElementById('definitions').open = true; };
+    return link;
+  }
+  function addMeanings() {
+    const details = make('details', 'meanings', null, root);
+    details.id = 'definitions';
+    make('summary', '', 'What the figures mean', details);
+    const list = make('dl', '', null, details);
+    for (const meaning of meanings.values()) {
+      make('dt', '', meaning.title, list).id = 'def-' + meaning.id;
+      make('dd', '', meaning.text, list);
+    }
+  }
+
   // --- tables, formulas, text ----------------------------------------------------------------------------------------
   function fold(card, title, folded) {
     if (!folded) {
@@ -137,8 +157,9 @@
         const tone = table.tones ? table.tones[r][i] : '';
         const cell = make('td', [kind(i), tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         if (table.hints && table.hints[r][i]) cell.title = table.hints[r][i];
+        const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         // Long names break behind their dots and underscores.
-        text.split(/(?<=[._])/).forEach((piece, k) => { if (k && kind(i)) make('wbr', '', null, cell); cell.append(piece); });
+        text.split(/(?<=[._])/).forEach((piece, k) => { if (k && kind(i)) make('wbr', '', null, place); place.append(piece); });
       });
     });
   }
@@ -611,7 +632,8 @@
   const row = make('div', 'figures', null, root);
   for (const figure of report.figures) {
     const box = make('div', 'figure', null, row);
-    make('div', 'name', figure.name, box);
+    const name = make('div', 'name', null, box);
+    (figure.means ? meaningOf(figure.means, name) : name).append(figure.name);
     const value = make('div', 'value', figure.value + ' ', box);
     make('span', 'unit', figure.unit, value);
     if (figure.error) make('div', 'error', `${figure.error} ${figure.unit}`, box);
@@ -629,6 +651,7 @@
       makers[card.kind](card, element);
     }
   }
+  if (meanings.size) addMeanings();
   if (report.theory) addTheory(report.theory);
   make('footer', '', report.footer, root);
   requestAnimationFrame(() => setTimeout(drawInTurn, 0, 0));

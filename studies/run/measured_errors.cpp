@@ -5,19 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "studies/findings/figure_changes.h"
+
 namespace kurbel {
 namespace {
 
 constexpr double share = 0.05;                                           // of the median, in every figure's error
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // of a figure's size and scale
-
-// δ and a fluctuation that is none differ by what the run found of its motion, not by how they are measured.
-bool measure_the_same(const Figure& a, const Figure& b) {
-  const auto fluctuates = [](const Figure& f) {
-    return f.what == QuantityKind::delta || f.what == QuantityKind::cycle_fluctuation;
-  };
-  return a.name == b.name || (fluctuates(a) && fluctuates(b) && a.of == b.of);
-}
 
 const Figure* find(const std::vector<Figure>& figures, const Figure& like, std::size_t place) {
   if (place < figures.size() && figures[place].name == like.name) return &figures[place];

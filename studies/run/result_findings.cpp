@@ -262,12 +262,14 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
     for (const CycleRecord& c : r->cycles)
       if (delta && delta->at && c.end == *delta->at) cycle = &c;
     if (!cycle) continue;
+    const SpeedUnit speed = speed_unit_of(*r);
     const bool repeats = delta->what == QuantityKind::delta;
     const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
     f.show(in, Formula{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
                        .symbols = symbol + " = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
-                       .numbers = fmt::format("{} = ({:.5g} − {:.5g}) rad/s / {:.5g} rad/s = {}", symbol,
-                                              cycle->omega_max, cycle->omega_min, cycle->mid_speed(), sure(*delta)),
+                       .numbers = fmt::format("{} = ({:.5g} − {:.5g}) {} / {} = {}", symbol, speed.of(cycle->omega_max),
+                                              speed.of(cycle->omega_min), pretty_unit(speed.name),
+                                              speed.text(cycle->mid_speed(), 5), sure(*delta)),
                        .note = fmt::format("Cycle from {:.5g} to {:.5g} s{}.", cycle->begin, cycle->end,
                                            repeats ? "" : "; the motion does not repeat, so this is no δ")});
   }

@@ -12,7 +12,11 @@
 namespace kurbel {
 namespace {
 
-KeyFigure key_of(const Figure& f, const std::string& note) { return {in_words(f), f.value, f.unit, f.error, note}; }
+KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& speed) {
+  if (f.unit != "rad/s") return {in_words(f), f.value, f.unit, f.error, note, 0, f.name};
+  const std::optional<double> error = f.error ? std::optional(speed.of(*f.error)) : std::nullopt;
+  return {in_words(f), speed.of(f.value), speed.name, error, note, 0, f.name};
+}
 
 // --- one run ---
 
@@ -20,14 +24,17 @@ Rows figures_table(const Result& r, bool on_terminal) {
   using F = const Figure&;
   std::vector<Figure> figures = r.figures;
   std::erase_if(figures, [&](F f) { return !is_told(f, r); });
+  const SpeedUnit speed = speed_unit_of(r);
+  const auto cells = [&](F f) { return figure_cells(f.value, f.error, f.unit, speed); };
   auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
                         std::move(figures))
                    .always()
                    .close()
+                   .explained_by(&Figure::name)
                    .only_for_people("figure", &Figure::name)
-                   .only_for_people("value", [](F f) { return figure_text(f.value, f.error).value; })
-                   .only_for_people("error", [](F f) { return error_cell(f.value, f.error); })
-                   .only_for_people("unit", [](F f) { return pretty_unit(f.unit); });
+                   .only_for_people("value", [&](F f) { return cells(f).value; })
+                   .only_for_people("error", [&](F f) { return cells(f).error; })
+                   .only_for_people("unit", [&](F f) { return cells(f).unit; });
   // The page's heading names the unit of the time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
   return table.not_on_terminal().only_for_people(
@@ -35,39 +42,46 @@ Rows figures_table(const Result& r, bool on_terminal) {
 }
 
 void add_key_figures(Findings& f, const Result& r) {
-  if (const Figure* peak = largest_peak(r)) f.figures.push_back(key_of(*peak, at_time(*peak)));
+  if (const Figure* peak = largest_peak(r)) f.figures.push_back(key_of(*peak, at_time(*peak), speed_unit_of(r)));
   using enum QuantityKind;
   for (const QuantityKind what : {delta, cycle_fluctuation, mid_speed, peak_force, run_up_time})
-    if (const Figure* figure = first_of(r, what)) f.figures.push_back(key_of(*figure, ""));
+    if (const Figure* figure = first_of(r, what)) f.figures.push_back(key_of(*figure, "", speed_unit_of(r)));
   f.figures.push_back({"coordinates",
                        static_cast<double>(r.coordinates),
                        "",
                        {},
-                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds)});
+                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds),
+                       0,
+                       "coordinates"});
 }
 
 // --- two models ---
 
-std::string value_cell(const std::optional<double>& value, const std::optional<double>& error) {
-  return value ? figure_text(*value, error).value : "—";
-}
-std::string sure_to(const std::optional<double>& value, const std::optional<double>& error) {
-  return value ? error_cell(*value, error) : "";
+// A row's figure of one model, as people read it.
+FigureCells cells_of(const std::optional<double>& value, const std::optional<double>& error, const std::string& unit,
+                     const SpeedUnit& speed) {
+  if (value) return figure_cells(*value, error, unit, speed);
+  return {"—", "", unit == "rad/s" ? speed.name : pretty_unit(unit)};
 }
 
 Rows comparison_table(const Comparison& c) {
   using R = const ComparisonRow&;
+  const SpeedUnit speed = speed_unit_of(c.b);
+  const auto in_a = [&](R row) { return cells_of(row.a, row.a_error, row.unit, speed); };
+  const auto in_b = [&](R row) { return cells_of(row.b, row.b_error, row.unit, speed); };
   auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
+  table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
   table.only_for_programs(c.a.label, &ComparisonRow::a)
       .only_for_programs(c.a.label + "_error", &ComparisonRow::a_error)
       .only_for_programs(c.b.label, &ComparisonRow::b)
       .only_for_programs(c.b.label + "_error", &ComparisonRow::b_error);
-  table.only_for_people(c.a.label, [](R row) { return value_cell(row.a, row.a_error); })
-      .only_for_people("error", [](R row) { return sure_to(row.a, row.a_error); })
-      .only_for_people(c.b.label, [](R row) { return value_cell(row.b, row.b_error); })
-      .only_for_people("error", [](R row) { return sure_to(row.b, row.b_error); })
-      .column("unit", "unit", &ComparisonRow::unit, [](const std::string& unit) { return pretty_unit(unit); })
+  table.only_for_people(c.a.label, [&](R row) { return in_a(row).value; })
+      .only_for_people("error", [&](R row) { return in_a(row).error; })
+      .only_for_people(c.b.label, [&](R row) { return in_b(row).value; })
+      .only_for_people("error", [&](R row) { return in_b(row).error; })
+      .column("unit", "unit", &ComparisonRow::unit,
+              [&](const std::string& unit) { return cells_of({}, {}, unit, speed).unit; })
       .only_for_programs("difference", &ComparisonRow::difference);
   return table.column("ratio", c.b.label + "/" + c.a.label, &ComparisonRow::ratio,
                       ReadAs{.digits = 4, .otherwise = ""});
@@ -76,8 +90,10 @@ Rows comparison_table(const Comparison& c) {
 // On the terminal the amplification of torques stands below the figures.
 Rows with_amplification(const Comparison& c, const Rows& figures) {
   Lines lines = figures.texts();
-  for (const ComparisonRow& row : c.amplification)
-    lines.push_back({row.name, "1", "", value_cell(row.b, row.b_error), sure_to(row.b, row.b_error), "", ""});
+  for (const ComparisonRow& row : c.amplification) {
+    const FigureCells factor = cells_of(row.b, row.b_error, "", {});
+    lines.push_back({row.name, "1", "", factor.value, factor.error, "", ""});
+  }
   Rows table = words_table("", figures.headings(), lines);
   table.page = false;
   return table;
@@ -101,11 +117,16 @@ void add_key_figures(Findings& f, const Comparison& c) {
   const auto add = [&](const Figure* figure) {
     if (!figure) return;
     const Figure* other = c.a.find(figure->name);
-    f.figures.push_back(key_of(
-        *figure,
-        other ? fmt::format("{}: {}{}", c.a.label, with_error(other->value, other->error, ""),
-                            other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "")
-              : ""));
+    const SpeedUnit speed = speed_unit_of(c.b);
+    std::string note;
+    if (other) {
+      const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
+      note = fmt::format(
+          "{}: {}{}", c.a.label,
+          with_error(factor * other->value, other->error ? std::optional(factor * *other->error) : std::nullopt, ""),
+          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
+    }
+    f.figures.push_back(key_of(*figure, note, speed));
   };
   for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
     if (f.figures.size() < 3) add(c.b.find("peak_torque." + joint));
@@ -117,7 +138,8 @@ void add_key_figures(Findings& f, const Comparison& c) {
                        "ms",
                        {},
                        fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
-                       3});
+                       3,
+                       "processor_time"});
 }
 
 // As it is told of a run alone.
@@ -146,6 +168,7 @@ Findings findings_of(const Result& r) {
       .title = r.title,
       .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
       .scene_file = r.scene_file,
+      .speed_unit = speed_unit_of(r).name,
       .conclusion = one_line(r),
       .page_conclusion = conclusion_of(r),
       .complete = r.complete,
@@ -177,6 +200,7 @@ Findings findings_of(const Comparison& c) {
   const Results results = {&c.a, &c.b};
   Findings f{.title = c.title,
              .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
+             .speed_unit = speed_unit_of(c.b).name,
              .conclusion = c.conclusion,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false,

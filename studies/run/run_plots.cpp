@@ -49,7 +49,7 @@ std::optional<Plot> over_time(const Results& results, const std::string& channel
   for (const Result* r : results)
     if (const Trace* trace = r->traces->find(channel)) traces.push_back(trace);
   if (traces.empty()) return {};
-  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit);
+  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
   Plot plot{
       .title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .series = {}, .marks = marks_of(*results.back())};
   for (const Result* r : results)
@@ -70,7 +70,7 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   if (found.empty()) return {};
   std::vector<const Trace*> traces;
   for (const auto& [r, trace] : found) traces.push_back(trace);
-  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit);
+  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
   Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}, .series = {}};
   for (const auto& [r, trace] : found)
     plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));

@@ -58,6 +58,11 @@ std::string in_words(const Figure& f) {
 }
 
 std::string sure(const Figure& f) { return with_error(f.value, f.error, f.unit); }
+std::string sure(const Figure& f, const SpeedUnit& speed) {
+  if (f.unit != "rad/s") return sure(f);
+  return with_error(speed.of(f.value), f.error ? std::optional(speed.of(*f.error)) : std::nullopt, speed.name);
+}
+SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
 std::string at_time(const Figure& f) { return f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""; }
 
 const Figure* largest_peak(const Result& r) {
@@ -108,7 +113,7 @@ std::string conclusion_of(const Result& r) {
                         text.size() == begin ? "The" : "; the", cycle->of, sure(*cycle));
   if (text.size() == begin)
     if (const Figure* speed = first_of(r, QuantityKind::final_speed))
-      text += fmt::format("{} ends at {}", speed->of, sure(*speed));
+      text += fmt::format("{} ends at {}", speed->of, sure(*speed, speed_unit_of(r)));
   if (has_works(r) && nothing_turned_over(r.energy))
     text += fmt::format("{}o work is done and no energy changes its form", text.size() == begin ? "N" : "; n");
   else if (has_works(r))

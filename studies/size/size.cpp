@@ -18,8 +18,6 @@
 namespace kurbel {
 namespace {
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 const Kind& flywheel_kind() {
   for (const Kind& kind : all_kinds())
     if (kind.name == "flywheel") return kind;
@@ -61,6 +59,7 @@ class Sizer {
     }
     machine_.emplace(scene_);
     s_.title = scene.heading();
+    s_.speed_unit = scene.speed_unit;
     s_.scene_file = scene.file;
     s_.link = model().node_label(model().reduction_node);
     s_.sheet = options.sheet;
@@ -158,19 +157,19 @@ class Sizer {
       s_.mid_speed = *options_.mid_speed;
       s_.mid_speed_source = "given";
       if (s_.operating && std::abs(s_.operating->speed / s_.mid_speed - 1) > 0.01)
-        s_.notes.push_back(
-            fmt::format("the mid speed given is {:.5g} rpm, but with its motor the machine runs at {:.5g} rpm",
-                        rpm(s_.mid_speed), rpm(s_.operating->speed)));
+        s_.notes.push_back(fmt::format("the mid speed given is {}, but with its motor the machine runs at {}",
+                                       s_.speed_unit.text(s_.mid_speed, 5),
+                                       s_.speed_unit.text(s_.operating->speed, 5)));
     } else if (s_.operating) {
       s_.mid_speed = s_.operating->speed;
       s_.mid_speed_source = s_.motor.empty() ? "operating speed, where the mean torques balance"
                                              : "operating speed of the motor under the mean load";
       for (const double other : s_.operating->others)
-        s_.notes.push_back(fmt::format("the machine can also run steadily at {:.5g} rpm", rpm(other)));
+        s_.notes.push_back(fmt::format("the machine can also run steadily at {}", s_.speed_unit.text(other, 5)));
     } else {
       throw std::invalid_argument(
           "with torques that do not depend on speed every speed is a steady one, so it must be given: "
-          "--mean-speed \"60 rpm\"");
+          "--mid-speed \"60 rpm\"");
     }
   }
 

@@ -65,6 +65,7 @@ struct Sizing {
   std::string delta_source;
   double mid_speed = 0;
   std::string mid_speed_source;
+  SpeedUnit speed_unit;
 
   MachineCycle cycle;
   WorkDiagram diagram;

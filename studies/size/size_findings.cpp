@@ -17,8 +17,6 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr int curve_points = 720;
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 const SizeMethod& exact_method(const Sizing& s) { return s.methods.front(); }
 
 const DeltaReached* reached(const Sizing& s, SizedModel model) {
@@ -107,7 +105,8 @@ Rows reached_table(const Sizing& s) {
       .only_for_people("δ at the motor",
                        [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
       .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
-      .column("mid_speed", "mid speed [rpm]", &DeltaReached::mid_speed, {.factor = rpm(1)})
+      .column("mid_speed", fmt::format("mid speed [{}]", s.speed_unit.name), &DeltaReached::mid_speed,
+              {.factor = s.speed_unit.of(1)})
       .only_for_programs("settled", &DeltaReached::settled)
       .only_for_programs("cycles", &DeltaReached::cycles)
       .only_for_people("cycles", [](const DeltaReached& r) {
@@ -214,8 +213,8 @@ Rows scales_table(const Sizing& s) {
 }
 
 Sentences basis_words(const Sizing& s) {
-  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mid speed {:.6g} rpm of {} ({})", s.delta, s.delta_source,
-                                rpm(s.mid_speed), s.link, s.mid_speed_source),
+  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mid speed {} of {} ({})", s.delta, s.delta_source,
+                                s.speed_unit.text(s.mid_speed), s.link, s.mid_speed_source),
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
                                 s.diagram.least.x * degrees, s.diagram.most.x * degrees),
@@ -305,17 +304,22 @@ std::string diagrams_csv(const Sizing& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const Sizing& s) {
-  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s)}};
-  if (s.soft) f.figures.push_back({"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, ""});
+  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s), 0, "flywheel"}};
+  if (s.soft)
+    f.figures.push_back(
+        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, "", 0, "flywheel_with_slope"});
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
       const char* note = r.settled ? "" : "last cycle, not settled";
-      f.figures.push_back({fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note});
+      f.figures.push_back(
+          {fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note, 0, "delta_reached"});
       if (r.model == SizedModel::elastic && !s.motor.empty())
-        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note});
+        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note, 0,
+                             "delta_reached"});
     }
-  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, ""});
-  if (s.dimensions) f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name});
+  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, "", 0, "fluctuation_of_energy"});
+  if (s.dimensions)
+    f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {
@@ -337,6 +341,7 @@ Findings findings_of(const Sizing& s) {
   Findings f{.title = s.title,
              .subtitle = fmt::format("Flywheel for δ = {:g}", s.delta),
              .scene_file = s.scene_file,
+             .speed_unit = s.speed_unit.name,
              .conclusion = conclusion_of(s),
              .complete = s.complete,
              .diagnosis = s.diagnosis};

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 }  // namespace
 
 std::string basis_of(const Sizing& s) {
@@ -152,16 +150,16 @@ std::vector<Formula> motor_formulas(const Sizing& s) {
             "{:.3g} of itself within a cycle.",
             s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier)});
   if (s.soft)
-    list.push_back(Formula{
-        .title = "Inertia that gives δ with these torques",
-        .symbols = "δ(I₀) = δ",
-        .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
-                               s.soft->drive_inertia, s.soft->flywheel,
-                               std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
-                               s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
-        .note = s.soft_cycle && s.soft_cycle->found
-                    ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {:.6g} rpm.", rpm(s.soft_cycle->mid_speed()))
-                    : ""});
+    list.push_back(
+        Formula{.title = "Inertia that gives δ with these torques",
+                .symbols = "δ(I₀) = δ",
+                .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
+                                       s.soft->drive_inertia, s.soft->flywheel,
+                                       std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
+                                       s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
+                .note = s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
+                                                                          s.speed_unit.text(s.soft_cycle->mid_speed()))
+                                                            : ""});
   return list;
 }
 

@@ -17,8 +17,6 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr int curve_points = 720;
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 // Both sides of every jump are points.
 std::vector<double> angles_of(const Piecewise& f) {
   std::vector<double> list;
@@ -57,13 +55,14 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
   const ReadableUnit torque = readable_unit(d.load_torque.largest(), "N*m"),
                      energy = readable_unit(d.load_work.largest(), "J"), excess = readable_unit(d.fluctuation(), "J");
   std::vector<Plot> plots;
-  plots.push_back({.title = s.engine ? "Driving torque and the load that balances it"
-                                     : "Torque of resistance, and the constant driving torque that balances it",
-                   .x = angle,
-                   .y = {"M", torque.unit},
-                   .series = {curve("M_c", Role::orange, d.load_torque, torque.factor),
-                              curve("M_d", Role::green, d.drive_torque, torque.factor)},
-                   .note = fmt::format("Mean torque {:.6g} N·m at {:.5g} rpm.", d.mean_torque(), rpm(s.mid_speed))});
+  plots.push_back(
+      {.title = s.engine ? "Driving torque and the load that balances it"
+                         : "Torque of resistance, and the constant driving torque that balances it",
+       .x = angle,
+       .y = {"M", torque.unit},
+       .series = {curve("M_c", Role::orange, d.load_torque, torque.factor),
+                  curve("M_d", Role::green, d.drive_torque, torque.factor)},
+       .note = fmt::format("Mean torque {:.6g} N·m at {}.", d.mean_torque(), s.speed_unit.text(s.mid_speed, 5))});
   plots.push_back({.title = "Work of resistance and of the drive: equal at the end of the cycle",
                    .x = angle,
                    .y = {"A", energy.unit},
@@ -126,7 +125,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
                      (s.flywheel_now - s.methods.front().flywheel) * s.flywheel_ratio * s.flywheel_ratio;
   Plot p{.title = "Speed over the cycle, before and after",
          .x = {fmt::format("angle of {}", s.link), "°"},
-         .y = {fmt::format("speed of {}", s.link), "1/min"},
+         .y = {fmt::format("speed of {}", s.link), s.speed_unit.name},
          .series = {}};
   const auto add = [&](const std::string& name, Role role, double inertia, bool dashed) {
     try {
@@ -134,7 +133,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
       Series series{.name = name, .role = role, .x = {}, .y = {}, .dashed = dashed};
       for (const double phi : angles_of(s.diagram.excess)) {
         series.x.push_back(phi * degrees);
-        series.y.push_back(rpm(cycle.speed(phi)));
+        series.y.push_back(s.speed_unit.of(cycle.speed(phi)));
       }
       p.series.push_back(std::move(series));
     } catch (const std::invalid_argument&) {  // it would stop within the cycle
@@ -150,7 +149,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
                   .y = {}};
     for (std::size_t k = 0; k < r.phi.size(); ++k) {
       series.x.push_back(r.phi[k] * degrees);
-      series.y.push_back(rpm(r.speed[k]));
+      series.y.push_back(s.speed_unit.of(r.speed[k]));
     }
     p.series.push_back(std::move(series));
     if (r.model != SizedModel::elastic || s.motor.empty()) continue;
@@ -158,7 +157,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
                  .role = Role::sky,
                  .x = p.series.back().x,
                  .y = {}};
-    for (const double v : r.motor_speed) motor.y.push_back(rpm(v));
+    for (const double v : r.motor_speed) motor.y.push_back(s.speed_unit.of(v));
     p.series.push_back(std::move(motor));
   }
   if (p.series.empty()) return {};

@@ -27,7 +27,7 @@ constexpr double gauss_node[5] = {0.04691007703066800, 0.23076534494715845, 0.5,
 constexpr double gauss_weight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
                                     0.11846344252809454};
 
-std::string speed_text(double omega) { return with_unit(std::abs(omega) * 30 / std::numbers::pi, "rpm", 5); }
+std::string speed_text(const SpeedUnit& unit, double omega) { return unit.text(std::abs(omega), 5); }
 
 }  // namespace
 
@@ -81,14 +81,15 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
         "at {}); the drive gives at most {} (at {}). A stronger drive, a higher ratio, or a lighter load is needed",
         link, with_unit(-least->net(), "N*m", 4), with_unit(least->load, "N*m", 5), with_unit(least->drive, "N*m", 5),
-        speed_text(least->omega), with_unit(strongest.drive, "N*m", 5), speed_text(strongest.omega));
+        speed_text(speed_unit, least->omega), with_unit(strongest.drive, "N*m", 5),
+        speed_text(speed_unit, strongest.omega));
   const MeanTorques& last = curve.back();
   if (last.net() > 0)
     return fmt::format(
         "runaway: up to {} the drive's mean torque on \"{}\" exceeds the loads', there still by {} ({} against {}); "
         "nothing up to there ends the acceleration. A load that grows with speed, or a drive that weakens with it, is "
         "needed",
-        speed_text(last.omega), link, with_unit(last.net(), "N*m", 4), with_unit(last.drive, "N*m", 5),
+        speed_text(speed_unit, last.omega), link, with_unit(last.net(), "N*m", 4), with_unit(last.drive, "N*m", 5),
         with_unit(last.load, "N*m", 5));
   return fmt::format(
       "no stable operating point: where the mean torques on \"{}\" meet, the drive's rises faster with "
@@ -117,6 +118,7 @@ void measure_errors(RigidMachine& machine, OperatingDiagram& found) {
 
 OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
   OperatingDiagram result;
+  result.speed_unit = machine.model().scene.speed_unit;
   result.direction = direction;
   result.uses_speed = machine.uses_speed();
   MeanCharacteristic mean(machine, direction);
@@ -205,9 +207,9 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
     result.error = std::abs(integrate(equations, run, {}).t - result.time) + 1e-12 * result.time;
   }
   if (result.reached || !result.why.empty()) return result;
-  result.why =
-      fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
-                  speed_text(target), with_unit(limit, "s", 4), speed_text(result.w.back() * m.node_ratio[at(node)]));
+  result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
+                           speed_text(m.scene.speed_unit, target), with_unit(limit, "s", 4),
+                           speed_text(m.scene.speed_unit, result.w.back() * m.node_ratio[at(node)]));
   return result;
 }
 

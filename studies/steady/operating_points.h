@@ -50,6 +50,7 @@ struct OperatingDiagram {
   double strongest_error = 0;  // of its torque [N·m]
   bool uses_speed = true;
   int direction = 1;
+  SpeedUnit speed_unit;
 
   // The fastest stable one; null if there is none.
   const OperatingPoint* working_point() const;

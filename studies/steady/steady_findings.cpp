@@ -16,10 +16,14 @@
 namespace kurbel {
 namespace {
 
-constexpr double per_minute = 30 / std::numbers::pi, degrees = 180 / std::numbers::pi;
+constexpr double degrees = 180 / std::numbers::pi;
 
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
+
+SpeedUnit speed_unit_of(const SteadyStudy& s) {
+  return s.cycles.empty() || !s.cycles.front().model ? SpeedUnit{} : s.cycles.front().model->scene.speed_unit;
+}
 
 Role role_of(const SteadyCycle& c) { return !is_elastic(*c.model) ? Role::rigid : Role::elastic; }
 
@@ -71,14 +75,14 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
-    words.push_back(fmt::format("operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                                with_error(p.mean.omega * per_minute, p.speed_error * per_minute, "rpm"),
-                                with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
-                                beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥",
-                                beside(p.load_slope, p.drive_slope)));
+    words.push_back(
+        fmt::format("operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+                    with_error(d.speed_unit.of(p.mean.omega), d.speed_unit.of(p.speed_error), d.speed_unit.name),
+                    with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
+                    beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {} rpm), {}",
-                                with_unit(d.strongest.drive, "N*m", 5), number(d.strongest.omega * per_minute, 5),
+    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {}), {}",
+                                with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
                                 std::isfinite(d.margin(*p))
                                     ? with_error(d.margin(*p), d.margin_error(*p), "") + " times what it needs"
                                     : "and it needs nothing"));
@@ -114,21 +118,22 @@ std::vector<std::string> names_of_figures(const SteadyStudy& s) {
 // A row per figure, the models side by side.
 Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
-  table.only_for_people("figure", std::identity());
+  const SpeedUnit speed = speed_unit_of(s);
+  table.explained_by(std::identity()).only_for_people("figure", std::identity());
   for (const SteadyCycle& c : s.cycles) {
     table.only_for_people(c.label, [&](const std::string& name) {
       const Figure* f = c.find(name);
-      return f ? figure_text(f->value, f->error).value : "—";
+      return f ? figure_cells(f->value, f->error, f->unit, speed).value : "—";
     });
     table.only_for_people("error", [&](const std::string& name) {
       const Figure* f = c.find(name);
-      return f ? error_cell(f->value, f->error) : "";
+      return f ? figure_cells(f->value, f->error, f->unit, speed).error : "";
     });
   }
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
     for (const SteadyCycle& c : s.cycles)
-      if (const Figure* f = c.find(name)) unit = pretty_unit(f->unit);
+      if (const Figure* f = c.find(name)) unit = figure_cells(f->value, f->error, f->unit, speed).unit;
     return unit;
   });
 }
@@ -159,12 +164,13 @@ Rows shaft_table(const SteadyStudy& s) {
   const std::vector<ShaftFluctuation>& first = s.cycles.front().shafts;
   auto table = table_of("", "Speed fluctuation δ at every shaft", numbers_below(first.size())).not_on_terminal();
   table.always();
+  const SpeedUnit unit = speed_unit_of(s);
   table.only_for_people("shaft", [&](std::size_t i) { return first[i].shaft; });
   table.only_for_people("ratio to the link", [&](std::size_t i) { return first[i].ratio; }, {.digits = 5});
   for (const SteadyCycle& c : s.cycles)
     if (c.found) {
-      table.only_for_people("mid speed [1/min], " + c.label,
-                            [&](std::size_t i) { return per_minute * c.shafts[i].mid(); });
+      table.only_for_people(fmt::format("mid speed [{}], {}", unit.name, c.label),
+                            [&](std::size_t i) { return unit.of(c.shafts[i].mid()); });
       table.only_for_people("δ, " + c.label, [&](std::size_t i) { return c.shafts[i].delta(); });
     }
   return table;
@@ -278,18 +284,18 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
           for (double& x : plot.series.back().x) x *= degrees;
         }
   if (plot.series.empty()) return {};
-  return in_readable_unit(std::move(plot), si_unit);
+  return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));
 }
 
 Plot diagram_plot(const SteadyStudy& s) {
   const OperatingDiagram& d = *s.diagram;
-  const auto rpm = [](const MeanTorques& m) { return m.omega * per_minute; };
+  const auto speed = [&d](const MeanTorques& m) { return d.speed_unit.of(m.omega); };
   Plot plot{
       .title = "Operating points: where the drive's mean torque meets the loads'",
-      .x = {"speed of " + s.link, "1/min"},
+      .x = {"speed of " + s.link, d.speed_unit.name},
       .y = {"mean torque over a cycle", ""},
-      .series = {series_of("drive M_d", Role::green, d.curve, rpm, &MeanTorques::drive),
-                 series_of("loads M_c", Role::orange, d.curve, rpm, &MeanTorques::load)},
+      .series = {series_of("drive M_d", Role::green, d.curve, speed, &MeanTorques::drive),
+                 series_of("loads M_c", Role::orange, d.curve, speed, &MeanTorques::load)},
       .note = "Mean over a cycle at constant speed, reduced to " + s.link + "; stable where the drive's falls below."};
   const double largest = largest_of(plot);
   for (const bool stable : {true, false}) {
@@ -298,7 +304,7 @@ Plot diagram_plot(const SteadyStudy& s) {
       if (p.stable() == stable) points.push_back(p.mean);
     if (!points.empty())
       plot.series.push_back(marks(series_of(stable ? "stable" : "unstable", stable ? Role::elastic : Role::vermillion,
-                                            points, rpm, &MeanTorques::load)));
+                                            points, speed, &MeanTorques::load)));
   }
   return in_readable_unit(std::move(plot), "N*m", largest);
 }
@@ -321,10 +327,11 @@ Plot multiplier_plot(const SteadyStudy& s) {
 
 Plot start_plot(const SteadyStudy& s) {
   Series speed{.name = "rigid", .role = Role::rigid, .x = s.start->t, .y = s.start->w};
-  for (double& w : speed.y) w *= per_minute;
+  const SpeedUnit unit = speed_unit_of(s);
+  for (double& w : speed.y) w = unit.of(w);
   return {.title = "Start from rest to 95 % of the steady speed",
           .x = {"time", "s"},
-          .y = {"speed of " + s.link, "1/min"},
+          .y = {"speed of " + s.link, unit.name},
           .series = {speed}};
 }
 
@@ -355,35 +362,39 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const SteadyStudy& s) {
+  const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
-    if (const Figure* mean = c.find("mean_speed." + s.link))
-      f.figures.push_back({"mean speed, " + c.label, mean->value * per_minute, "rpm",
-                           mean->error ? std::optional(*mean->error * per_minute) : std::nullopt});
+    if (const Figure* mid = c.find("mid_speed." + s.link))
+      f.figures.push_back({"mid speed, " + c.label, unit.of(mid->value), unit.name,
+                           mid->error ? std::optional(unit.of(*mid->error)) : std::nullopt, "", 0, mid->name});
     if (const Figure* delta = c.find("delta." + s.link))
-      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error});
+      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
     if (!c.point.multipliers.empty())
       f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "",
                            c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front()),
-                           c.stability, 4});
+                           c.stability, 4, "largest_multiplier"});
   }
   if (const SteadyCycle& last = s.cycles.back(); last.found)
     for (const MotorUse& m : last.motors)
       if (m.rated)
-        f.figures.push_back({"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4});
+        f.figures.push_back(
+            {"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4, "thermal_use"});
 }
 
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
+  const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
     const Figure *delta = c.find("delta." + s.link), *max = c.find("max_speed." + s.link),
                  *min = c.find("min_speed." + s.link);
     if (!delta || !max || !min) continue;
-    f.show(in,
-           Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
-                   .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
-                   .numbers = fmt::format("δ = ({:.6g} − {:.6g}) rad/s / {:.6g} rad/s = {}", max->value, min->value,
-                                          0.5 * (max->value + min->value), with_error(delta->value, delta->error, "")),
-                   .note = ""});
+    f.show(in, Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
+                       .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                       .numbers =
+                           fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value), unit.of(min->value),
+                                       pretty_unit(unit.name), unit.text(0.5 * (max->value + min->value)),
+                                       with_error(delta->value, delta->error, "")),
+                       .note = ""});
   }
 }
 
@@ -409,6 +420,7 @@ Findings findings_of(const SteadyStudy& s) {
   Findings f{.title = s.title,
              .subtitle = "Steady motion found directly: return map and its multipliers",
              .scene_file = s.scene_file,
+             .speed_unit = speed_unit_of(s).name,
              .conclusion = s.conclusion,
              .complete = s.complete,
              .diagnosis = s.diagnosis,

@@ -72,7 +72,7 @@ TEST(SizeCommand, BadInputEndsWithTwoInWords) {
   refused("--delta 2", "must be > 0 and < 2");
   refused("--delta 1/0", "nothing can be divided by 0");
   refused("--delta '5 mm'", "must be a plain number, e.g. \"0.05\"");
-  refused("--delta 0.1 --mean-speed '1 1/s'", "must be a speed > 0 with its unit");
+  refused("--delta 0.1 --mid-speed '1 1/s'", "must be a speed > 0 with its unit");
   refused("", "--delta 0.05");
   refused("--machine pres", "did you mean \"press\"");
   refused("--delta 0.1 --machine press", "keep one");
@@ -80,7 +80,7 @@ TEST(SizeCommand, BadInputEndsWithTwoInWords) {
   refused("--delta 0.1 --form ring", "rim or disc");
   refused("--delta 0.1 --diameter 3", "length");
   refused("--delta 0.1 --diameter '300 mm'", "larger --diameter");
-  refused("--delta 0.1 --mean-speed '-5 rpm'", "speed > 0");
+  refused("--delta 0.1 --mid-speed '-5 rpm'", "speed > 0");
 }
 
 TEST(SizeCommand, FractionsAndTurnsPerMinuteAreTakenAsReportsPrintThem) {
@@ -90,9 +90,9 @@ TEST(SizeCommand, FractionsAndTurnsPerMinuteAreTakenAsReportsPrintThem) {
     const auto json = nlohmann::json::parse(said.text);
     return json["flywheel"]["inertia"].get<double>();
   };
-  const double inertia = sized("--delta 0.05 --mean-speed '60 rpm'");
-  EXPECT_DOUBLE_EQ(sized("--delta 1/20 --mean-speed '60 1/min'"), inertia);
-  EXPECT_DOUBLE_EQ(sized("--delta '5 %' --mean-speed '1 Hz'"), inertia);
+  const double inertia = sized("--delta 0.05 --mid-speed '60 rpm'");
+  EXPECT_DOUBLE_EQ(sized("--delta 1/20 --mid-speed '60 1/min'"), inertia);
+  EXPECT_DOUBLE_EQ(sized("--delta '5 %' --mid-speed '1 Hz'"), inertia);
 }
 
 TEST(SizeCommand, CustomaryDeltaAndDiscWithoutSimulation) {

@@ -73,6 +73,27 @@ TEST(Scene, RunAndTitleAreRead) {
   EXPECT_EQ(scene.run.output, Texts{"wheel"});
 }
 
+// People are told speeds as the scene's first one is written.
+TEST(Scene, SpeedsAreToldInTheUnitOfTheFirst) {
+  const auto unit = [](const std::string& first, const std::string& start) {
+    std::string text = base;
+    text.replace(text.find("1500 rpm"), std::string("1500 rpm").size(), first);
+    return test::scene_from(text + "[run]\nstart = { speed = \"" + start + "\" }\n").speed_unit;
+  };
+  EXPECT_EQ(unit("300 rpm", "3 rad/s").text(2 * M_PI), "60 rpm");
+  EXPECT_EQ(unit("300 1/min", "3 rad/s").text(2 * M_PI), "60 1/min");
+  EXPECT_EQ(unit("30 rad/s", "3 rpm").text(2.5), "2.5 rad/s");
+  EXPECT_EQ(unit("5 Hz", "3 rad/s").text(2 * M_PI), "1 Hz");
+  EXPECT_EQ(unit("1e3 deg/s", "3 rad/s").text(M_PI), "180 deg/s");
+}
+
+TEST(Scene, AFrequencyIsNoSpeed) {
+  const Scene scene = test::scene_from(
+      "line = [\"source\", \"wheel\"]\nsource = { kind = \"torque source\", amplitude = \"1 N*m\", frequency = \"300 "
+      "1/min\" }\nwheel = { kind = \"flywheel\", inertia = \"1 kg*m2\" }\n");
+  EXPECT_EQ(scene.speed_unit.name, "rpm");  // nothing said
+}
+
 TEST(Scene, OrderOfTablesInTheFileDoesNotMatter) {
   const Scene a = test::scene_from(base), b = test::scene_from("line = [\"motor\", \"coupling\", \"wheel\"]\n" +
                                                                flywheel("wheel") + coupling + motor);

@@ -238,7 +238,7 @@ TEST(Size, RefusesInWords) {
     return o;
   }());
   EXPECT_NE(constant.find("5.94"), std::string::npos) << constant;  // N·m missing
-  EXPECT_NE(refusal(press("kind = \"torque source\", torque = \"100 N*m\""), demand(0.1)).find("--mean-speed"),
+  EXPECT_NE(refusal(press("kind = \"torque source\", torque = \"100 N*m\""), demand(0.1)).find("--mid-speed"),
             std::string::npos);
   // No net resistance: a spring-like force along the stroke gives back what it takes.
   SizeOptions at_speed = demand(0.1);

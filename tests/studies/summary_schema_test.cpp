@@ -5,6 +5,7 @@
 #include "drivetrain/gears/bevel_worm.h"
 #include "studies/accuracy/accuracy_findings.h"
 #include "studies/advise/advise_findings.h"
+#include "studies/dictionary/dictionary.h"
 #include "studies/effects/effect_study_findings.h"
 #include "studies/forces/forces_findings.h"
 #include "studies/gears/bevel_worm.h"
@@ -62,7 +63,21 @@ std::string misfit(const Json& rule, const Json& value, const std::string& at) {
   return {};
 }
 
+// Its key figures and its tables of figures say what they mean, and the dictionary knows that the command tells them.
+void expect_explained(const std::string& verb, const Findings& findings) {
+  for (const KeyFigure& figure : findings.figures) {
+    const Definition* d = definition_of(figure.means);
+    EXPECT_TRUE(d && d->is_printed_by(verb)) << verb << ": " << figure.name << " (" << figure.means << ")";
+  }
+  for (const Statement& s : findings.statements) {
+    const Rows* rows = std::get_if<Rows>(&s.what);
+    for (const std::string& name : rows ? rows->means : std::vector<std::string>{})
+      EXPECT_NE(definition_of(name), nullptr) << verb << ": " << name;
+  }
+}
+
 void expect_met(const std::string& verb, const Findings& findings) {
+  expect_explained(verb, findings);
   EXPECT_EQ(misfit(schema().at("$defs").at(verb), Json::parse(summary_json(findings)), verb), "");
 }
 template <class Study>

@@ -91,7 +91,7 @@ TEST(BlindSpots, SecondMechanismCountsByTheSquareOfItsRatio) {
 
 // Without torques I_r ω² is constant: ω_max, ω_min stand where I_r is least and greatest within three turns.
 TEST(BlindSpots, FluctuationOfTwoGearedMechanismsIsThatOfTheWholeCycle) {
-  const Result r = run(two_cranks + ending("until = \"2.4 s\"\nstart = { speed = \"20 rad/s\" }"), false);
+  const Result r = run(two_cranks + ending("until = \"5 s\"\nstart = { speed = \"20 rad/s\" }"), false);
   double least = HUGE_VAL, greatest = 0;
   for (int k = 0; k < 200000; ++k) {
     const double here = two_inertias(6 * pi * k / 200000);

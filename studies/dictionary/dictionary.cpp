@@ -1,0 +1,154 @@
+// dictionary.cpp — the pages put together, and how a word is looked up.
+#include "studies/dictionary/dictionary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/scene/units.h"
+#include "studies/dictionary/entries.h"
+
+namespace kurbel {
+namespace {
+
+// "bending_1" is "bending_*"; the star goes no farther than a point, behind which the owner stands.
+bool fits(std::string_view pattern, std::string_view name) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return pattern == name;
+  if (!name.starts_with(pattern.substr(0, star))) return false;
+  const std::string_view behind = pattern.substr(star + 1);
+  for (std::size_t at = star; at <= name.size(); ++at) {
+    if (fits(behind, name.substr(at))) return true;
+    if (at < name.size() && name[at] == '.') break;
+  }
+  return false;
+}
+
+// What is asked for, as names are written: "Mean speed" → "mean_speed".
+std::string as_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) name += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+const Definition* find(std::string_view name) {
+  for (const Definition& d : dictionary())
+    if (fits(d.name, name)) return &d;
+  return nullptr;
+}
+
+// The same, and the peaks of what elements bring along.
+const Definition* find_with_peaks(std::string_view name) {
+  if (const Definition* found = find(name)) return found;
+  for (const std::string_view prefix : {"cycle_peak_", "peak_"})
+    if (name.starts_with(prefix)) return find(name.substr(prefix.size()));
+  return nullptr;
+}
+
+}  // namespace
+
+const std::vector<Definition>& dictionary() {
+  static const std::vector<Definition> all = [] {
+    std::vector<Definition> list;
+    for (const std::vector<KindEntry>& kinds : {entries_of_kinds(), entries_of_cycles()})
+      for (const KindEntry& entry : kinds) {
+        list.push_back(entry.told);
+        list.back().name = word(entry.what);
+      }
+    // Names in full before those with a star.
+    for (const std::vector<Definition>& more : {entries_of_studies(), entries_of_own()})
+      list.insert(list.end(), more.begin(), more.end());
+    return list;
+  }();
+  return all;
+}
+
+std::string Definition::form() const { return of.empty() ? std::string(name) : fmt::format("{}.{}", name, of); }
+
+std::string Definition::text() const {
+  std::string text(is);
+  if (!formula.empty()) text += fmt::format("; {}", formula);
+  text += '.';
+  if (!is_not.empty()) text += fmt::format(" Not: {}.", is_not);
+  if (!theory.empty()) text += fmt::format(" (theory {})", theory);
+  return text;
+}
+
+bool Definition::is_printed_by(std::string_view verb) const {
+  for (std::size_t at = 0; at < verbs.size();) {
+    const std::size_t end = std::min(verbs.find(", ", at), verbs.size());
+    if (verbs.substr(at, end - at) == verb) return true;
+    at = end + 2;
+  }
+  return false;
+}
+
+const Definition* definition_of(QuantityKind what) {
+  const std::string_view name = word(what);
+  return name.empty() ? nullptr : find(name);
+}
+
+const Definition* definition_of(std::string_view name) {
+  if (const Definition* whole = find_with_peaks(name)) return whole;
+  return find_with_peaks(name.substr(0, name.find('.')));
+}
+
+const Definition* definition_of(const Name& name) {
+  if (const Definition* known = definition_of(name.what)) return known;
+  std::string_view own = name.text;
+  if (!name.of.empty() && own.size() > name.of.size()) own.remove_suffix(name.of.size() + 1);
+  return find_with_peaks(own);
+}
+
+const Definition* meant_by(std::string_view asked) {
+  if (const Definition* named = definition_of(asked)) return named;
+  const std::string name = as_name(asked);
+  if (const Definition* named = definition_of(name)) return named;
+  for (const Definition& d : dictionary())
+    if (as_name(d.words) == name) return &d;
+  // "speed fluctuation", "δ": how the words begin, or the symbol at their end.
+  for (const Definition& d : dictionary()) {
+    const std::string words = as_name(d.words);
+    if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
+  }
+  return nullptr;
+}
+
+std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {
+  using enum QuantityKind;
+  const std::string_view what = asked.substr(0, asked.find('.'));
+  const std::string owner(asked.substr(what.size()));
+  std::vector<std::string> others = {"cycle_" + std::string(what)};
+  if (what.starts_with("cycle_")) others.emplace_back(what.substr(std::string_view("cycle_").size()));
+  if (what == word(delta)) others.emplace_back(word(cycle_fluctuation));
+  if (what == word(cycle_fluctuation)) others.emplace_back(word(delta));
+  for (const std::string& other : others)
+    for (const std::string& name : names)
+      if (name == other + owner || (owner.empty() && name.starts_with(other + "."))) return name;
+  return {};
+}
+
+std::vector<std::string> names_like(std::string_view asked, std::size_t most) {
+  const std::string name = as_name(asked.substr(0, asked.find('.')));
+  std::vector<std::string> names, like;
+  for (const Definition& d : dictionary())
+    if (d.name.find('*') == std::string_view::npos) names.emplace_back(d.name);
+  const auto take = [&](const std::string& one) {
+    if (like.size() < most && std::find(like.begin(), like.end(), one) == like.end()) like.push_back(one);
+  };
+  if (const auto near = nearest(name, names)) take(*near);
+  for (const std::string& one : names)
+    if (name.size() > 2 && (one.find(name) != std::string::npos || name.find(one) != std::string::npos)) take(one);
+  // A word of it: "torque", "speed".
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find('_', at), name.size());
+    const std::string part = name.substr(at, end - at);
+    for (const std::string& one : names)
+      if (part.size() > 3 && one.find(part) != std::string::npos) take(one);
+    at = end + 1;
+  }
+  return like;
+}
+
+}  // namespace kurbel

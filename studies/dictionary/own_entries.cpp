@@ -1,0 +1,83 @@
+// own_entries.cpp — what the states and outputs mean that elements bring along under words of their own.
+//
+// The peak of one over a run is called "peak_" and its name, over a steady cycle "cycle_peak_" and its name.
+#include "studies/dictionary/entries.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::string_view told_by = "run, compare";
+
+Definition motor(std::string_view name, std::string_view words, std::string_view is, std::string_view is_not,
+                 std::string_view theory) {
+  return {.name = name,
+          .words = words,
+          .unit = "A",
+          .of = "MOTOR",
+          .is = is,
+          .is_not = is_not,
+          .theory = theory,
+          .verbs = told_by};
+}
+Definition mechanism(std::string_view name, std::string_view words, std::string_view unit, std::string_view is,
+                     std::string_view is_not = {}) {
+  return {.name = name,
+          .words = words,
+          .unit = unit,
+          .of = "MECHANISM",
+          .is = is,
+          .is_not = is_not,
+          .theory = "13",
+          .verbs = told_by};
+}
+Definition coupling(std::string_view name, std::string_view words, std::string_view unit, std::string_view of,
+                    std::string_view is, std::string_view theory) {
+  return {.name = name, .words = words, .unit = unit, .of = of, .is = is, .theory = theory, .verbs = told_by};
+}
+
+}  // namespace
+
+// In the order in which a star is tried: what is more definite comes first.
+std::vector<Definition> entries_of_own() {
+  return {
+      motor("current", "armature current", "current in the armature of a direct-current motor", "the rated current",
+            "4"),
+      motor("stator_current_*", "stator current of an induction motor, in space vectors",
+            "component d or q of the stator current's space vector, in the frame that turns with the supply",
+            "the current of a phase that an instrument shows: that is the vector's length over √2", "4"),
+      motor("rotor_current_*", "rotor current of an induction motor, in space vectors",
+            "component d or q of the rotor current's space vector, reduced to the stator",
+            "a current that could be "
+            "measured in the rotor",
+            "4"),
+      coupling("integral", "integral part of a governor", "N*m", "GOVERNOR",
+               "torque that the governor has summed up from past errors of the speed", "4"),
+      coupling("slipped_angle", "angle slipped by a belt", "rad", "BELT",
+               "how far the belt has slipped on its pulleys, about the driving shaft", "5"),
+      coupling("bristle", "deflection of bristles", "rad", "BEARING",
+               "mean deflection of the contact in the LuGre model of friction", "8"),
+      coupling("creep*", "creep of rubber", "rad", "COUPLING",
+               "twist of a dashpot in one of its spring-and-dashpot branches", "5"),
+      mechanism("bending_*_rate", "rate of bending of the rod", "m/s", "how fast that mode's amplitude changes"),
+      mechanism("bending_*", "bending of the rod in a mode", "m", "amplitude of the rod's bending mode of that number",
+                "the deflection at a place, which is the sum over the modes: rod_deflection"),
+      mechanism("stretching_*_rate", "rate of stretching of the rod", "m/s", "how fast the rod stretches there"),
+      mechanism("stretching_*", "stretching of the rod", "m",
+                "displacement of the rod's middle or end along the rod against the rigid rod"),
+      mechanism("rod_deflection", "deflection of the rod's middle", "m", "sum of the bending modes at mid-length"),
+      mechanism("rod_bending_stress", "greatest bending stress in the rod", "Pa",
+                "modulus times edge distance times the greatest curvature along the rod",
+                "a stress with tension or notches in it"),
+      mechanism("guide_reaction", "reaction of the guide", "N", "force of the guide on the slider across its line"),
+      mechanism("guide_shift*", "shift of the slider in its guide", "m", "across the guide, or its rate [m/s]"),
+      mechanism("guide_tilt*", "tilt of the slider in its guide", "rad", "against the guide, or its rate [rad/s]"),
+      mechanism("*_shift_*", "shift of a journal in its bearing", "m",
+                "of the journal's centre against its bearing's, along x or y, or its rate [m/s]"),
+      mechanism("*_force", "contact force of a joint with clearance", "N",
+                "greatest contact force in that joint at a moment; 0 in flight", "the reaction of an ideal joint"),
+      mechanism("*_penetration", "penetration of a contact", "m", "how deep the surfaces of that joint overlap",
+                "wear"),
+  };
+}
+
+}  // namespace kurbel

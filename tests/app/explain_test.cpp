@@ -1,0 +1,69 @@
+// explain_test.cpp — kurbel explain on the command line.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace kurbel {
+namespace {
+
+struct Said {
+  int code = -1;
+  std::string text;  // stdout and stderr
+  bool has(const std::string& words) const { return text.find(words) != std::string::npos; }
+};
+
+Said explain(const std::string& arguments) {
+  const std::string command = std::string(KURBEL_EXECUTABLE) + " explain " + arguments + " 2>&1";
+  Said said;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> part;
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+TEST(Explain, SaysWhatAFigureIsItsFormulaAndWhatItIsNot) {
+  for (const char* asked : {"delta", "delta.press", "δ", "\"speed fluctuation\""}) {
+    const Said said = explain(asked);
+    EXPECT_EQ(said.code, 0) << said.text;
+    EXPECT_TRUE(said.has("delta.SHAFT — speed fluctuation δ")) << said.text;
+    EXPECT_TRUE(said.has("ω_mid = ½ (ω_max + ω_min)")) << said.text;
+    EXPECT_TRUE(said.has("is not")) << said.text;
+    EXPECT_TRUE(said.has("docs/theory/02-reduction.md")) << said.text;
+    EXPECT_TRUE(said.has("steady")) << said.text;
+  }
+}
+
+TEST(Explain, MeanAndMidSpeedAreTwo) {
+  EXPECT_TRUE(explain("'mean speed'").has("Φ/T"));
+  EXPECT_TRUE(explain("mid_speed.press").has("½ (ω_max + ω_min)"));
+}
+
+TEST(Explain, APeakOfAnElementsOwnIsToldToBeOne) {
+  const Said said = explain("peak_current.motor");
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_TRUE(said.has("greatest magnitude in a whole run")) << said.text;
+}
+
+TEST(Explain, WhatIsUnknownIsRefusedWithNamesThatAreLikeIt) {
+  const Said said = explain("torqe");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_TRUE(said.has("no figure \"torqe\" — did you mean \"torque\"?")) << said.text;
+  EXPECT_EQ(explain("xyzzy").code, 2);
+}
+
+TEST(Explain, WithoutANameAllAreListed) {
+  const Said all = explain(""), names = explain("--list");
+  EXPECT_EQ(all.code, 0);
+  for (const char* name : {"delta", "peak_torque", "mid_speed", "flywheel", "natural_frequency"}) {
+    EXPECT_TRUE(all.has(std::string(name) + " ")) << name;
+    EXPECT_TRUE(names.has(std::string(name) + "\n")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel

@@ -1,0 +1,202 @@
+// dictionary_test.cpp — every figure is explained, once, and every explanation is of something that is printed.
+#include "studies/dictionary/dictionary.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "engine/run/recorders.h"
+#include "engine/scene/units.h"
+#include "studies/findings/output.h"
+#include "studies/report/theory.h"
+#include "studies/run/run_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of channels and figures of a scene, without a run.
+struct Told {
+  std::vector<Figure> figures;
+  std::vector<Channel> channels;
+};
+const std::map<std::string, Told>& told_by_scenes() {
+  static const std::map<std::string, Told> all = [] {
+    std::map<std::string, Told> told;
+    for (const auto& entry : fs::directory_iterator(test::source_path("scenes"))) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string name = entry.path().stem().string();
+      const Scene scene = test::scene_file("scenes/" + name + ".toml");
+      const auto model = compile(scene, scene.effects);
+      told[name] = {figure_list(*model), channels_of(*model, {})};
+    }
+    return told;
+  }();
+  return all;
+}
+
+Name name_of(const Figure& f) { return {f.what, f.of, f.name}; }
+
+bool is_of_elements_own(QuantityKind what) {
+  return what == QuantityKind::other || what == QuantityKind::peak_other || what == QuantityKind::cycle_peak_other;
+}
+
+TEST(Dictionary, EveryQuantityHasItsDefinition) {
+  for (int k = 0; k <= static_cast<int>(QuantityKind::work_per_cycle); ++k) {
+    const auto what = static_cast<QuantityKind>(k);
+    if (is_of_elements_own(what)) continue;
+    const Definition* d = definition_of(what);
+    ASSERT_NE(d, nullptr) << word(what);
+    EXPECT_EQ(d->name, word(what));
+  }
+}
+
+TEST(Dictionary, DefinitionsAreWholeAndEachNameAndItsWordsStandOnce) {
+  std::set<std::string_view> names, words;
+  for (const Definition& d : dictionary()) {
+    EXPECT_TRUE(names.insert(d.name).second) << d.name << " twice";
+    EXPECT_TRUE(words.insert(d.words).second) << d.words << " twice";
+    EXPECT_FALSE(d.is.empty()) << d.name;
+    EXPECT_FALSE(d.is.ends_with('.')) << d.name;
+    UnitError error;
+    EXPECT_TRUE(parse_unit(d.unit, error)) << d.name << " in " << d.unit;
+    if (d.theory.empty()) continue;
+    EXPECT_EQ(theory_notes("theory " + std::string(d.theory)).size(), 1u) << d.name << ": theory " << d.theory;
+  }
+}
+
+TEST(Dictionary, EquationsItCitesStandInTheTheory) {
+  std::string pages;
+  for (const auto& entry : fs::directory_iterator(test::source_path("docs/theory"))) {
+    if (entry.path().extension() != ".md") continue;
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    pages += text.str();
+  }
+  for (const Definition& d : dictionary()) {
+    if (d.theory.find('.') == std::string_view::npos) continue;
+    EXPECT_NE(pages.find("<a id=\"eq-" + std::string(d.theory) + "\">"), std::string::npos) << d.name;
+  }
+}
+
+TEST(Dictionary, WhatRunsOfAllScenesTellIsExplained) {
+  for (const auto& [scene, told] : told_by_scenes()) {
+    for (const Figure& f : told.figures) {
+      const Definition* d = definition_of(name_of(f));
+      ASSERT_NE(d, nullptr) << scene << ": " << f.name;
+      EXPECT_TRUE(d->is_printed_by("run")) << scene << ": " << f.name;
+      EXPECT_EQ(definition_of(f.name), d) << scene << ": by its text, " << f.name << " is another";
+    }
+    for (const Channel& c : told.channels) {
+      const Definition* d = definition_of(c.name);
+      ASSERT_NE(d, nullptr) << scene << ": " << c.name.text;
+      EXPECT_TRUE(d->is_printed_by("run")) << scene << ": " << c.name.text;
+    }
+  }
+}
+
+// What moves may rock, and what shifts has a rate: their units are told beside the first.
+TEST(Dictionary, UnitsAreThoseOfTheFigures) {
+  using enum QuantityKind;
+  const std::set<QuantityKind> may_rock = {peak_velocity, peak_acceleration};
+  for (const auto& [scene, told] : told_by_scenes())
+    for (const Figure& f : told.figures) {
+      const Definition* d = definition_of(name_of(f));
+      if (!d || may_rock.contains(f.what)) continue;
+      EXPECT_EQ(d->unit, f.unit) << scene << ": " << f.name;
+    }
+}
+
+TEST(Dictionary, WhatItSaysThatRunsTellIsToldByOne) {
+  std::set<std::string_view> told;
+  for (const auto& [scene, of] : told_by_scenes()) {
+    for (const Figure& f : of.figures) told.insert(definition_of(name_of(f))->name);
+    for (const Channel& c : of.channels) told.insert(definition_of(c.name)->name);
+  }
+  // No scene of the folder has the element, or the model of it, that brings them along.
+  const std::set<std::string_view> not_in_scenes = {"bristle", "guide_shift*", "guide_tilt*", "rotor_current_*",
+                                                    "stator_current_*"};
+  for (const Definition& d : dictionary()) {
+    if (!d.is_printed_by("run") || d.name == "coordinates") continue;
+    EXPECT_NE(told.contains(d.name), not_in_scenes.contains(d.name)) << d.name;
+  }
+}
+
+TEST(Dictionary, ARunTellsNothingThatIsNotListed) {
+  for (const char* name : {"dc_hoist", "press_drive", "worm_hoist"}) {
+    Scene scene = test::scene_file(std::string("scenes/") + name + ".toml");
+    std::set<std::string> listed;
+    for (const Figure& f : told_by_scenes().at(name).figures) listed.insert(f.name);
+    for (const Figure& f : test::run(scene, false).figures) EXPECT_TRUE(listed.contains(f.name)) << f.name;
+  }
+}
+
+TEST(Dictionary, WordsFindWhatIsMeant) {
+  const auto name = [](const char* asked) {
+    const Definition* d = meant_by(asked);
+    return d ? d->name : "nothing";
+  };
+  EXPECT_EQ(name("delta.press"), "delta");
+  EXPECT_EQ(name("δ"), "delta");
+  EXPECT_EQ(name("Speed fluctuation"), "delta");
+  EXPECT_EQ(name("mean speed"), "mean_speed");
+  EXPECT_EQ(name("mid speed"), "mid_speed");
+  EXPECT_EQ(name("peak torque"), "peak_torque");
+  EXPECT_EQ(name("work.driving"), "work");
+  EXPECT_EQ(name("peak_current.motor"), "current");
+  EXPECT_EQ(name("cycle_peak_bending_1.crank"), "bending_*");
+  EXPECT_EQ(name("torqe"), "nothing");
+  EXPECT_EQ(names_like("torqe", 3).front(), "torque");
+  EXPECT_EQ(names_like("meanspeed", 3).front(), "mean_speed");
+}
+
+TEST(Dictionary, AFigureUnderAnotherNameIsNamed) {
+  const std::vector<std::string> told = {"cycle_fluctuation.press", "peak_torque.main", "cycle_max_speed.press"};
+  EXPECT_EQ(told_instead("delta.press", told), "cycle_fluctuation.press");
+  EXPECT_EQ(told_instead("delta", told), "cycle_fluctuation.press");
+  EXPECT_EQ(told_instead("cycle_peak_torque.main", told), "peak_torque.main");
+  EXPECT_EQ(told_instead("max_speed.press", told), "cycle_max_speed.press");
+  EXPECT_EQ(told_instead("delta.flywheel", told), "");
+  EXPECT_EQ(told_instead("impacts.press", told), "");
+}
+
+// The peaks of a cycle have names of their own: none is that of a whole run.
+TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
+  using enum QuantityKind;
+  for (const QuantityKind what : {peak_torque, peak_spring_torque, peak_velocity, peak_acceleration, peak_force,
+                                  peak_load_torque, max_speed, min_speed, rms_torque}) {
+    const Name whole = Name::make(what, "a"), cycle = whole.of_cycle();
+    EXPECT_EQ(cycle.text, "cycle_" + whole.text);
+    EXPECT_EQ(cycle.of, "a");
+    EXPECT_TRUE(definition_of(cycle)->is_printed_by("steady")) << cycle.text;
+    EXPECT_FALSE(definition_of(whole)->is_printed_by("steady")) << whole.text;
+    EXPECT_EQ(is_peak(cycle.what), is_peak(what));
+  }
+  EXPECT_EQ(Name::own("current", "motor").peak().of_cycle().text, "cycle_peak_current.motor");
+  EXPECT_EQ(Name::make(delta, "a").of_cycle(), Name::make(delta, "a"));
+}
+
+TEST(Dictionary, APageDefinesTheFiguresThatItShowsAndNoOthers) {
+  const Result result = test::run_until(test::scene_file("scenes/crank_press.toml"), 1);
+  const Report page = page_of(findings_of(result));
+  std::set<std::string> defined, shown;
+  for (const Meaning& m : page.meanings) EXPECT_TRUE(defined.insert(m.id).second) << m.id;
+  for (const KeyFigure& f : page.figures) shown.insert(f.means);
+  for (const ReportSection& s : page.sections)
+    for (const Card& card : s.cards)
+      if (const Table* table = std::get_if<Table>(&card)) {
+        EXPECT_TRUE(table->means.empty() || table->means.size() == table->rows.size()) << table->title;
+        shown.insert(table->means.begin(), table->means.end());
+      }
+  EXPECT_EQ(defined, shown);
+  EXPECT_TRUE(defined.contains("peak_torque"));
+  EXPECT_FALSE(defined.contains("impacts"));
+}
+
+}  // namespace
+}  // namespace kurbel
