@@ -35,7 +35,7 @@ std::vector<std::string> scenes_named(const std::string& only) {
 
 // What breaks the process says nothing: no worse answer.
 Row broken(const std::string& scene, const std::string& words) {
-  Row row{.scene = scene, .kind = Kind::none, .regime = words, .figures = {}, .cpu_seconds = 0};
+  Row row{.scene = scene, .kind = Motion::none, .regime = words, .figures = {}, .cpu_seconds = 0};
   row.figures.push_back({Topic::mean_speed, words, 0, 0, 0, Verdict::silent, words});
   return row;
 }

@@ -94,11 +94,11 @@ class Comparison {
     run_ = settle(scene_, scene_.effects, settings_);
     row_.kind = run_.kind;
     row_.regime = run_.words;
-    if (run_.kind != Kind::none) {
+    if (run_.kind != Motion::none) {
       if (questions_.steady) refusable(steady_topics(), [this] { ask_steady(); });
-      if (questions_.reduce && run_.kind == Kind::repeats)
+      if (questions_.reduce && run_.kind == Motion::repeats)
         refusable({Topic::energy, Topic::mean_torques}, [this] { ask_reduce(); });
-      if (questions_.size && run_.kind == Kind::repeats && !run_.equilibrium())
+      if (questions_.size && run_.kind == Motion::repeats && !run_.equilibrium())
         refusable({Topic::sized_delta}, [this] { ask_size(); });
     }
     row_.cpu_seconds = processor_time() - begin;
@@ -107,7 +107,7 @@ class Comparison {
 
  private:
   std::vector<Topic> steady_topics() const {
-    if (run_.kind == Kind::rests) return {Topic::mean_speed};
+    if (run_.kind == Motion::rests) return {Topic::mean_speed};
     std::vector<Topic> topics;
     for (const Measured& m : run_.figures)
       for (const Counterpart& c : counterparts)
@@ -144,7 +144,7 @@ class Comparison {
     const SteadyStudy study = steady(scene_, {scene_.effects}, {.start_search = false});
     const SteadyCycle* cycle = study.cycles.empty() ? nullptr : &study.cycles.front();
     const std::string why = cycle && !cycle->why.empty() ? cycle->why : study.diagnosis;
-    if (run_.kind == Kind::rests) return judge_rest(study, cycle && cycle->found, why);
+    if (run_.kind == Motion::rests) return judge_rest(study, cycle && cycle->found, why);
     if (!cycle || !cycle->found) return refuse(steady_topics(), why);
     for (const Measured& m : run_.figures) judge(m, *cycle, study.notes);
     if (questions_.multipliers) judge_multipliers(*cycle, study.notes);

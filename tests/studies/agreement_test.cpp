@@ -30,7 +30,7 @@ double figure(const SettledRun& run, QuantityKind what) {
 // Motor M = 60 (1 − ω/40), clutch 12 N·m: 32 rad/s before it, drum at 12/1.25 = 9.6 rad/s.
 TEST(SettledRun, SlippingClutchLeavesMotorAndDrumAtTheirOwnSpeeds) {
   const SettledRun run = settled("clutch_slips_always");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_TRUE(run.equilibrium());
   EXPECT_NEAR(figure(run, QuantityKind::mean_speed), 32, 1e-6);
   const Measured* useful = run.find(QuantityKind::useful_work_per_cycle, "");
@@ -40,7 +40,7 @@ TEST(SettledRun, SlippingClutchLeavesMotorAndDrumAtTheirOwnSpeeds) {
 
 TEST(SettledRun, CranksOfRatio17To30RepeatAfterThirtyTurnsOfTheFirst) {
   const SettledRun run = settled("two_cranks_17_30");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_NEAR(run.angle, 30 * 2 * pi, 1e-5);
   EXPECT_NEAR(figure(run, QuantityKind::mean_speed), run.angle / run.period, 1e-9);
 }
@@ -48,24 +48,24 @@ TEST(SettledRun, CranksOfRatio17To30RepeatAfterThirtyTurnsOfTheFirst) {
 // 0.7 s, whatever the angle.
 TEST(SettledRun, LoadOverTimeGivesItsPeriod) {
   const SettledRun run = settled("load_over_time");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_EQ(run.base, Base::time);
   EXPECT_NEAR(run.period, 0.7, 1e-9);
 }
 
 TEST(SettledRun, StickingAndSlippingRepeatsByItsEventsAtTheMeanSpeedOfItsDrive) {
   const SettledRun run = settled("slow_stick_slip");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_EQ(run.base, Base::event);
   EXPECT_NEAR(run.angle / run.period, 0.2, 1e-8);
 }
 
-TEST(SettledRun, TooWeakAMotorIsAtRest) { EXPECT_EQ(settled("at_rest").kind, Kind::rests); }
+TEST(SettledRun, TooWeakAMotorIsAtRest) { EXPECT_EQ(settled("at_rest").kind, Motion::rests); }
 
 // The work that a cycle of the press takes is that of its force over its travel: 800 N · (100 − 5/2) mm.
 TEST(SettledRun, ReleasedBrakeLeavesThePressItsOwnWork) {
   const SettledRun run = settled("brake_released");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   const Measured* useful = run.find(QuantityKind::useful_work_per_cycle, "");
   ASSERT_NE(useful, nullptr);
   EXPECT_NEAR(useful->value, -78, 1e-6);
@@ -76,7 +76,7 @@ TEST(SettledRun, ReleasedBrakeLeavesThePressItsOwnWork) {
 // angles, where what is faster has had less time, the same to first order; stiff coupling, ω = 60/1.9.
 TEST(SettledRun, DeviationOfADrivenDrumDecaysByItsTimeConstant) {
   const SettledRun run = settled("load_window");
-  ASSERT_EQ(run.kind, Kind::repeats) << run.words;
+  ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_NEAR(figure(run, QuantityKind::mean_speed), 60 / 1.9, 1e-5);
   const Decay decay = decay_of(run);
   ASSERT_TRUE(decay.measured);
@@ -87,7 +87,7 @@ TEST(SettledRun, DeviationOfADrivenDrumDecaysByItsTimeConstant) {
 
 TEST(AgreementCell, WorstFigureDecides) {
   Row row;
-  row.kind = Kind::repeats;
+  row.kind = Motion::repeats;
   row.figures = {{Topic::peaks, "a", 1, 1, 1e-6, Verdict::agrees, {}},
                  {Topic::peaks, "b", 1, 2, 1e-6, Verdict::silent, {}},
                  {Topic::peaks, "c", 1, 2, 1e-6, Verdict::refused, "why"},
@@ -107,11 +107,11 @@ TEST(AgreementCell, NoteThatLeavesOutCountsOnlyWithAnAmount) {
 }
 
 TEST(AgreementCell, RowReadsBackAsWritten) {
-  Row row{.scene = "press", .kind = Kind::rests, .regime = "at\trest", .figures = {}, .cpu_seconds = 0.25};
+  Row row{.scene = "press", .kind = Motion::rests, .regime = "at\trest", .figures = {}, .cpu_seconds = 0.25};
   row.figures.push_back({Topic::works, "work_per_cycle.x (useful)", -0.1, 1e-300, 3e-7, Verdict::told, "so\nmuch"});
   const Row read = read_row(lines_of(row));
   EXPECT_EQ(read.scene, "press");
-  EXPECT_EQ(read.kind, Kind::rests);
+  EXPECT_EQ(read.kind, Motion::rests);
   EXPECT_EQ(read.regime, "at rest");
   ASSERT_EQ(read.figures.size(), 1u);
   EXPECT_EQ(read.figures[0].run, -0.1);
@@ -124,7 +124,7 @@ TEST(AgreementCell, RowReadsBackAsWritten) {
 void expect_steady_speaks_of(const std::string& name, bool multipliers = false) {
   const Row row =
       compare_verbs(scene_named(name), {.steady = true, .multipliers = multipliers, .reduce = false, .size = false});
-  EXPECT_NE(row.kind, Kind::none) << name << ": " << row.regime;
+  EXPECT_NE(row.kind, Motion::none) << name << ": " << row.regime;
   for (const Compared& c : row.figures) {
     EXPECT_NE(c.verdict, Verdict::silent) << name << ": " << c.figure << ": run " << c.run << ", steady " << c.study;
     EXPECT_NE(c.verdict, Verdict::refused) << name << ": " << name_of(c.topic) << ": " << c.words;
