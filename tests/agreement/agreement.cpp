@@ -41,12 +41,11 @@ std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
   const Figure* f = figure_of(cycle, m.name);
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
-// Two elements of one component may have accounts of one name: their sum.
+// Two elements of one component may have accounts of one name: their sum. What works nothing is not listed.
 std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
-  std::optional<Told> sum;
+  Told sum;
   for (const Figure& f : cycle.figures)
-    if (f.name == m.name.text)
-      sum = Told{(sum ? sum->value : 0) + f.value, (sum ? sum->error : 0) + f.error.value_or(0)};
+    if (f.name == m.name.text) sum.value += f.value, sum.error += f.error.value_or(0);
   return sum;
 }
 // (ω_max + ω_min)/2 by its own name, else of the two.

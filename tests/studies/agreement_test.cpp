@@ -2,6 +2,7 @@
 // the parts that it rests on.
 #include "tests/agreement/agreement.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -125,10 +126,13 @@ void expect_steady_speaks_of(const std::string& name, bool multipliers = false) 
   const Row row =
       compare_verbs(scene_named(name), {.steady = true, .multipliers = multipliers, .reduce = false, .size = false});
   EXPECT_NE(row.kind, Motion::none) << name << ": " << row.regime;
-  for (const Compared& c : row.figures) {
-    EXPECT_NE(c.verdict, Verdict::silent) << name << ": " << c.figure << ": run " << c.run << ", steady " << c.study;
-    EXPECT_NE(c.verdict, Verdict::refused) << name << ": " << name_of(c.topic) << ": " << c.words;
-  }
+  std::string wrong;
+  for (const Compared& c : row.figures)
+    if (c.verdict == Verdict::silent)
+      wrong += fmt::format("  {}: run {:.9g}, steady {:.9g}\n", c.figure, c.run, c.study);
+    else if (c.verdict == Verdict::refused)
+      wrong += fmt::format("  {}: {}\n", name_of(c.topic), c.words);
+  EXPECT_TRUE(wrong.empty()) << name << "\n" << wrong;
 }
 
 TEST(Agreement, SteadySpeaksOfClutchesFilmsAndLimitersThatSlip) {
