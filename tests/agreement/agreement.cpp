@@ -201,6 +201,7 @@ class Comparison {
     options.positions = number;
     const MachineReduction reduced = reduce(scene_, options);
     compare_energies(reduced, places_of(run_, reduced.cycle, number));
+    if (std::abs(run_.angle) < 1e-9) return;  // the link stands
     double driving = 0, resisting = 0, error = 0;
     for (const Measured& m : run_.figures) {
       const bool drives = m.name.what == QuantityKind::driving_work_per_cycle;
