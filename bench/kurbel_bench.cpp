@@ -1,10 +1,12 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
-// whether the hard cases end right, and whether stated errors cover the true ones.
+// whether the hard cases end right, whether all verbs agree, and whether stated errors cover the true ones.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|coverage|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|agreement|coverage|all [--out FOLDER]
 //   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
+//   kurbel_bench agreement [--only NAME] [--jobs 2] [--out FOLDER]
 //   kurbel_bench coverage [--variants N] [--seed S] [--shard 1/8] [--jobs J] [--minutes M] [--budget SECONDS]
 //                         [--dump-ladder FILE.csv] [--print SCENE:SEED] [--out FOLDER]
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -28,10 +30,12 @@ int main(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "";
   std::string folder = "results/bench", only;  // only: hard cases whose names hold this
   double budget = 1;                           // of each integration of a hard case [s]
+  int jobs = 2;                                // scenes at once
   for (int i = 2; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--out") == 0) folder = argv[i + 1];
     if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
     if (std::strcmp(argv[i], "--budget") == 0) budget = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--jobs") == 0) jobs = std::max(1, std::atoi(argv[i + 1]));
   }
   if (!(budget > 0)) {
     std::fprintf(stderr, "kurbel_bench: --budget: give seconds above 0\n");
@@ -59,6 +63,15 @@ int main(int argc, char** argv) {
     costs_of_steady_cycles();
   }
   if (wants("hard")) hard_cases(book, only, budget);
+  if (part == "agreement") {  // a minute or two of its own: not among all
+    try {
+      any = true;
+      agreement_of_verbs(book, only, jobs, folder);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "kurbel_bench: %s\n", error.what());
+      return 2;
+    }
+  }
   if (part == "coverage") {  // half an hour of its own: not among all
     try {
       any = true;
@@ -73,7 +86,8 @@ int main(int argc, char** argv) {
   if (!any) {
     std::fprintf(
         stderr,
-        "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, coverage or all\n");
+        "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, agreement, "
+        "coverage or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

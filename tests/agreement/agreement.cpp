@@ -41,12 +41,11 @@ std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
   const Figure* f = figure_of(cycle, m.name);
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
-// Two elements of one component may have accounts of one name: their sum.
+// Two elements of one component may have accounts of one name: their sum. What works nothing is not listed.
 std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
-  std::optional<Told> sum;
+  Told sum;
   for (const Figure& f : cycle.figures)
-    if (f.name == m.name.text)
-      sum = Told{(sum ? sum->value : 0) + f.value, (sum ? sum->error : 0) + f.error.value_or(0)};
+    if (f.name == m.name.text) sum.value += f.value, sum.error += f.error.value_or(0);
   return sum;
 }
 // (ω_max + ω_min)/2 by its own name, else of the two.
@@ -94,11 +93,11 @@ class Comparison {
     run_ = settle(scene_, scene_.effects, settings_);
     row_.kind = run_.kind;
     row_.regime = run_.words;
-    if (run_.kind != Kind::none) {
+    if (run_.kind != Motion::none) {
       if (questions_.steady) refusable(steady_topics(), [this] { ask_steady(); });
-      if (questions_.reduce && run_.kind == Kind::repeats)
+      if (questions_.reduce && run_.kind == Motion::repeats)
         refusable({Topic::energy, Topic::mean_torques}, [this] { ask_reduce(); });
-      if (questions_.size && run_.kind == Kind::repeats && !run_.equilibrium())
+      if (questions_.size && run_.kind == Motion::repeats && !run_.equilibrium())
         refusable({Topic::sized_delta}, [this] { ask_size(); });
     }
     row_.cpu_seconds = processor_time() - begin;
@@ -107,7 +106,7 @@ class Comparison {
 
  private:
   std::vector<Topic> steady_topics() const {
-    if (run_.kind == Kind::rests) return {Topic::mean_speed};
+    if (run_.kind == Motion::rests) return {Topic::mean_speed};
     std::vector<Topic> topics;
     for (const Measured& m : run_.figures)
       for (const Counterpart& c : counterparts)
@@ -144,7 +143,7 @@ class Comparison {
     const SteadyStudy study = steady(scene_, {scene_.effects}, {.start_search = false});
     const SteadyCycle* cycle = study.cycles.empty() ? nullptr : &study.cycles.front();
     const std::string why = cycle && !cycle->why.empty() ? cycle->why : study.diagnosis;
-    if (run_.kind == Kind::rests) return judge_rest(study, cycle && cycle->found, why);
+    if (run_.kind == Motion::rests) return judge_rest(study, cycle && cycle->found, why);
     if (!cycle || !cycle->found) return refuse(steady_topics(), why);
     for (const Measured& m : run_.figures) judge(m, *cycle, study.notes);
     if (questions_.multipliers) judge_multipliers(*cycle, study.notes);
@@ -202,6 +201,7 @@ class Comparison {
     options.positions = number;
     const MachineReduction reduced = reduce(scene_, options);
     compare_energies(reduced, places_of(run_, reduced.cycle, number));
+    if (std::abs(run_.angle) < 1e-9) return;  // the link stands
     double driving = 0, resisting = 0, error = 0;
     for (const Measured& m : run_.figures) {
       const bool drives = m.name.what == QuantityKind::driving_work_per_cycle;

@@ -51,7 +51,7 @@ struct Compared {
 
 struct Row {
   std::string scene;
-  Kind kind = Kind::none;
+  Motion kind = Motion::none;
   std::string regime;  // of the run, in words
   std::vector<Compared> figures;
   double cpu_seconds = 0;

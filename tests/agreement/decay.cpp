@@ -93,7 +93,7 @@ Fit recurrence(const std::vector<Eigen::VectorXd>& d, std::size_t from, int p) {
 
 Decay decay_of(const SettledRun& run) {
   Decay decay;
-  if (run.kind != Kind::repeats || run.base == Base::event || run.base == Base::none) return decay;
+  if (run.kind != Motion::repeats || run.base == Base::event || run.base == Base::none) return decay;
   const std::vector<Eigen::VectorXd> d = deviations_of(run);
   decay.periods = static_cast<int>(d.size());
   decay.factor = std::pow(seen / part, 1.0 / static_cast<double>(d.size() + 1));
@@ -117,7 +117,7 @@ Decay decay_of(const SettledRun& run) {
 std::vector<Place> places_of(const SettledRun& run, double cycle, int number) {
   const double base = cycle / number;
   std::vector<Place> places;
-  if (run.kind != Kind::repeats || std::abs(run.angle) < 1e-9) return places;
+  if (run.kind != Motion::repeats || std::abs(run.angle) < 1e-9) return places;
   const double periods = 1.2 * std::max(1.0, cycle / std::abs(run.angle));
   for (const Passing& p : passings_from(run, run.at, periods, Passings::Of::angle, base, true)) {
     if (static_cast<int>(places.size()) == number) break;

@@ -37,7 +37,7 @@ const Compared* Row::cell(Topic topic) const {
 Totals totals_of(const std::vector<Row>& rows) {
   Totals totals;
   for (const Row& row : rows) {
-    if (row.kind == Kind::none) ++totals.unsettled;
+    if (row.kind == Motion::none) ++totals.unsettled;
     for (std::size_t t = 0; t < topic_count; ++t)
       if (const Compared* cell = row.cell(static_cast<Topic>(t))) {
         ++totals.cells;
@@ -87,7 +87,7 @@ Row read_row(const std::string& lines) {
   const std::vector<std::string> head = columns_of(line);
   if (head.size() != 4) throw std::runtime_error("the head of a row of the agreement has other columns");
   Row row{.scene = head[0],
-          .kind = static_cast<Kind>(std::stoi(head[1])),
+          .kind = static_cast<Motion>(std::stoi(head[1])),
           .regime = head[2],
           .figures = {},
           .cpu_seconds = std::stod(head[3])};

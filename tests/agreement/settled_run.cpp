@@ -112,7 +112,7 @@ class Settling {
   SettledRun find() {
     const double begin = processor_time();
     settle();
-    if (run_.kind == Kind::repeats) measure();
+    if (run_.kind == Motion::repeats) measure();
     run_.cpu_seconds = processor_time() - begin;
     return std::move(run_);
   }
@@ -142,7 +142,7 @@ class Settling {
       run_.time = outcome.t;
       events.insert(events.end(), outcome.events.begin(), outcome.events.end());
       if (rests(equations, outcome)) {
-        run_.kind = Kind::rests;
+        run_.kind = Motion::rests;
         run_.words = "at rest";
         return;
       }
@@ -161,7 +161,7 @@ class Settling {
   bool found(const std::vector<Passing>& places, Base base) {
     const Repeat repeat = repeat_of(places);
     if (repeat.k == 0 || repeat.to_come > near_enough) return false;
-    run_.kind = Kind::repeats;
+    run_.kind = Motion::repeats;
     run_.base = base;
     run_.period = repeat.period;
     run_.to_come = repeat.to_come;
@@ -292,7 +292,7 @@ class Settling {
       run_.figures = std::move(third.figures);
       run_.at = third.end;
     } catch (const std::runtime_error& error) {
-      run_.kind = Kind::none;
+      run_.kind = Motion::none;
       run_.words = fmt::format("settled, but a period more failed: {}", error.what());
     }
   }

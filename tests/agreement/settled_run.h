@@ -19,7 +19,7 @@
 
 namespace kurbel::agreement {
 
-enum class Kind { repeats, rests, none };
+enum class Motion { repeats, rests, none };
 enum class Base { angle, time, event, none };  // what comes again; none: nothing changes, so that any time is a period
 
 struct SettleSettings {
@@ -38,7 +38,7 @@ struct Measured {
 
 struct SettledRun {
   std::shared_ptr<const Model> model;
-  Kind kind = Kind::none;
+  Motion kind = Motion::none;
   Base base = Base::angle;
   std::string words;   // how it was found, or why not
   std::string link;    // name of the reduction link's shaft in figures

@@ -1,0 +1,196 @@
+// agreement_bench.cpp — does every study speak of the same machine? Each verb against the settled run of every scene.
+//
+// What cells are, and when they agree: tests/agreement/agreement.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+
+#include "bench/benches.h"
+#include "bench/workers.h"
+#include "studies/scenes/kinds.h"
+#include "tests/agreement/agreement.h"
+
+namespace kurbel::bench {
+namespace {
+
+using namespace agreement;
+
+constexpr int seconds_a_scene = 120;  // processor time
+constexpr double wanted_agree = 0.9, wanted_told = 0.1;
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+std::vector<std::string> scenes_named(const std::string& only) {
+  std::vector<std::string> names;
+  for (const char* folder : {KURBEL_SOURCE_DIR "/scenes", KURBEL_SOURCE_DIR "/tests/agreement"})
+    for (std::string& file : scene_files(folder))
+      if (std::filesystem::path(file).stem().string().find(only) != std::string::npos) names.push_back(std::move(file));
+  return names;
+}
+
+// What breaks the process says nothing: no worse answer.
+Row broken(const std::string& scene, const std::string& words) {
+  Row row{.scene = scene, .kind = Motion::none, .regime = words, .figures = {}, .cpu_seconds = 0};
+  row.figures.push_back({Topic::mean_speed, words, 0, 0, 0, Verdict::silent, words});
+  return row;
+}
+
+std::vector<Row> measured(const std::vector<std::string>& files, int jobs) {
+  std::vector<Row> rows(files.size());
+  run_tasks(
+      files.size(), jobs, seconds_a_scene,
+      [&](std::size_t k) {
+        Row row = compare_verbs(read_scene(files[k], all_kinds()), {});
+        row.scene = std::filesystem::path(files[k]).stem().string();
+        return lines_of(row);
+      },
+      [&](const TaskEnd& end) {
+        const std::string name = std::filesystem::path(files[end.task]).stem().string();
+        rows[end.task] = end.whole ? read_row(end.text) : broken(name, end.words);
+        std::fprintf(stderr, "%s: %.2f s\n", name.c_str(), rows[end.task].cpu_seconds);
+      },
+      [] { return true; });
+  return rows;
+}
+
+// By how much a silent cell misses, over the larger of the two.
+std::string mark_of(const Compared* cell) {
+  if (!cell) return "";
+  if (cell->verdict == Verdict::agrees) return "✓";
+  if (cell->verdict != Verdict::silent) return name_of(cell->verdict);
+  const double size = std::max(std::abs(cell->run), std::abs(cell->study));
+  return size > 0 ? fmt::format("✗ {:.2g} %", 100 * std::abs(cell->run - cell->study) / size) : "✗";
+}
+Tone tone_of(const Compared* cell) {
+  if (!cell) return Tone::none;
+  switch (cell->verdict) {
+    case Verdict::agrees:
+      return Tone::good;
+    case Verdict::told:
+      return Tone::fair;
+    case Verdict::refused:
+      return Tone::aside;
+    case Verdict::silent:
+      break;
+  }
+  return Tone::bad;
+}
+
+Table matrix_of(const std::vector<Row>& rows) {
+  Table table{.title = "run against steady, reduce and size", .columns = {"scene"}, .rows = {}};
+  for (std::size_t t = 0; t < topic_count; ++t) table.columns.emplace_back(name_of(static_cast<Topic>(t)));
+  table.columns.emplace_back("the run");
+  for (const Row& row : rows) {
+    std::vector<std::string> cells = {row.scene};
+    std::vector<Tone> tones = {Tone::none};
+    for (std::size_t t = 0; t < topic_count; ++t) {
+      const Compared* cell = row.cell(static_cast<Topic>(t));
+      cells.push_back(mark_of(cell));
+      tones.push_back(tone_of(cell));
+    }
+    cells.push_back(row.regime);
+    tones.push_back(Tone::none);
+    table.rows.push_back(std::move(cells));
+    table.tones.push_back(std::move(tones));
+    table.hints.emplace_back(table.columns.size());
+  }
+  return table;
+}
+
+Table silent_of(const std::vector<Row>& rows) {
+  Table table{
+      .title = "silent disagreements", .columns = {"scene", "topic", "figure", "run", "study", "allowed"}, .rows = {}};
+  table.text_columns = 3;
+  for (const Row& row : rows)
+    for (std::size_t t = 0; t < topic_count; ++t)
+      if (const Compared* c = row.cell(static_cast<Topic>(t)); c && c->verdict == Verdict::silent)
+        table.rows.push_back({row.scene, name_of(c->topic), c->figure, fmt::format("{:.9g}", c->run),
+                              fmt::format("{:.9g}", c->study), fmt::format("{:.1e}", c->allowed)});
+  return table;
+}
+
+// One topic stands for each verb.
+constexpr struct {
+  const char* verb;
+  Topic topic;
+} verbs[] = {{"steady", Topic::mean_speed}, {"reduce", Topic::mean_torques}, {"size", Topic::sized_delta}};
+
+// The same reason of several components counts as one: names and numbers are left out of the comparison.
+std::string reason_of(const std::string& words) {
+  std::string plain;
+  bool quoted = false;
+  for (const char c : words) {
+    if (c == '"') quoted = !quoted;
+    if (!quoted && plain.size() < 110) plain += c;
+  }
+  return plain;
+}
+Table refusals_of(const std::vector<Row>& rows) {
+  Table table{.title = "refusals", .columns = {"verb", "reason", "scenes", "how many"}, .rows = {}};
+  table.text_columns = 3;
+  for (const auto& verb : verbs) {
+    std::map<std::string, std::vector<std::string>> by_reason;
+    std::size_t asked = 0, refused = 0;
+    for (const Row& row : rows) {
+      const Compared* cell = row.cell(verb.topic);
+      if (!cell) continue;
+      ++asked;
+      if (cell->verdict != Verdict::refused) continue;
+      ++refused;
+      by_reason[reason_of(cell->words)].push_back(row.scene);
+    }
+    table.rows.push_back({verb.verb, "all", "", fmt::format("{} of {}", refused, asked)});
+    for (const auto& [reason, scenes] : by_reason)
+      table.rows.push_back(
+          {verb.verb, reason, fmt::format("{}", fmt::join(scenes, ", ")), std::to_string(scenes.size())});
+  }
+  return table;
+}
+
+std::string markdown(const Table& table) {
+  std::string text = fmt::format("## {}\n\n", table.title);
+  const auto line = [&](const std::vector<std::string>& cells) {
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+  };
+  line(table.columns);
+  line(std::vector<std::string>(table.columns.size(), "---"));
+  for (std::vector<std::string> row : table.rows) {
+    for (std::string& cell : row) std::replace(cell.begin(), cell.end(), '|', '/');
+    line(row);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+void agreement_of_verbs(BenchBook& book, const std::string& only, int jobs, const std::string& folder) {
+  const std::vector<std::string> files = scenes_named(only);
+  if (files.empty()) throw std::invalid_argument(fmt::format("--only {}: no scene's name holds that", only));
+  const std::vector<Row> rows = measured(files, jobs);
+  const Totals totals = totals_of(rows);
+  const std::string words = fmt::format(
+      "Of {} cells of {} scenes {} agree, {} are told, {} refused, {} silent; {} scenes are not settled.", totals.cells,
+      rows.size(), percent(totals.share(Verdict::agrees)), percent(totals.share(Verdict::told)),
+      percent(totals.share(Verdict::refused)), percent(totals.share(Verdict::silent)), totals.unsettled);
+  const std::vector<Table> tables = {matrix_of(rows), silent_of(rows), refusals_of(rows)};
+  std::filesystem::create_directories(folder);
+  std::ofstream out(folder + "/agreement.md");
+  out << words << "\n\n";
+  for (const Table& table : tables) {
+    out << markdown(table);
+    book.tables.push_back(table);
+  }
+  const double agree = totals.share(Verdict::agrees), told = totals.share(Verdict::told);
+  const std::size_t silent = totals.of[static_cast<std::size_t>(Verdict::silent)];
+  book.target("cells that agree", "≥ 90 %", percent(agree), agree >= wanted_agree);
+  book.target("cells that are told", "≤ 10 %", percent(told), told <= wanted_told);
+  book.target("silent disagreements", "0", std::to_string(silent), silent == 0);
+  book.conclusions.push_back(words);
+}
+
+}  // namespace kurbel::bench
