@@ -38,13 +38,16 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   return options;
 }
 
-// Rigid and the scene's own effects; a scene without any is shown with all of its elasticity, too.
+// The scene's own effects, rigid and elastic: elasticity alone differs. A scene without any is shown with all of its
+// elasticity, too. The rigid cycle has ideal joints, which the study tells.
 std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& scene) {
   if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
   Effects full = scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (compile(scene, full)->elastic.empty()) return {Effects{}};
-  return {Effects{}, full};
+  Effects rigid = without_elasticity(full);
+  rigid.joint_clearance = false;
+  if (compile(scene, full)->elastic.empty()) return {rigid};
+  return {rigid, full};
 }
 
 int steady(const SteadyArguments& arguments) {
