@@ -39,7 +39,8 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   return options;
 }
 
-// Rigid and the scene's own effects; a scene without any is shown with all of its elasticity, too.
+// The scene's own effects, rigid and elastic: elasticity alone differs. A scene without any is shown with all of its
+// elasticity, too. The rigid cycle has ideal joints, which the study tells.
 std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& scene) {
   if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
   Effects full = scene.effects;

@@ -14,7 +14,8 @@
 
 namespace kurbel {
 
-// Everything off, clutches locked: the machine of one coordinate.
+// Everything off, clutches locked: the machine of one coordinate. Not what stands beside an elastic machine as the rigid
+// one: that keeps its friction and its losses (without_elasticity in engine/scene/effects.h).
 Effects rigid_effects();
 
 class RigidMachine {

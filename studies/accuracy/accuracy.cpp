@@ -10,8 +10,7 @@ namespace kurbel {
 AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& options) {
   AccuracyWork work(scene, options);
   AccuracyStudy& study = work.study;
-  choose_levels(work);
-  make_references(work);
+  make_levels(work);
   if (work.levels.empty()) {
     study.complete = false;
     study.diagnosis = "no level of the scene runs to its end: " + work.last_diagnosis;
@@ -30,6 +29,12 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   if (!study.complete) study.diagnosis = "interrupted";
   judge_accuracy(study, options);
   return std::move(study);
+}
+
+std::string model_called(const std::string& level) {
+  const std::string lean = "elastic: ";
+  if (level.starts_with(lean)) return fmt::format("model elastic in {} alone", level.substr(lean.size()));
+  return level.starts_with("with ") ? "model " + level : level + " model";
 }
 
 std::string AccuracyStudy::name_of(const MeasuredSetting& s) const {

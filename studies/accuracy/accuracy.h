@@ -1,12 +1,14 @@
 // accuracy.h — what accuracy costs: error bought per second, over integrators, tolerances and levels of modelling.
 //
-// Every level of the model gets a reference by two independent methods at the tightest tolerance; what they differ by
+// Levels of modelling are a ladder: the bare rigid machine, then one effect more a rung, to all that the scene has
+// parameters for. Every level gets a reference by two independent methods at the tightest tolerance; what they differ by
 // is the least error that is ever stated. Then each method climbs the ladder of tolerances.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +37,8 @@ struct FollowedFigure {
 
 // One level of modelling with its converged answer.
 struct ModelLevel {
-  std::string name = {};     // "energy method", "rigid", "elastic: main_coupling", "elastic", "multibody"
+  // "energy method", "rigid", "with joint friction", "elastic: main_coupling", "elastic", "multibody"
+  std::string name = {};
   std::string effects = {};  // of the model
   std::size_t coordinates = 0;
   std::string first = {}, second = {};  // methods of the reference
@@ -44,7 +47,25 @@ struct ModelLevel {
   std::vector<double> value = {},
                       floor = {};  // per followed figure; NaN: the level does not yield it. floor: relative agreement
   std::vector<double> model_error = {};  // per followed figure: reference against that of the fullest level
+  // Of the cheapest setting within `close_enough` of the level's own key figure; NaN: none measured.
+  double seconds = std::numeric_limits<double>::quiet_NaN();
 };
+inline constexpr double close_enough = 1e-3;
+
+// "rigid" → "rigid model", "with gear losses" → "model with gear losses", "elastic: shaft" → "model elastic in shaft alone".
+std::string model_called(const std::string& level);
+
+// One rung of the ladder of models: what the rungs before have, and one effect more.
+struct ModelRung {
+  std::string name;               // "rigid", "with joint friction", "elastic", "all elastic", as the level's
+  Effects effects;                // all that are on
+  bool Effects::*adds = nullptr;  // null: the bare machine, or elasticity
+  bool of_scene = true;           // on in the scene; its own effects come first, so that they are a rung, too
+};
+
+// Rigid, then the effects that the scene has on, then those that it only has parameters for: what a rigid machine may
+// have, then elasticity, then what goes with elasticity. Mechanisms evaluated body by body: only where the scene asks.
+std::vector<ModelRung> model_rungs(const Scene& scene);
 
 // One method at one tolerance on one level.
 struct MeasuredSetting {
@@ -70,8 +91,9 @@ struct AccuracyStudy {
   std::string title, scene_file, scene_text;
   std::vector<FollowedFigure> figures;
   std::size_t key = 0;             // of the figures
-  std::vector<ModelLevel> levels;  // cheap ones first; `fullest` is the one that the others are judged by
+  std::vector<ModelLevel> levels;  // the ladder, up to `fullest`, by which the others are judged; then own solvers
   std::size_t fullest = 0;
+  std::size_t own = 0;  // of the scene's own effects
   std::vector<MeasuredSetting> settings;
   std::vector<Omission> omissions;
   std::vector<std::string> findings;  // sentences from the data; the first is the conclusion

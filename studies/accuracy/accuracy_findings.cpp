@@ -93,6 +93,29 @@ Rows front_table(const AccuracyStudy& study) {
       .only_for_people("front", [](S s) { return s->on_front ? "cheapest of all at its error" : "of its model"; });
 }
 
+std::string rung_time(const ModelLevel& m) { return std::isnan(m.seconds) ? "—" : milliseconds(m.seconds); }
+
+// On a terminal the ladder of models with what each rung lacks and costs.
+Rows rung_table(const AccuracyStudy& study) {
+  using L = const ModelLevel&;
+  const std::size_t rungs = std::min(study.fullest + 1, study.levels.size());
+  return table_of("", "", std::vector<ModelLevel>(study.levels.begin(), study.levels.begin() + std::ptrdiff_t(rungs)))
+      .headed(fmt::format("ladder of models, an effect more a rung; error of {} against the last, time of the cheapest "
+                          "run within {:g} % of its own:",
+                          study.figures[study.key].name, 100 * close_enough))
+      .text_in(2)
+      .always()
+      .not_on_page()
+      .only_for_people("model", &ModelLevel::name)
+      .only_for_people("effects", &ModelLevel::effects)
+      .only_for_people("error",
+                       [&](L m) {
+                         const double error = m.model_error[study.key];
+                         return std::isnan(error) ? "—" : fmt::format("{:.2g} %", 100 * error);
+                       })
+      .only_for_people("time [ms]", rung_time);
+}
+
 Rows level_table(const AccuracyStudy& study) {
   using L = const ModelLevel&;
   auto table = table_of("models", "Models and their references", study.levels).not_on_terminal().text_in(3).always();
@@ -107,6 +130,8 @@ Rows level_table(const AccuracyStudy& study) {
                                          {"tolerance", m.tolerance},
                                          {"agreement_of_motion", m.agreement}};
                          })
+      .only_for_people("time [ms]", rung_time)
+      .only_for_programs("seconds", &ModelLevel::seconds)
       .only_for_programs("figures", [&](L m) {
         return each(numbers_below(study.figures.size()), [&](std::size_t i) {
           return Record{{"name", study.figures[i].name},
@@ -184,13 +209,17 @@ void add_key_figures(Findings& f, const AccuracyStudy& study) {
 
 Text how_measured(const AccuracyStudy& study) {
   const ModelLevel& full = study.levels[study.fullest];
-  return {.title = "How it was measured",
-          .body = fmt::format(
-              "Time is processor time of the integration with its peaks and cycles found, without samples for plots "
-              "and without the energy audit: median of up to nine runs in one process. Tables of the work equation are "
-              "made beforehand. Numerical errors are against the model's own reference, by two methods at a tolerance "
-              "of {:.0e}; total errors against the reference of the {} model. The whole study took {:.3g} s.",
-              full.tolerance, full.name, study.seconds)};
+  return {
+      .title = "How it was measured",
+      .body = fmt::format(
+          "Time is processor time of the integration with its peaks and cycles found, without samples for plots "
+          "and without the energy audit: median of up to nine runs in one process. Tables of the work equation are "
+          "made beforehand. Numerical errors are against the model's own reference, by two methods at a tolerance "
+          "of {:.0e}; total errors against the reference of the {}. A model's time is that of its cheapest "
+          "setting whose numbers are within {:g} % of its own {}. Models between the rigid one, those elastic, and "
+          "the scene's own are run by the methods of their references alone, unless methods are named. The whole "
+          "study took {:.3g} s.",
+          full.tolerance, model_called(full.name), 100 * close_enough, study.figures[study.key].name, study.seconds)};
 }
 
 // What a page shows of settings that were measured.
@@ -236,6 +265,7 @@ Findings findings_of(const AccuracyStudy& study) {
   say({.lines = study.answers, .indent = "  ", .key = "answers"});
   f.tell("key_figure", study.figures.empty() ? Value() : Value(study.figures[study.key].name));
   if (measured) {
+    f.say(terminal, rung_table(study));
     f.say(terminal, front_table(study));
     say({.lines = {""}});
     add_key_figures(f, study);

@@ -54,6 +54,17 @@ class Judge {
     return fmt::format("{}, {}, measured {}", study_.name_of(s), duration(s.seconds), percent(total(s)));
   }
 
+  // What each level's key figure costs.
+  void time_levels() {
+    if (study_.figures.empty()) return;
+    for (std::size_t level = 0; level < study_.levels.size(); ++level)
+      for (const std::size_t i : of_level(level)) {
+        const MeasuredSetting& s = study_.settings[i];
+        double& least = study_.levels[level].seconds;
+        if (s.numerical_error[study_.key] <= close_enough && !(least <= s.seconds)) least = s.seconds;
+      }
+  }
+
   void find() {
     if (study_.figures.empty() || study_.settings.empty()) {
       study_.findings = {"No figure of the scene can be followed: nothing moves"};
@@ -132,13 +143,13 @@ class Judge {
     if (!has_key) return fmt::format("The level \"{}\" yields the motion of the link alone, not {}", m.name, key());
     const double off = m.model_error[study_.key];
     if (off <= std::max(m.floor[study_.key], full().floor[study_.key]))
-      return fmt::format("The {} model gives the same {} as the {} one", m.name, key(), full().name);
+      return fmt::format("The {} gives the same {} as the {}", model_called(m.name), key(), model_called(full().name));
     const MeasuredSetting* enough = nullptr;
     for (const MeasuredSetting& s : study_.settings)
       if (s.level == level && s.numerical_error[study_.key] <= 0.1 * off && (!enough || s.seconds < enough->seconds))
         enough = &s;
-    std::string text = fmt::format("The {} model is {} off the {} one in {} whatever its tolerance", m.name,
-                                   percent(off), full().name, key());
+    std::string text = fmt::format("The {} is {} off the {} in {} whatever its tolerance", model_called(m.name),
+                                   percent(off), model_called(full().name), key());
     if (enough)
       text += fmt::format("; more than {} at {:.0e} ({}) is wasted on it", enough->method, enough->tolerance,
                           duration(enough->seconds));
@@ -147,9 +158,8 @@ class Judge {
 
   std::string floor() const {
     return fmt::format(
-        "{} and {} agree on the {} model's {} to {:.1e}, on its motion to {:.1e}: no smaller error is "
-        "claimed",
-        full().first, full().second, full().name, key(), full().floor[study_.key], full().agreement);
+        "{} and {} agree on {} of the {} to {:.1e}, on its motion to {:.1e}: no smaller error is claimed", full().first,
+        full().second, key(), model_called(full().name), full().floor[study_.key], full().agreement);
   }
 
   // Against the cheapest reduced setting that is at least as exact.
@@ -192,6 +202,7 @@ std::vector<std::size_t> pareto_front(const std::vector<double>& error, const st
 void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options) {
   Judge judge(study);
   judge.mark_fronts();
+  judge.time_levels();
   judge.find();
   if (study.figures.empty()) return;
   if (options.within) {

@@ -13,6 +13,9 @@ namespace {
 // A method whose trajectory is this near to what the references agree on has nothing more to gain.
 constexpr double floor_is_reached = 2;
 
+// An error of motion below which nothing more is asked of a level between, unless methods are named.
+constexpr double enough_between = 1e-6;
+
 struct Climber {
   std::size_t level;
   std::string method;
@@ -22,6 +25,7 @@ struct Climber {
 
 std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork& level) {
   std::vector<std::string> methods = work.options.methods;
+  if (methods.empty() && level.between) return {level.told.first, level.told.second};
   if (methods.empty())
     methods = {"work", "dopri5", "verner6", "dop853", "fehlberg8", "adams", "esdirk3", "esdirk", "esdirk5", "bdf"};
   if (!level.tables) std::erase(methods, "work");
@@ -94,6 +98,7 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
   work.study.settings.push_back(s);
   // One more rung at the floor shows that it is one.
   if (difference <= floor_is_reached * level.told.agreement) c.open = false;
+  if (level.between && work.options.methods.empty() && difference <= enough_between) c.open = false;
 }
 
 }  // namespace

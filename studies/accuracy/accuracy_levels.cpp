@@ -1,20 +1,74 @@
-// accuracy_levels.cpp — levels of modelling of a scene, and their references by two methods.
+// accuracy_levels.cpp — the ladder of models of a scene, and their references by two methods.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
-#include "studies/run/compare.h"
 #include "studies/accuracy/accuracy_work.h"
+#include "studies/effects/effect_units.h"
+#include "studies/run/compare.h"
 
 namespace kurbel {
 namespace {
 
-void add_level(AccuracyWork& work, const std::string& name, const Effects& effects) {
-  work.levels.push_back({.told = {.name = name}, .model = compile(work.scene, effects), .tables = {}, .reference = {}});
-}
+// --- which levels there are ---
+
+const std::string elasticity = "elasticity:";
+
+class Rungs {
+ public:
+  explicit Rungs(const Scene& scene) : scene_(scene), units_(effect_units(scene)) {
+    rungs_.push_back({.name = "rigid", .effects = bare_machine(scene.effects)});
+  }
+
+  std::vector<ModelRung> all() {
+    for (const bool of_scene : {true, false}) {
+      add_flags(of_scene, [](const EffectFlag& f) { return !f.of_elasticity && f.flag != &Effects::multibody; });
+      add_elasticity(of_scene);
+      add_flags(of_scene, [](const EffectFlag& f) { return f.of_elasticity; });
+      add_flags(of_scene, [](const EffectFlag& f) { return f.flag == &Effects::multibody; });
+    }
+    return std::move(rungs_);
+  }
+
+ private:
+  template <class Wanted>
+  void add_flags(bool of_scene, Wanted wanted) {
+    for (const EffectFlag& f : effect_flags()) {
+      const bool given =
+          std::any_of(units_.begin(), units_.end(), [&](const EffectUnit& unit) { return unit.name == f.name; });
+      Effects effects = rungs_.back().effects;
+      if (!given || !wanted(f) || scene_.effects.*(f.flag) != of_scene || effects.*(f.flag)) continue;
+      effects.*(f.flag) = true;
+      rungs_.push_back(
+          {.name = fmt::format("with {}", f.words), .effects = effects, .adds = f.flag, .of_scene = of_scene});
+    }
+  }
+
+  // That of the scene; then the rest of it.
+  void add_elasticity(bool of_scene) {
+    std::size_t elastic = 0, on = 0;
+    for (const EffectUnit& unit : units_)
+      if (unit.name.starts_with(elasticity)) {
+        ++elastic;
+        if (scene_.effects.is_elastic(unit.name.substr(elasticity.size()))) ++on;
+      }
+    if (of_scene ? on == 0 : on == elastic) return;
+    Effects effects = rungs_.back().effects;
+    effects.all_elastic = !of_scene || scene_.effects.all_elastic;
+    effects.elastic = of_scene ? scene_.effects.elastic : std::vector<std::string>{};
+    const char* name = of_scene || on == 0 ? "elastic" : "all elastic";
+    rungs_.push_back({.name = name, .effects = effects, .of_scene = of_scene});
+  }
+
+  const Scene& scene_;
+  std::vector<EffectUnit> units_;
+  std::vector<ModelRung> rungs_;
+};
 
 // What a run with these effects says of a machine's strain; empty where it fails.
 std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& effects) {
@@ -28,24 +82,32 @@ std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& eff
   return found;
 }
 
+// The springs of a model, by their components.
+std::set<std::string> springs_of(const Model& model) {
+  std::set<std::string> names;
+  for (const ElasticJoint& e : model.elastic)
+    if (!e.slips && !e.springless) names.insert(model.network.joints[at(e.joint)].component);
+  return names;
+}
+
 // The one elastic element that alone comes nearest to the full model's peaks.
-void add_lean(AccuracyWork& work, const Effects& full, const Model& model) {
-  const std::map<std::string, double> wanted = peaks(work, full);
-  std::set<std::string> candidates;
-  for (const ElasticJoint& e : model.elastic) candidates.insert(model.network.joints[at(e.joint)].component);
+std::optional<ModelRung> lean_rung(AccuracyWork& work, const Effects& full, const Model& model) {
+  const std::set<std::string> candidates = springs_of(model);
   constexpr std::size_t most_candidates = 8;
-  if (candidates.size() > most_candidates) {
-    work.omit("elastic lean", fmt::format("{} elastic elements are too many to try each alone", candidates.size()));
-    return;
-  }
+  std::string why;
+  if (candidates.size() < 2)
+    why = "one elastic element only: the lean model is the full one";
+  else if (candidates.size() > most_candidates)
+    why = fmt::format("{} elastic elements are too many to try each alone", candidates.size());
+  if (!why.empty()) return work.omit("elastic lean", why), std::nullopt;
+  const std::map<std::string, double> wanted = peaks(work, full);
   double nearest = HUGE_VAL;
-  std::string best;
-  Effects lean;
+  std::optional<ModelRung> best;
   for (const std::string& component : candidates) {
     Effects one = full;
     one.all_elastic = false;
     one.elastic = {component.substr(0, component.find('.'))};
-    if (work.interrupted()) return;
+    if (work.interrupted()) break;
     double difference = 0;
     try {
       const std::map<std::string, double> found = peaks(work, one);
@@ -57,11 +119,14 @@ void add_lean(AccuracyWork& work, const Effects& full, const Model& model) {
       continue;
     }
     work.log(fmt::format("elastic in {} alone: peaks off by up to {:.2g}", component, difference));
-    if (difference < nearest) nearest = difference, best = one.elastic.front(), lean = one;
+    if (difference < nearest)
+      nearest = difference, best = ModelRung{.name = "elastic: " + one.elastic.front(), .effects = one};
   }
-  if (best.empty()) return work.omit("elastic lean", "no single elastic element makes a model that runs");
-  add_level(work, "elastic: " + best, lean);
+  if (!best) work.omit("elastic lean", "no single elastic element makes a model that runs");
+  return best;
 }
+
+// --- their references ---
 
 // Independent of each other: other variables (angle against time), another table, or another family.
 std::vector<std::string> reference_methods(const LevelAtWork& level) {
@@ -71,7 +136,8 @@ std::vector<std::string> reference_methods(const LevelAtWork& level) {
   return methods;
 }
 
-void make_reference(AccuracyWork& work, LevelAtWork& level) {
+// False: none that can be trusted, which is told.
+bool make_reference(AccuracyWork& work, LevelAtWork& level) {
   ModelLevel& told = level.told;
   told.effects = level.model->effects.describe();
   told.coordinates = level.model->free_shafts + level.model->twist_count();
@@ -86,7 +152,7 @@ void make_reference(AccuracyWork& work, LevelAtWork& level) {
     if (found.size() == 2 || work.interrupted()) break;
     work.progress(fmt::format("reference of {} by {}", told.name, method), 0);
     SimulateOptions o = work.simulate_options(method, reference_tolerance);
-    o.budget = work.options.time / 4;
+    o.budget = work.options.time / (level.between ? 12 : 4);
     Result r = simulate(level.model, told.name, o);
     work.log(fmt::format("reference of {} by {}: {:.3g} s{}", told.name, method, r.statistics.cpu_seconds,
                          r.complete ? "" : "; " + r.diagnosis));
@@ -99,9 +165,8 @@ void make_reference(AccuracyWork& work, LevelAtWork& level) {
     found.push_back(std::move(r));
   }
   if (found.size() < 2) {
-    level.reference.complete = false;
     work.omit(told.name, "no two methods give a reference that can be trusted");
-    return;
+    return false;
   }
   told.tolerance = reference_tolerance;
   told.agreement = std::max(trajectory_difference(*found[1].trajectory, *found[0].trajectory), reference_tolerance);
@@ -114,32 +179,67 @@ void make_reference(AccuracyWork& work, LevelAtWork& level) {
   if (const Figure* f = level.reference.find(QuantityKind::final_angle, link)) level.end_angle = f->value;
   if (const Figure* f = level.reference.find(QuantityKind::final_speed, link)) level.end_speed = f->value;
   work.log(fmt::format("{}: {} and {} agree to {:.1e}", told.name, told.first, told.second, told.agreement));
+  return true;
+}
+
+// The level of a rung, on top of those before; false: it makes no machine, or none that can be trusted.
+bool add_level(AccuracyWork& work, const ModelRung& rung, bool between) {
+  LevelAtWork level{.told = {.name = rung.name}, .model = {}, .tables = {}, .reference = {}, .between = between};
+  try {
+    level.model = compile(work.scene, rung.effects);
+  } catch (const SceneError& refusal) {
+    work.omit(rung.name, refusal.what());
+    return false;
+  }
+  if (!make_reference(work, level)) return false;
+  work.levels.push_back(std::move(level));
+  return true;
+}
+
+// Without what a rung before added in vain.
+void take_away(const ModelRung& in_vain, const Scene& scene, Effects& effects) {
+  if (in_vain.adds) {
+    effects.*(in_vain.adds) = false;
+  } else {
+    effects.all_elastic = scene.effects.all_elastic;
+    effects.elastic = scene.effects.elastic;
+  }
 }
 
 }  // namespace
 
-void choose_levels(AccuracyWork& work) {
-  add_level(work, "rigid", {});
-  Effects full = work.scene.effects;
-  if (full.describe() == "none") full.all_elastic = true;
-  const auto model = compile(work.scene, full);
-  if (!is_elastic(*model) && (full.joint_clearance || full.flexible_rod))
-    work.omit("joint clearance and flexible rod", "the levels are those of ideal joints and a rigid rod");
-  if (!is_elastic(*model) && !full.joint_friction) {
-    work.omit("elastic", "the scene has no coupling or shaft with a stiffness");
-    return;
-  }
-  const std::string name = !is_elastic(*model) ? "joint friction" : "elastic";
-  if (model->elastic.size() > 1)
-    add_lean(work, full, *model);
-  else if (is_elastic(*model))
-    work.omit("elastic lean", "one elastic element only: the lean model is the full one");
-  work.levels.push_back({.told = {.name = name}, .model = model, .tables = {}, .reference = {}});
-}
+std::vector<ModelRung> model_rungs(const Scene& scene) { return Rungs(scene).all(); }
 
-void make_references(AccuracyWork& work) {
-  for (LevelAtWork& level : work.levels) make_reference(work, level);
-  std::erase_if(work.levels, [](const LevelAtWork& level) { return !level.reference.complete; });
+// What the scene has on is carried up though a rung fails: with the next effect it may run. What it has off is not, and
+// is begun only in the first third of the study's time.
+void make_levels(AccuracyWork& work) {
+  const std::vector<ModelRung> rungs = model_rungs(work.scene);
+  const auto own = std::find_if(rungs.begin(), rungs.end(), [](const ModelRung& r) { return !r.of_scene; }) - 1;
+  compile(work.scene, own->effects);  // what is wrong with the scene is no omission
+  std::vector<ModelRung> in_vain;
+  bool lean_is_due = true;
+  for (auto r = rungs.begin(); r != rungs.end() && !work.interrupted(); ++r) {
+    ModelRung rung = *r;
+    if (!rung.of_scene)
+      for (const ModelRung& other : in_vain) take_away(other, work.scene, rung.effects);
+    const bool elastic = r != rungs.begin() && !rung.adds;
+    if (!rung.of_scene && work.spent() > work.options.time / 3) {
+      work.omit(rung.name,
+                fmt::format("the levels before took {:.2g} s of the study's {:g} s", work.spent(), work.options.time));
+      in_vain.push_back(rung);
+      continue;
+    }
+    if (elastic && std::exchange(lean_is_due, false))
+      if (const auto lean = lean_rung(work, rung.effects, *compile(work.scene, rung.effects)))
+        add_level(work, *lean, false);
+    const bool between = r != rungs.begin() && r != own && !(elastic && rung.name == "elastic");
+    if (add_level(work, rung, between)) {
+      if (rung.of_scene) work.study.own = work.levels.size() - 1;
+    } else if (!rung.of_scene) {
+      in_vain.push_back(rung);
+    }
+  }
+  if (lean_is_due) work.omit("elastic", "the scene has no coupling or shaft with a stiffness");
 }
 
 }  // namespace kurbel

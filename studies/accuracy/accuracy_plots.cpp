@@ -70,15 +70,14 @@ Series front_series(const AccuracyStudy& study, Member wanted, Error error) {
   return series;
 }
 
-constexpr Role level_role(std::size_t level, std::size_t fullest) {
-  constexpr Role lean[] = {Role::rigid, Role::green, Role::orange, Role::purple, Role::sky};
-  return level == fullest ? Role::elastic : lean[level < fullest ? level : level - fullest + 1];
+Role level_role(std::size_t level, std::size_t fullest) {
+  return level == fullest ? Role::elastic : level == 0 ? Role::rigid : further_role(level - 1);
 }
 
 Plot work_precision(const AccuracyStudy& study, std::size_t level) {
   const auto error = [](const MeasuredSetting& s) { return s.trajectory_error; };
   const ModelLevel& m = study.levels[level];
-  Plot plot{.title = fmt::format("What the motion's accuracy costs, {} model", m.name),
+  Plot plot{.title = fmt::format("What the motion's accuracy costs, {}", model_called(m.name)),
             .x = {"largest error of the motion", "", true},
             .y = {"processor time", "ms", true},
             .series = method_series(study, level, error)};
@@ -93,11 +92,11 @@ Plot work_precision(const AccuracyStudy& study, std::size_t level) {
 
 Plot figure_cost(const AccuracyStudy& study, std::size_t figure) {
   const auto error = [&](const MeasuredSetting& s) { return s.numerical_error[figure]; };
-  const ModelLevel& m = study.levels[study.fullest];
-  Plot plot{.title = fmt::format("What {} costs, {} model", study.figures[figure].name, m.name),
+  const ModelLevel& m = study.levels[study.own];
+  Plot plot{.title = fmt::format("What {} costs, {}", study.figures[figure].name, model_called(m.name)),
             .x = {"numerical error", "relative", true},
             .y = {"processor time", "ms", true},
-            .series = method_series(study, study.fullest, error)};
+            .series = method_series(study, study.own, error)};
   plot.note = fmt::format("Nothing is drawn below {:.1e}, to which the references agree.", m.floor[figure]);
   return plot;
 }
@@ -132,8 +131,8 @@ Plot error_plane(const AccuracyStudy& study) {
                          .dashed = true});
   plot.note = fmt::format(
       "Above the diagonal the model is coarser than the numbers: a tighter tolerance is wasted there. "
-      "The {} model, which the others are judged by, lies at {:.1e}, to which its references agree.",
-      study.levels[study.fullest].name, floor);
+      "The {}, which the others are judged by, lies at {:.1e}, to which its references agree.",
+      model_called(study.levels[study.fullest].name), floor);
   return plot;
 }
 
@@ -157,7 +156,7 @@ Plot total_cost(const AccuracyStudy& study) {
   }
   plot.series.push_back(front_series(
       study, [](const MeasuredSetting& s) { return s.on_front; }, error));
-  plot.note = fmt::format("Against the converged {} model.", study.levels[study.fullest].name);
+  plot.note = fmt::format("Against the converged {}.", model_called(study.levels[study.fullest].name));
   return plot;
 }
 

@@ -24,6 +24,7 @@ struct LevelAtWork {
   std::shared_ptr<WorkTables> tables;   // null: the work equation does not apply
   Result reference;                     // of the first method
   double end_angle = 0, end_speed = 0;  // of the reduction link
+  bool between = false;                 // asked for its error and its time alone, by the methods of its reference
 };
 
 struct AccuracyWork {
@@ -53,10 +54,8 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
 // Median and spread of repeated runs [s].
 void set_times(MeasuredSetting& s, std::vector<double> seconds);
 
-// accuracy_levels.cpp: from the rigid machine to the scene's own effects, each with its reference by two methods. A
-// level without one falls away.
-void choose_levels(AccuracyWork& work);
-void make_references(AccuracyWork& work);
+// accuracy_levels.cpp: the ladder of models, each with its reference by two methods. A level without one falls away.
+void make_levels(AccuracyWork& work);
 
 // followed_figures.cpp: those whose errors are told, and how far off they are. `value` yields a figure by its name.
 void follow_figures(AccuracyWork& work);

@@ -93,7 +93,7 @@ void add_multibody(AccuracyWork& work) {
       work.progress(fmt::format("multibody, {} at {:.0e}", method, tolerance), 1);
       Result r;
       try {
-        if (!model) model = compile(scene, Effects{});
+        if (!model) model = compile(scene, rigid.model->effects);
         SimulateOptions o = work.simulate_options(method, tolerance);
         o.accuracy = tolerance;
         r = simulate(model, "multibody", o);

@@ -43,13 +43,12 @@ std::vector<std::string> scale(Section& section, const std::set<std::string>& ke
 
 std::vector<EffectUnit> effect_units(const Scene& scene) {
   std::vector<EffectUnit> units;
-  // A gearbox is elastic only with flanks or supports that are.
-  Effects all;
-  all.all_elastic = true;
-  const auto model = compile(scene, all);
+  // A gearbox is elastic only with flanks or supports that are. Asked of the network as drawn: with all of them elastic
+  // at once a shaft without inertia may be left, and one of them alone still be worth a model.
   std::set<std::string> elastic;
-  for (const ElasticJoint& joint : model->elastic)
-    elastic.insert(base_name(model->network.joints[static_cast<std::size_t>(joint.joint)].component));
+  const Network network = build_network(scene);
+  for (const Network::Joint& joint : network.joints)
+    if (joint.element && joint.element->is.has_spring()) elastic.insert(base_name(joint.component));
   for (const Section& section : scene.components)
     if (section.kind->elastic && elastic.count(section.name))
       units.push_back({elasticity + section.name, "elasticity of " + section.name});

@@ -154,8 +154,8 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
     pair.label_a = "rigid", pair.label_b = "same";
   else if (a == rigid.describe() && elastic(pair.b))
     pair.label_a = "rigid", pair.label_b = "elastic";
-  else if (of_scene && a == bare_machine(pair.a).describe())
-    pair.label_a = "bare", pair.label_b = "full";
+  else if (a == bare_machine(pair.a).describe())
+    pair.label_a = "bare", pair.label_b = of_scene ? "full" : "second";
   else
     pair.label_a = "first", pair.label_b = "second";
   return pair;

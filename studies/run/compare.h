@@ -20,7 +20,7 @@ struct ComparisonRow {
 
 // Two models of one scene, a the simpler one. What they are called says what differs:
 //   rigid, elastic   elasticity alone (engine/scene/effects.h says what that is)
-//   bare, full       all effects of the scene
+//   bare, full       all effects of the scene; bare, second: those that were asked for
 //   rigid, same      nothing: the scene has no effect
 //   first, second    whatever was asked for
 struct ModelPair {

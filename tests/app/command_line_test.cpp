@@ -399,7 +399,7 @@ TEST_F(CommandLine, FiguresWithoutAValueAreLeftOutOfAnIncompleteRun) {
         EXPECT_EQ(line.find(" nan"), std::string::npos) << line;
       }
     const auto summary = nlohmann::json::parse(text_of(folder_ / (std::string(verb) + ".incomplete/summary.json")));
-    const auto run = std::string(verb) == "run" ? summary : summary["models"]["elastic"];
+    const auto run = std::string(verb) == "run" ? summary : summary["models"]["full"];
     EXPECT_FALSE(run["complete"]);
     EXPECT_FALSE(run["figures"].empty());
     for (const auto& figure : run["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
