@@ -65,8 +65,6 @@ Periodicity periodicity_of(const Model& m) {
     if (joint.element->is.uses_angle) angles.push_back({two_pi / m.scale_ratio[at(joint.a)], joint.component});
   }
   result.angle_matters = !angles.empty();
-  // Of whole turns of the link where there are such, as everywhere else.
-  if (const CyclePeriod cycle = cycle_of(m); cycle.periodic) angles.push_back({cycle.angle, "the cycle"});
   result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
   if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];

@@ -1,4 +1,4 @@
-// cycle_of.cpp — the shortest multiple of a turn that is a period of every element.
+// cycle_of.cpp — the common period of every element that depends on an angle.
 #include "engine/model/cycle_of.h"
 
 #include <algorithm>
@@ -35,13 +35,15 @@ CommonPeriod common_period(const std::vector<double>& periods) {
   return none;
 }
 
-// The shortest multiple of a turn after which every element that depends on an angle is back.
+// After which every element that depends on an angle is back; a whole turn of the link where a part of it would do.
 CyclePeriod cycle_of(const Model& m) {
-  std::vector<double> period = {turn};
+  std::vector<double> period;
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
-  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true};
-  return {m.cycle > 0 ? m.cycle : turn, false};
+  if (period.empty()) return {turn, true};
+  const CommonPeriod common = common_period(period);
+  if (common.value == 0) return {m.cycle > 0 ? m.cycle : turn, false};
+  return {meets(turn, common.value) ? turn : common.value, true};
 }
 
 }  // namespace kurbel

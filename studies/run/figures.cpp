@@ -137,6 +137,17 @@ class Figures {
       return;
     }
   }
+  // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
+  bool comes_again(const CycleRecord& last) const {
+    constexpr double alike = 1e-3;  // of the mid speed
+    const auto& cycles = run_.cycles.cycles();
+    const auto here = std::find_if(cycles.begin(), cycles.end(), [&](const CycleRecord& c) { return &c == &last; });
+    if (here - cycles.begin() < 2) return false;
+    return std::all_of(here - 2, here, [&](const CycleRecord& c) {
+      return std::max(std::abs(c.omega_max - last.omega_max), std::abs(c.omega_min - last.omega_min)) <=
+             alike * std::abs(last.mid_speed());
+    });
+  }
   // Of the last complete cycle of steady motion, or the last one before run-down.
   void collect_cycles() {
     run_.periods = find_periods(model_, run_.cycles.cycles(), *run_.speed, run_.outcome, tolerance_);
@@ -144,8 +155,8 @@ class Figures {
     for (const CycleRecord& c : run_.cycles.cycles())
       if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
     if (!last) return;
-    add(run_.periods.steady ? QuantityKind::delta : QuantityKind::cycle_fluctuation, link(), last->fluctuation(), "", 1,
-        last->end);
+    const bool repeats = run_.periods.steady || comes_again(*last);
+    add(repeats ? QuantityKind::delta : QuantityKind::cycle_fluctuation, link(), last->fluctuation(), "", 1, last->end);
     add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);

@@ -192,7 +192,7 @@ TEST(Steady, PeakLoadThatStopsALightMachineIsAStallWithinTheCycle) {
       crank + press_load);
   const SteadyStudy study = steady(scene, {Effects{}}, {});
   EXPECT_FALSE(study.complete);
-  EXPECT_TRUE(has(study.diagnosis, "stall within the cycle")) << study.diagnosis;
+  EXPECT_TRUE(has(study.diagnosis, "stall: in the mean the drive would hold")) << study.diagnosis;
   EXPECT_TRUE(has(study.diagnosis, "comes to rest at")) << study.diagnosis;
 }
 
