@@ -125,6 +125,7 @@ class Settling {
     Equations equations(run_.model, true);
     const double cycle = run_.model->cycle > 0 ? run_.model->cycle : 2 * std::numbers::pi;
     const double base_time = time_base(*run_.model);
+    const bool neither_angle_nor_time = run_.model->cycle == 0 && base_time == 0;
     std::vector<Event> events;
     while (true) {
       Passings by_angle(Passings::Of::angle, cycle), by_time(Passings::Of::time, base_time > 0 ? base_time : 1),
@@ -147,7 +148,7 @@ class Settling {
         return;
       }
       if (found(by_angle.list(), Base::angle) || (base_time > 0 && found(by_time.list(), Base::time)) ||
-          found(as_passings(events), Base::event) ||
+          (neither_angle_nor_time && found(as_passings(events), Base::event)) ||
           (nothing_changes(now_and_then.list()) && found(now_and_then.list(), Base::none)))
         return;
       if (2 * run_.time > settings_.longest || processor_time() - begin > 0.5 * settings_.budget) {
@@ -165,12 +166,11 @@ class Settling {
     run_.base = base;
     run_.period = repeat.period;
     run_.to_come = repeat.to_come;
-    run_.words = fmt::format("repeats every {} {} after {:.9g} s", repeat.k,
-                             base == Base::angle  ? "cycles of the link"
-                             : base == Base::time ? "periods of time"
-                             : base == Base::none ? "looks"
-                                                  : "events",
-                             repeat.period);
+    run_.words = fmt::format("period {:.9g} s: {} × {}", repeat.period, repeat.k,
+                             base == Base::angle  ? "the link's cycle"
+                             : base == Base::time ? "that of a law over time"
+                             : base == Base::none ? "any time, nothing changes"
+                                                  : "the same event");
     return true;
   }
 

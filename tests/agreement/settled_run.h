@@ -5,7 +5,8 @@
 // looked at where something comes again, which is the first of these that does:
 //   angle   the link passes a multiple of its cycle's angle (2π where there is none)
 //   time    a law over time begins anew
-//   event   the same component does the same thing again (a table that sticks and slips)
+//   event   the same component does the same thing again (a table that sticks and slips), where no mechanism and no law
+//           over time gives a period
 //   none    nothing changes, but the link stands or turns slowly: an equilibrium, looked at every so often
 // Repeats: the time from the k-th place before to this one, and speeds and spring twists there, are the same, k ≤ 64.
 // Twists of what slips and the elements' own states are not asked: some of them drift.

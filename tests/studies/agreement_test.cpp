@@ -122,39 +122,62 @@ TEST(AgreementCell, RowReadsBackAsWritten) {
 
 // --- every verb against the run ---
 
-void expect_steady_speaks_of(const std::string& name, bool multipliers = false) {
-  const Row row =
-      compare_verbs(scene_named(name), {.steady = true, .multipliers = multipliers, .reduce = false, .size = false});
+void expect_agreement(const std::string& name, const Questions& questions) {
+  const Row row = compare_verbs(scene_named(name), questions);
   EXPECT_NE(row.kind, Motion::none) << name << ": " << row.regime;
+  EXPECT_FALSE(row.figures.empty()) << name;
   std::string wrong;
   for (const Compared& c : row.figures)
     if (c.verdict == Verdict::silent)
-      wrong += fmt::format("  {}: run {:.9g}, steady {:.9g}\n", c.figure, c.run, c.study);
+      wrong += fmt::format("  {}: {}: run {:.9g}, told {:.9g}\n", name_of(c.topic), c.figure, c.run, c.study);
     else if (c.verdict == Verdict::refused)
       wrong += fmt::format("  {}: {}\n", name_of(c.topic), c.words);
   EXPECT_TRUE(wrong.empty()) << name << "\n" << wrong;
 }
+constexpr Questions steady_alone{.steady = true, .multipliers = false, .reduce = false, .size = false};
+constexpr Questions steady_with_multipliers{.steady = true, .multipliers = true, .reduce = false, .size = false};
+constexpr Questions reduce_alone{.steady = false, .multipliers = false, .reduce = true, .size = false};
+constexpr Questions size_alone{.steady = false, .multipliers = false, .reduce = false, .size = true};
 
 TEST(Agreement, SteadySpeaksOfClutchesFilmsAndLimitersThatSlip) {
   for (const char* name : {"clutch_slips_always", "fluid_coupling_slips", "limiter_slips_always", "overrunning_pair",
                            "viscous_damper_crank"})
-    expect_steady_speaks_of(name);
+    expect_agreement(name, steady_alone);
 }
 TEST(Agreement, SteadySpeaksOfTheMachineThatItsSequenceLeaves) {
   for (const char* name : {"brake_released", "voltage_in_steps", "load_window", "starting_motor_off"})
-    expect_steady_speaks_of(name);
+    expect_agreement(name, steady_alone);
 }
 TEST(Agreement, SteadySpeaksOfLossesWhereNothingIsElastic) {
   for (const char* name : {"worm_losses_rigid", "gearbox_losses_crank", "regularised_bearing"})
-    expect_steady_speaks_of(name);
+    expect_agreement(name, steady_alone);
 }
 TEST(Agreement, SteadySpeaksOfMachinesWithStatesOfTheirOwn) {
   for (const char* name : {"governor_droop_load", "rubber_branches_crank", "dc_with_current", "two_axis_motor_fan",
                            "differential_unequal", "belt_elastic_crank"})
-    expect_steady_speaks_of(name);
+    expect_agreement(name, steady_alone);
 }
 TEST(Agreement, MultipliersAreTheDecayOfADisturbedRun) {
-  for (const char* name : {"load_over_angle", "sine_torque", "converter_start"}) expect_steady_speaks_of(name, true);
+  for (const char* name : {"load_over_angle", "sine_torque", "converter_start"})
+    expect_agreement(name, steady_with_multipliers);
+}
+
+TEST(Agreement, SteadySpeaksOfContactsThatComeAndGoWithinTheCycle) {
+  for (const char* name : {"limiter_slips_at_the_blow", "fluid_coupling_crank", "backlash_idle_crank"})
+    expect_agreement(name, steady_with_multipliers);
+}
+TEST(Agreement, SteadySpeaksOfGearsThatTieShafts) {
+  for (const char* name : {"housing_support", "planetary_ring_drags", "planetary_ring_held", "two_cranks_17_30"})
+    expect_agreement(name, steady_alone);
+}
+TEST(Agreement, ReducedInertiaHoldsTheKineticEnergyOfTheRun) {
+  for (const char* name : {"soft_start", "air_motor_crank", "load_over_angle", "clutch_slips_always"})
+    expect_agreement(name, reduce_alone);
+}
+TEST(Agreement, SizedMachineHasTheFluctuationThatIsTold) {
+  for (const char* name :
+       {"air_motor_crank", "gearbox_losses_crank", "limiter_slips_at_the_blow", "fluid_coupling_crank"})
+    expect_agreement(name, size_alone);
 }
 
 }  // namespace
