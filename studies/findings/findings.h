@@ -21,7 +21,7 @@
 namespace kurbel {
 
 // Of summary.json: one higher whenever a program that reads it has to change.
-inline constexpr int summary_version = 1;
+inline constexpr int summary_version = 2;
 
 struct CsvFile {
   std::string name;                   // "trajectory.csv"

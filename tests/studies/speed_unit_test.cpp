@@ -1,0 +1,68 @@
+// speed_unit_test.cpp — people are told speeds in the scene's unit, programs in rad/s; what is told is the same.
+#include "engine/scene/speed_unit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "studies/findings/figure_text.h"
+#include "studies/modes/modes_findings.h"
+#include "studies/modes/modes_plots.h"
+#include "studies/run/run_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+SpeedUnit radians() { return {"rad/s", 1}; }
+
+TEST(SpeedUnits, AFigureInATableIsInTheUnitOfItsScene) {
+  const FigureCells turns = figure_cells(2 * pi, 1.6e-6 * pi, "rad/s", {});
+  EXPECT_EQ(turns.value, "60.00000");
+  EXPECT_EQ(turns.error, "± 0.00005");
+  EXPECT_EQ(turns.unit, "rpm");
+  EXPECT_EQ(figure_cells(2.5, {}, "rad/s", radians()).unit, "rad/s");
+  EXPECT_EQ(figure_cells(2.5, {}, "N*m", {}).unit, "N·m");
+}
+
+// The ray of order r passes the speed Ω at the frequency r Ω/2π, whatever the axis counts in.
+TEST(SpeedUnits, RaysOfTheCampbellDiagramKeepTheirSlope) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  for (const SpeedUnit& unit : {SpeedUnit{}, radians()}) {
+    scene.speed_unit = unit;
+    const ModesStudy m = find_modes(scene, scene.effects, {.count = 2});
+    const Plot plot = modes::campbell_plot(m);
+    EXPECT_EQ(plot.x.unit, unit.name);
+    int rays = 0;
+    for (const Series& s : plot.series) {
+      if (!s.name.starts_with("orders")) continue;
+      for (std::size_t k = 1; k < s.x.size(); k += 3, ++rays) {
+        EXPECT_NEAR(s.x[k] * unit.size, m.fastest, 1e-12 * m.fastest);
+        const double harmonic = s.y[k] * 2 * pi / m.fastest / m.excitations.fundamental;
+        EXPECT_NEAR(harmonic, std::round(harmonic), 1e-9);
+      }
+    }
+    EXPECT_GT(rays, 0);
+  }
+}
+
+// Programs read the same numbers, and which unit people see.
+TEST(SpeedUnits, OnlyWordsAndTheNameOfTheUnitChange) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 0.2;
+  const auto told = [&](const SpeedUnit& unit) {
+    scene.speed_unit = unit;
+    return nlohmann::json::parse(output_of(test::run(scene, false)).json);
+  };
+  const nlohmann::json turns = told({}), radian = told(radians());
+  EXPECT_EQ(turns["speed_unit"], "rpm");
+  EXPECT_EQ(radian["speed_unit"], "rad/s");
+  EXPECT_EQ(turns["figures"], radian["figures"]);
+}
+
+}  // namespace
+}  // namespace kurbel
