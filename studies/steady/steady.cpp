@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -29,12 +28,12 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
       link);
   if (std::abs(net) <= 1e-9 * scale)
     return fmt::format(
-        "{}, here nothing. Steady motion is a family of cycles, one for every mean speed (multiplier exactly 1); say "
-        "which one: --mean-speed \"60 rpm\"",
+        "{}, here nothing. Steady motion is a family of cycles, one for every mid speed (multiplier exactly 1); say "
+        "which one: --mid-speed \"60 rpm\"",
         why);
   return fmt::format(
       "{}, here {} of {} ({} driving, {} resisting): it {} for ever, and there is no steady cycle. The drive torque "
-      "that a steady cycle of a given speed needs is found with --mean-speed \"60 rpm\"",
+      "that a steady cycle of a given speed needs is found with --mid-speed \"60 rpm\"",
       why, net > 0 ? "a gain" : "a loss", with_unit(std::abs(net) * cycle, "J", 4),
       with_unit(d.curve.back().drive, "N*m", 5), with_unit(d.curve.back().load, "N*m", 5),
       net > 0 ? "accelerates" : "slows down");
@@ -145,7 +144,7 @@ class Study {
           "stored "
           "in the flywheel overcomes the load's peak there. More inertia, or a drive with a steeper characteristic, is "
           "needed",
-          rpm(p.mean.omega), with_unit(p.mean.load, "N*m", 4), cycle.why);
+          scene_.speed_unit.text(p.mean.omega, 5), with_unit(p.mean.load, "N*m", 4), cycle.why);
     return cycle.why;
   }
 
@@ -168,7 +167,7 @@ class Study {
     for (const SteadyCycle& c : out_.cycles)
       if (c.found && c.model->elastic.empty()) rigid = &c;
     if (!rigid || !out_.diagram || options_.mean_speed) return;
-    const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
+    const double target = 0.95 * rigid->find("mid_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
     out_.start = start_from_rest(rigid_, target, limit, options_.watch.interrupted);
@@ -181,22 +180,21 @@ class Study {
       out_.conclusion = out_.diagnosis;
       return;
     }
+    const SpeedUnit& unit = scene_.speed_unit;
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
-      const Figure* mean = c.find("mean_speed." + out_.link);
+      const Figure* mid = c.find("mid_speed." + out_.link);
       const Figure* delta = c.find("delta." + out_.link);
-      text += fmt::format("{}{}: mean speed {}, δ = {}, {}", text.empty() ? "Steady cycle, " : "; ", c.label,
-                          with_error(mean->value * 30 / std::numbers::pi, scaled(mean->error), "rpm"),
-                          with_error(delta->value, delta->error, ""), c.stability);
+      text += fmt::format(
+          "{}{}: mid speed {}, δ = {}, {}", text.empty() ? "Steady cycle, " : "; ", c.label,
+          with_error(unit.of(mid->value), mid->error ? std::optional(unit.of(*mid->error)) : std::nullopt, unit.name),
+          with_error(delta->value, delta->error, ""), c.stability);
       if (options_.mean_speed)
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
     out_.conclusion = text + ".";
-  }
-  static std::optional<double> scaled(const std::optional<double>& error) {
-    return error ? std::optional(*error * 30 / std::numbers::pi) : std::nullopt;
   }
 
   Scene scene_;  // without its operating sequence

@@ -51,7 +51,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
                                                       with_unit(*m.rated, "N*m", 5))
                                         : ""));
   if (!c.added_at.empty())
-    words.push_back(fmt::format("the demanded mean speed needs {} N·m beside the scene's drive at \"{}\"{}",
+    words.push_back(fmt::format("the demanded mid speed needs {} N·m beside the scene's drive at \"{}\"{}",
                                 number(c.added_torque), c.added_at,
                                 std::abs(c.added_torque) < 1e-6 * c.model->torque_scale
                                     ? ": nothing, the machine has a cycle of this speed as it is"
@@ -365,11 +365,11 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
   const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
-    const Figure *delta = c.find("delta." + s.link), *max = c.find("max_speed." + s.link),
-                 *min = c.find("min_speed." + s.link);
+    const Figure *delta = c.find("delta." + s.link), *max = c.find("cycle_max_speed." + s.link),
+                 *min = c.find("cycle_min_speed." + s.link);
     if (!delta || !max || !min) continue;
     f.show(in, Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
-                       .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                       .symbols = "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
                        .numbers =
                            fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value), unit.of(min->value),
                                        pretty_unit(unit.name), unit.text(0.5 * (max->value + min->value)),
