@@ -85,7 +85,7 @@ std::vector<KindEntry> fluctuations() {
         .is = "time after which all angles, speeds and times of the machine repeat: one cycle or several of them",
         .is_not = "the cycle of the reduction link alone: cycle_time",
         .theory = "11.1",
-        .verbs = ""}},
+        .verbs = of_steady}},
   };
 }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
@@ -127,7 +126,7 @@ class Search {
     map_ = regime.map;
   }
 
-  // --- a mean speed is demanded: the drive's torque is one more unknown ---
+  // --- a mid speed is demanded: the drive's torque is one more unknown ---
 
   // The driving component that takes the added torque; without one, the link.
   void choose_drive() {
@@ -147,14 +146,14 @@ class Search {
     return compile_network(std::move(net), scene_, effects_);
   }
 
-  // Unknowns: z and the added torque; residuals: P(z) − z and the miss of the mean speed, whose derivatives come from
+  // Unknowns: z and the added torque; residuals: P(z) − z and the miss of the mid speed, whose derivatives come from
   // rounds beside, as it hangs on two peaks.
   void at_speed(double speed) {
     choose_drive();
     prepare(model_with(first_torque(speed)));
     if (map_->periodicity().by_time)
       throw std::invalid_argument(
-          "--mean-speed: time drives this machine (a prescribed speed or a torque over time), so its mean speed is not "
+          "--mid-speed: time drives this machine (a prescribed speed or a torque over time), so its mid speed is not "
           "free; drop the option");
     unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
     const ReturnMap::Image guess = begin_at(speed);
@@ -173,7 +172,8 @@ class Search {
     out_.why = image_.end != ReturnMap::End::returned
                    ? image_.why
                    : fmt::format("no added torque was found with which \"{}\" turns at {} in the mean: {}",
-                                 out_.model->node_label(out_.model->reduction_node), rpm(speed), newton.why);
+                                 out_.model->node_label(out_.model->reduction_node),
+                                 out_.model->scene.speed_unit.text(speed, 5), newton.why);
     if (image_.end == ReturnMap::End::returned) out_.end = ReturnMap::End::failed;
   }
 
@@ -334,8 +334,6 @@ class Search {
 };
 
 }  // namespace
-
-std::string rpm(double omega) { return with_unit(omega * 30 / std::numbers::pi, "rpm", 5); }
 
 SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyStudy& study,
                          const SteadyOptions& options) {

@@ -1,4 +1,4 @@
-// cycle_search.h — the steady cycle of one model: free, or at a demanded mean speed with a torque added to the drive.
+// cycle_search.h — the steady cycle of one model: free, or at a demanded mid speed with a torque added to the drive.
 #pragma once
 
 #include "studies/steady/steady.h"
@@ -8,8 +8,5 @@ namespace kurbel {
 // `study` holds what is known already: the operating diagram, where there is one.
 SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyStudy& study,
                          const SteadyOptions& options);
-
-// A speed as people read it: "1450 rpm".
-std::string rpm(double omega);
 
 }  // namespace kurbel

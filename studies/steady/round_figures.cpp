@@ -132,8 +132,10 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
     wanted.push_back(std::move(speed));
   }
   for (ExtremeOf& e : extremes_of(m))
-    if (e.name.what != QuantityKind::max_speed && e.name.what != QuantityKind::min_speed)
+    if (e.name.what != QuantityKind::max_speed && e.name.what != QuantityKind::min_speed) {
+      e.name = e.name.of_cycle();
       wanted.push_back(std::move(e));
+    }
   for (Drive& drive : drives_of(m))
     wanted.push_back({.name = Name::make(QuantityKind::peak_drive_torque, drive.component),
                       .unit = "N*m",
@@ -159,11 +161,12 @@ class RoundFigures {
                    .progress = {}};
     std::vector<double> y = map.place(equations_, point.z);
     run.stop = map.round_end(equations_, y);
-    begin_ = equations_.angle_with_turns(at(m_.reduction_angle), y);
+    turned_ = -link_angle(y);
     y.resize(drives_.size(), 0.0);
     run.from = {map.start_time(), y};
     run.extension = &drives_;
     outcome_ = integrate(equations_, run, {&extremes_});
+    if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 
   Round collect() {
@@ -179,19 +182,25 @@ class RoundFigures {
   void add(Name name, double value, const std::string& unit, double scale) {
     round_.figures.push_back(Figure::of_name(std::move(name), value, unit, scale));
   }
-  void add_speeds() {
+  double link_angle(std::span<const double> y) const { return equations_.angle_with_turns(at(m_.reduction_angle), y); }
+  // Of the link: its cycle, and the period after which all repeats.
+  void add_times(const std::string& link) {
     const double time = outcome_.t - map_.start_time();
-    add(Name::make(QuantityKind::cycle_time), time, "s", time);
+    add(Name::make(QuantityKind::period), time, "s", time);
+    if (m_.cycle > 0 && turned_ != 0)
+      add(Name::make(QuantityKind::cycle_time, link), time * m_.cycle / std::abs(turned_), "s", time);
+    add(Name::make(QuantityKind::mean_speed, link), turned_ / time, "rad/s", m_.speed_scale);
+  }
+  void add_speeds() {
     const std::vector<NamedShaft> shafts = shafts_of(m_);
     for (std::size_t i = 0; i < shafts.size(); ++i) {
       ShaftFluctuation f{shafts[i].name, m_.node_ratio[at(shafts[i].node)], extremes_.found()[2 * i].value,
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
-        const double turned = equations_.angle_with_turns(at(m_.reduction_angle), outcome_.state) - begin_;
-        add(Name::make(QuantityKind::mean_speed, f.shaft), turned / time, "rad/s", m_.speed_scale);
+        add_times(f.shaft);
         add(Name::make(QuantityKind::mid_speed, f.shaft), f.mid(), "rad/s", m_.speed_scale);
-        add(Name::make(QuantityKind::max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
-        add(Name::make(QuantityKind::min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::cycle_max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
+        add(Name::make(QuantityKind::cycle_min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
       }
       if (const auto delta = f.delta()) add(Name::make(QuantityKind::delta, f.shaft), *delta, "", 1);
       round_.shafts.push_back(std::move(f));
@@ -206,7 +215,7 @@ class RoundFigures {
       }
     const double time = outcome_.t - map_.start_time();
     for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
-      add(Name::make(QuantityKind::rms_torque, m_.torque_joints[i].component),
+      add(Name::make(QuantityKind::cycle_rms_torque, m_.torque_joints[i].component),
           std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
           m_.torque_joints[i].torque_scale);
   }
@@ -255,9 +264,9 @@ class RoundFigures {
   ExtremeRecorder extremes_;
   Equations equations_;
   DriveQuadratures drives_;
-  double begin_ = 0;  // angle of the link [rad]
   RunOutcome outcome_;
   Round round_;
+  double turned_ = 0;  // by the link [rad]
 };
 
 }  // namespace

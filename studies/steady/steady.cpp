@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -30,12 +29,12 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
       link);
   if (std::abs(net) <= 1e-9 * scale)
     return fmt::format(
-        "{}, here nothing. Steady motion is a family of cycles, one for every mean speed (multiplier exactly 1); say "
-        "which one: --mean-speed \"60 rpm\"",
+        "{}, here nothing. Steady motion is a family of cycles, one for every mid speed (multiplier exactly 1); say "
+        "which one: --mid-speed \"60 rpm\"",
         why);
   return fmt::format(
       "{}, here {} of {} ({} driving, {} resisting): it {} for ever, and there is no steady cycle. The drive torque "
-      "that a steady cycle of a given speed needs is found with --mean-speed \"60 rpm\"",
+      "that a steady cycle of a given speed needs is found with --mid-speed \"60 rpm\"",
       why, net > 0 ? "a gain" : "a loss", with_unit(std::abs(net) * cycle, "J", 4),
       with_unit(d.curve.back().drive, "N*m", 5), with_unit(d.curve.back().load, "N*m", 5),
       net > 0 ? "accelerates" : "slows down");
@@ -152,7 +151,7 @@ class Study {
       return fmt::format(
           "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
           "start, or a drive with a steeper characteristic is needed",
-          rpm(p.mean.omega), with_unit(p.mean.load, "N*m", 4), cycle.why);
+          scene_.speed_unit.text(p.mean.omega, 5), with_unit(p.mean.load, "N*m", 4), cycle.why);
     return cycle.why;
   }
   static bool is_interrupted(const SteadyCycle& cycle) {
@@ -191,13 +190,15 @@ class Study {
       out_.conclusion = out_.diagnosis;
       return;
     }
+    const SpeedUnit& unit = scene_.speed_unit;
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
       const Figure* mean = c.find("mean_speed." + out_.link);
       const Figure* delta = c.find("delta." + out_.link);
       const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, " : "Steady cycle, ";
       text += fmt::format("{}{}: mean speed {}{}, {}", text.empty() ? begin : "; ", c.label,
-                          with_error(mean->value * 30 / std::numbers::pi, scaled(mean->error), "rpm"),
+                          with_error(unit.of(mean->value),
+                                     mean->error ? std::optional(unit.of(*mean->error)) : std::nullopt, unit.name),
                           delta ? ", δ = " + with_error(delta->value, delta->error, "") : "", c.stability);
       if (options_.mid_speed)
         text +=
@@ -205,9 +206,6 @@ class Study {
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
     out_.conclusion = text + ".";
-  }
-  static std::optional<double> scaled(const std::optional<double>& error) {
-    return error ? std::optional(*error * 30 / std::numbers::pi) : std::nullopt;
   }
 
   const Scene& scene_;

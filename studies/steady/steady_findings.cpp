@@ -57,7 +57,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
                                                       with_unit(*m.rated, "N*m", 5))
                                         : ""));
   if (!c.added_at.empty())
-    words.push_back(fmt::format("the demanded mean speed needs {} N·m beside the scene's drive at \"{}\"{}",
+    words.push_back(fmt::format("the demanded mid speed needs {} N·m beside the scene's drive at \"{}\"{}",
                                 number(c.added_torque), c.added_at,
                                 std::abs(c.added_torque) < 1e-6 * c.model->torque_scale
                                     ? ": nothing, the machine has a cycle of this speed as it is"
@@ -365,9 +365,9 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
   const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
-    if (const Figure* mid = c.find("mid_speed." + s.link))
-      f.figures.push_back({"mid speed, " + c.label, unit.of(mid->value), unit.name,
-                           mid->error ? std::optional(unit.of(*mid->error)) : std::nullopt, "", 0, mid->name});
+    if (const Figure* mean = c.find("mean_speed." + s.link))
+      f.figures.push_back({"mean speed, " + c.label, unit.of(mean->value), unit.name,
+                           mean->error ? std::optional(unit.of(*mean->error)) : std::nullopt, "", 0, mean->name});
     if (const Figure* delta = c.find("delta." + s.link))
       f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
     if (!c.point.multipliers.empty())
@@ -385,11 +385,11 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
   const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
-    const Figure *delta = c.find("delta." + s.link), *max = c.find("max_speed." + s.link),
-                 *min = c.find("min_speed." + s.link);
+    const Figure *delta = c.find("delta." + s.link), *max = c.find("cycle_max_speed." + s.link),
+                 *min = c.find("cycle_min_speed." + s.link);
     if (!delta || !max || !min) continue;
     f.show(in, Formula{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
-                       .symbols = "δ = (ω_max − ω_min) / ω_m,   ω_m = (ω_max + ω_min)/2",
+                       .symbols = "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
                        .numbers =
                            fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value), unit.of(min->value),
                                        pretty_unit(unit.name), unit.text(0.5 * (max->value + min->value)),

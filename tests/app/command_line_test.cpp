@@ -508,7 +508,7 @@ TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {
   EXPECT_TRUE(fs::exists(folder_ / "results/crank_press/steady/operating_points.csv"));
   const Ended family = kurbel({"steady", scenes + "free_slider_crank.toml"});
   EXPECT_EQ(family.code, 2);
-  EXPECT_NE(family.err.find("--mean-speed"), std::string::npos) << family.err;
+  EXPECT_NE(family.err.find("--mid-speed"), std::string::npos) << family.err;
   const Ended member = kurbel({"steady", scenes + "free_slider_crank.toml", "--mean-speed", "100 rpm", "--no-files"});
   EXPECT_EQ(member.code, 0) << member.err;
   const Ended mistyped = kurbel({"steady", scenes + "crank_press.toml", "--mean-speed", "3 m"});

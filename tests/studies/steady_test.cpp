@@ -65,8 +65,8 @@ TEST(Steady, PressTurnsAsTheLastCycleOfALongRun) {
     options.measure_error = false;
     options.accuracy = 1e-10;
     const Result long_run = simulate(compile(scene, c.model->effects), "long", options);
-    for (const char* name : {"delta.press", "mean_speed.press", "cycle_time.press"}) {
-      const double found = value_of(c, std::string(name) == "cycle_time.press" ? "cycle_time" : name);
+    for (const char* name : {"delta.press", "mid_speed.press", "mean_speed.press", "cycle_time.press"}) {
+      const double found = value_of(c, name);
       EXPECT_NEAR(found, figure(long_run, name), 1e-8 * std::abs(found)) << c.label << " " << name;
     }
     EXPECT_NEAR(value_of(c, "driving_work_per_cycle"), figure(long_run, "driving_work_per_cycle"), 1e-5);
@@ -113,7 +113,7 @@ TEST(Steady, StabilityIsToldInCyclesOfHalving) {
 
 TEST(Steady, FamilyAsksForTheMeanSpeedAndSaysWhy) {
   const std::string why = thrown_by(scene_file("scenes/free_slider_crank.toml"));
-  EXPECT_TRUE(has(why, "--mean-speed")) << why;
+  EXPECT_TRUE(has(why, "--mid-speed")) << why;
   EXPECT_TRUE(has(why, "depends on the speed")) << why;
   EXPECT_TRUE(has(why, "multiplier exactly 1")) << why;
 }
@@ -124,7 +124,7 @@ TEST(Steady, MemberOfTheFreeCranksFamilyKeepsItsEnergy) {
       steady(scene_file("scenes/free_slider_crank.toml"), {Effects{}}, {.mid_speed = 25, .start_search = false});
   ASSERT_TRUE(study.complete) << study.diagnosis;
   const SteadyCycle& c = study.cycles[0];
-  const double max = value_of(c, "max_speed.crank"), min = value_of(c, "min_speed.crank");
+  const double max = value_of(c, "cycle_max_speed.crank"), min = value_of(c, "cycle_min_speed.crank");
   EXPECT_NEAR(max / min, std::sqrt(0.6028418696 / 0.5600826531), 1e-9);
   EXPECT_NEAR(0.5 * (max + min), 25, 1e-9);
   EXPECT_NEAR(c.added_torque, 0, 1e-9);
@@ -291,7 +291,7 @@ TEST(Starts, FanReaches95PercentAsPublished) {
           "kg*m2\" }\nfan = { kind = \"load\", quadratic = \"0.04 N*m*s2/rad2\" }\n"),
       {Effects{}}, {});
   ASSERT_TRUE(study.start && study.start->reached) << study.diagnosis;
-  EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.source"), 35.35533905932738, 1e-9);
+  EXPECT_NEAR(value_of(study.cycles[0], "mid_speed.source"), 35.35533905932738, 1e-9);
   EXPECT_NEAR(study.start->time, 2.5905292832732227, 1e-7);
 }
 

@@ -71,8 +71,10 @@ void expect_explained(const std::string& verb, const Findings& findings) {
   }
   for (const Statement& s : findings.statements) {
     const Rows* rows = std::get_if<Rows>(&s.what);
-    for (const std::string& name : rows ? rows->means : std::vector<std::string>{})
-      EXPECT_NE(definition_of(name), nullptr) << verb << ": " << name;
+    for (const std::string& name : rows ? rows->means : std::vector<std::string>{}) {
+      const Definition* d = definition_of(name);
+      EXPECT_TRUE(d && d->is_printed_by(verb)) << verb << ": " << name;
+    }
   }
 }
 

@@ -215,7 +215,8 @@ struct TwinMap {
   double factor(const std::string& name, const std::string& unit) const {
     const View v = of(component_in(name));
     std::string quantity = name.substr(0, name.find('.'));
-    for (const char* prefix : {"peak_", "rms_"})
+    const bool magnitude = quantity.starts_with("rms_") || quantity.starts_with("cycle_rms_");
+    for (const char* prefix : {"cycle_peak_", "cycle_rms_", "peak_", "rms_"})
       if (quantity.starts_with(prefix)) quantity = quantity.substr(std::string(prefix).size());
     // Across the stroke a mirrored slider-crank has everything on the other side.
     for (const char* across : {"crank_pin_shift_y", "crank_pin_shift_y_rate", "guide_reaction", "rod_deflection"})
@@ -226,7 +227,6 @@ struct TwinMap {
         const auto found = output_sign.find(component_in(name));
         return found == output_sign.end() ? 1 : found->second;
       }
-    const bool magnitude = name.starts_with("rms_");
     if (unit == "rad" || unit == "rad/s" || unit == "rad/s2") return (magnitude ? 1 : v.sign) * v.ratio;
     if (unit == "N*m") return (magnitude ? 1 : v.sign) / v.ratio;
     return 1;
@@ -304,10 +304,11 @@ inline void expect_same_figures(const std::vector<Figure>& first, const std::vec
                                 double allowed) {
   const auto counterpart = [&](std::string name) -> const Figure* {
     if (map.of(TwinMap::component_in(name)).sign < 0) {
-      if (name.starts_with("max_speed"))
-        name.replace(0, 3, "min");
-      else if (name.starts_with("min_speed"))
-        name.replace(0, 3, "max");
+      const std::size_t begin = name.starts_with("cycle_m") ? std::string("cycle_").size() : 0;
+      if (name.compare(begin, 9, "max_speed") == 0)
+        name.replace(begin, 3, "min");
+      else if (name.compare(begin, 9, "min_speed") == 0)
+        name.replace(begin, 3, "max");
     }
     const auto found = std::find_if(second.begin(), second.end(), [&](const Figure& f) { return f.name == name; });
     return found == second.end() ? nullptr : &*found;
@@ -322,7 +323,7 @@ inline void expect_same_figures(const std::vector<Figure>& first, const std::vec
     EXPECT_EQ(f.unit, other->unit) << f.name;
     const double factor = map.factor(f.name, f.unit);
     // Of two equal peaks of opposite sign either may be the larger one.
-    const bool peak = f.name.starts_with("peak_");
+    const bool peak = f.name.starts_with("peak_") || f.name.starts_with("cycle_peak_");
     const double a = peak ? std::abs(factor * f.value) : factor * f.value + map.offset(f.name),
                  b = peak ? std::abs(other->value) : other->value;
     const double scale = std::max({std::abs(b), 1e-3 * other->scale, 1e-9});
