@@ -38,7 +38,7 @@ struct Told {
 using Find = std::optional<Told> (*)(const SteadyCycle&, const Measured&);
 
 std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
-  const Figure* f = figure_of(cycle, m.name);
+  const Figure* f = figure_of(cycle, m.name.of_cycle());
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 // Two elements of one component may have accounts of one name: their sum. What works nothing is not listed.
@@ -48,13 +48,14 @@ std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) 
     if (f.name == m.name.text) sum.value += f.value, sum.error += f.error.value_or(0);
   return sum;
 }
-// (ω_max + ω_min)/2 by its own name, else of the two.
 std::optional<Told> mid_speed(const SteadyCycle& cycle, const Measured& m) {
-  if (const auto own = by_name(cycle, m)) return own;
-  const Figure *most = figure_of(cycle, Name::make(QuantityKind::max_speed, m.name.of)),
-               *least = figure_of(cycle, Name::make(QuantityKind::min_speed, m.name.of));
-  if (!most || !least) return {};
-  return Told{0.5 * (most->value + least->value), 0.5 * (most->error.value_or(0) + least->error.value_or(0))};
+  const Figure* f = figure_of(cycle, Name::make(QuantityKind::mid_speed, m.name.of));
+  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+}
+// All that repeats, whatever the link's own cycle is.
+std::optional<Told> period(const SteadyCycle& cycle, const Measured&) {
+  const Figure* f = figure_of(cycle, Name::make(QuantityKind::period));
+  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 
 struct Counterpart {
@@ -67,7 +68,7 @@ constexpr Counterpart counterparts[] = {
     {QuantityKind::mean_speed, Topic::mean_speed, by_name},
     {QuantityKind::other, Topic::mid_speed, mid_speed},  // the only one of the run without a kind
     {QuantityKind::delta, Topic::delta, by_name},
-    {QuantityKind::cycle_time, Topic::period, by_name, true},
+    {QuantityKind::cycle_time, Topic::period, period, true},
     {QuantityKind::peak_torque, Topic::peaks, by_name},
     {QuantityKind::rms_torque, Topic::rms, by_name},
     {QuantityKind::driving_work_per_cycle, Topic::works, by_name, true},
