@@ -14,9 +14,6 @@
 namespace kurbel {
 namespace {
 
-// The reduced inertia comes from tables good to 1e-12; their seams must not be taken for corners.
-constexpr double sampling_tolerance = 1e-11;
-
 struct MeanTorque {
   double drive = 0, load = 0;
   double net() const { return drive - load; }
@@ -222,7 +219,7 @@ std::vector<double> cycle_edges(RigidMachine& machine) {
   return edges;
 }
 
-MachineCycle machine_cycle(RigidMachine& machine, double speed) {
+MachineCycle machine_cycle(RigidMachine& machine, double speed, double sampling) {
   if (!machine.periodic())
     throw std::invalid_argument(
         "the machine has no cycle: its parts do not come back together within 24 turns of the reduction link");
@@ -240,8 +237,7 @@ MachineCycle machine_cycle(RigidMachine& machine, double speed) {
     out[n] = drive, out[n + 1] = -load, out[n + 2] = inertia.value, out[n + 3] = inertia.slope;
   };
   auto all = Piecewise::sample(
-      cycle_edges(machine), n + 4, sampler, [&](double middle) { machine.set_modes(middle, speed); },
-      sampling_tolerance);
+      cycle_edges(machine), n + 4, sampler, [&](double middle) { machine.set_modes(middle, speed); }, sampling);
   MachineCycle c{speed, all[n], all[n + 1], {}, {all[n + 2], all[n + 3]}};
   all.resize(n);
   c.share = std::move(all);

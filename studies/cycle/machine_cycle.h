@@ -20,8 +20,11 @@ struct MachineCycle {
   MechanismInertia mechanism;    // I_em [kg·m²]
 };
 
+// Each function to this part of its largest value; the reduced inertia comes from tables good to 1e-12, whose seams must
+// not be taken for corners.
+inline constexpr double cycle_sampling = 1e-11;
 // Throws std::invalid_argument where the machine has no cycle (nothing repeats).
-MachineCycle machine_cycle(RigidMachine& machine, double speed);
+MachineCycle machine_cycle(RigidMachine& machine, double speed, double sampling = cycle_sampling);
 
 // Load edges of the cycle with its begin and end.
 std::vector<double> cycle_edges(RigidMachine& machine);

@@ -75,10 +75,19 @@ std::vector<Definition> of_size() {
        .formula = "δ(I₀) = δ",
        .theory = "11.5",
        .verbs = verb},
+      {.name = "flywheel_that_meets",
+       .words = "inertia of the flywheel whose regime has the demanded δ",
+       .unit = "kg*m2",
+       .is = "inertia on the flywheel's own shaft with which the machine's steady cycle, with the scene's effects, has "
+             "the δ that is demanded; sought where the flywheel of the work equation misses it",
+       .formula = "δ(I₀) = δ",
+       .theory = "3.6",
+       .verbs = verb},
       {.name = "delta_reached",
        .words = "δ reached",
-       .is = "δ of the machine with the sized flywheel: of its work equation, simulated rigid or elastic, at the crank "
-             "or at the motor",
+       .is =
+           "δ of the machine with the sized flywheel: of its work equation, or of its regime, rigid or elastic, at the "
+           "crank or at the motor",
        .formula = "δ = (ω_max − ω_min)/ω_mid",
        .is_not = "the δ demanded",
        .theory = "2.6",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -11,78 +12,16 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/scene/units.h"
+#include "studies/cycle/classical.h"
+#include "studies/reduce/along_cycle.h"
+#include "studies/reduce/targets.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-// x′ and x″ of a slider, or of a rocker's angle, by the link's angle, from the model's own channels at ω = 1.
-class SliderRatio {
- public:
-  struct At {
-    double first = 0, second = 0;  // x′ [m/rad], x″ [m/rad²]
-  };
-  SliderRatio(std::shared_ptr<const Model> model, const std::string& mechanism)
-      : model_(std::move(model)), equations_(model_, false) {
-    for (const Channel& channel : model_->pool_channels) {
-      if (channel.name.of != mechanism) continue;
-      if (channel.name.what == QuantityKind::velocity) {
-        velocity_ = channel.value;
-        rocks_ = channel.unit == "rad/s";
-      }
-      if (channel.name.what == QuantityKind::acceleration) acceleration_ = channel.value;
-    }
-  }
-  bool found() const { return velocity_ && acceleration_; }
-  bool rocks() const { return rocks_; }
-  // v = x′ ω,  a = x″ ω² + x′ ε
-  At operator()(double phi) {
-    const std::vector<double> y = equations_.modes_from_scratch(0, phi, 1.0);
-    const Snapshot& s = equations_.snapshot(0, y);
-    const auto node = at(model_->reduction_node);
-    const double alpha = s.alpha[model_->shaft_of_node[node]] * model_->gain_of_node[node];
-    const double first = velocity_(s);
-    return {first, acceleration_(s) - first * alpha};
-  }
-
- private:
-  std::shared_ptr<const Model> model_;
-  Equations equations_;
-  std::function<double(const Snapshot&)> velocity_, acceleration_;
-  bool rocks_ = false;
-};
-
-std::vector<std::string> sliders_of(const Model& model) {
-  std::vector<std::string> names;
-  for (const Channel& channel : model.pool_channels)
-    if (channel.name.what == QuantityKind::velocity)
-      names.push_back(channel.name.of + (channel.unit == "rad/s" ? ".rocker" : ".slider"));
-  return names;
-}
-
-std::vector<std::string> shafts_of(const Model& model) {
-  std::vector<std::string> names;
-  for (const std::string& component : model.network.components) {
-    const Network::Ports& ports = model.network.ports.at(component);
-    if (ports.in == ports.out) {
-      names.push_back(component);
-    } else {
-      names.push_back(component + ".in");
-      names.push_back(component + ".out");
-    }
-  }
-  return names;
-}
-
-[[noreturn]] void refuse_target(const Model& model, const std::string& to) {
-  std::vector<std::string> names = shafts_of(model);
-  for (const std::string& slider : sliders_of(model)) names.push_back(slider);
-  const auto near = nearest(to, names);
-  throw std::invalid_argument(fmt::format("--to {}: no such shaft{}; allowed: {}", in_quotes(to),
-                                          near ? fmt::format(" — did you mean {}?", in_quotes(*near)) : "",
-                                          listed(names)));
-}
+constexpr double looser_sampling = 1e-9;
 
 // Where torques depend on speed: the speed given, the operating speed, the scene's start, or the rated speed.
 void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r) {
@@ -107,7 +46,8 @@ void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineRe
 
 class Reducer {
  public:
-  Reducer(const Scene& scene, const ReduceOptions& options) : machine_(scene), options_(options) {
+  Reducer(const Scene& scene, const ReduceOptions& options)
+      : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
     if (options.positions < 1 || options.positions > 100000)
       throw std::invalid_argument(fmt::format("--positions {}: must be 1 … 100000", options.positions));
     if (options.orders < 0 || options.orders > 1000)
@@ -120,14 +60,19 @@ class Reducer {
   }
 
   MachineReduction run() {
+    choose_basis();
     const Model& m = model();
     r_.link = m.node_label(m.reduction_node);
-    r_.cycle = machine_.cycle();
     choose_target();
-    choose_speed(machine_, options_, r_);
+    if (machine_) {
+      r_.cycle = machine_->cycle();
+      choose_speed(*machine_, options_, r_);
+    } else {
+      find_cycle();
+    }
     for (const WorkAccount& account : m.accounts)
       r_.accounts.push_back(fmt::format("{} ({})", account.name, name_of(account.kind)));
-    r_.constant_inertia = machine_.constant_inertia() / square(r_.to_ratio);
+    r_.constant_inertia = on_link() / square(r_.to_ratio);
     for (int k = 0; k < options_.positions; ++k) r_.positions.push_back(position(k, r_.cycle * k / options_.positions));
     add_curve();
     add_spectra();
@@ -137,8 +82,70 @@ class Reducer {
   }
 
  private:
-  const Model& model() const { return machine_.model(); }
+  const Model& model() const { return machine_ ? machine_->model() : *model_; }
   static double square(double x) { return x * x; }
+  double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
+
+  void choose_basis() {
+    beyond_ = beyond_the_rigid_machine(scene_, options_.at);
+    const bool steady = !beyond_.empty() && !options_.speed;  // at a speed that is given, no cycle is asked for
+    r_.basis = options_.basis.value_or(steady ? ReduceBasis::regime : ReduceBasis::classical);
+    if (r_.basis == ReduceBasis::classical)
+      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+    else
+      model_ = compile_at(scene_, scene_.effects, options_.at);
+  }
+  Regime regime_of(std::shared_ptr<const Model> model, int most_rounds) const {
+    const RegimeOptions options{.method = scene_.run.method == "work" ? "auto" : scene_.run.method,
+                                .budget = scene_.run.budget,
+                                .most_rounds = most_rounds};
+    Regime regime = find_regime(std::move(model), options);
+    Deadline::check();
+    return regime;
+  }
+  void find_cycle() {
+    if (options_.speed)
+      throw std::invalid_argument(
+          fmt::format("--speed: the torques hang on more than angle and speed ({}), so they are those along the steady "
+                      "cycle, which "
+                      "has its own speed; leave the option out, or take --basis classical",
+                      all_of(beyond_)));
+    const Regime regime = regime_of(model_, RegimeOptions{}.most_rounds);
+    if (!regime.repeats()) return without_a_cycle(regime.words);
+    const bool other = target_node_ != model().reduction_node;
+    const std::vector<int> nodes = other ? std::vector<int>{target_node_} : std::vector<int>{};
+    try {
+      along_.emplace(regime_cycle(regime, nodes), other ? target_node_ : -1);
+    } catch (const std::invalid_argument& error) {  // the link turns back
+      return without_a_cycle(error.what());
+    }
+    looser_ = looser_regime_cycle(regime, nodes);
+    r_.cycle = along_->cycle().way();
+    r_.to_ratio = along_->mean_ratio();
+    r_.speed = along_->cycle().mid_speed();
+    r_.speed_source = "along the steady cycle that the scene's own start leads to: its mid speed";
+  }
+  // The rigid machine still tells inertia, and torques at some speed.
+  void without_a_cycle(const std::string& why) {
+    const std::string text = fmt::format("there is no steady cycle to look at: {}", why);
+    if (options_.basis) throw std::invalid_argument(text);
+    try {
+      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+    } catch (const std::invalid_argument&) {
+      throw std::invalid_argument(
+          fmt::format("the torques hang on more than angle and speed ({}), and {}", all_of(beyond_), text));
+    }
+    r_.basis = ReduceBasis::classical;
+    has_cycle_ = false;
+    r_.notes.push_back(text);
+    r_.cycle = machine_->cycle();
+    choose_speed(*machine_, options_, r_);
+  }
+  static std::string all_of(const std::vector<std::string>& list) {
+    std::string text;
+    for (const std::string& one : list) text += (text.empty() ? "" : ", ") + one;
+    return text;
+  }
 
   void choose_target() {
     target_node_ = model().reduction_node;
@@ -146,7 +153,8 @@ class Reducer {
     if (options_.to.empty()) return;
     const std::string& to = options_.to;
     if (to.ends_with(".slider") || to.ends_with(".rocker")) {
-      slider_ = std::make_unique<SliderRatio>(compile(model().scene, rigid_effects()), to.substr(0, to.size() - 7));
+      slider_ = std::make_unique<SliderRatio>(compile_at(scene_, classical_effects(scene_), options_.at),
+                                              to.substr(0, to.size() - 7));
       if (!slider_->found() || slider_->rocks() != to.ends_with(".rocker")) refuse_target(model(), to);
       r_.to = to;
       r_.to_output = true;
@@ -160,14 +168,23 @@ class Reducer {
 
   // On the link first; then all inertias over the square of the ratio, all torques over the ratio.
   ReducedPosition position(int number, double phi) {
-    machine_.set_modes(phi, r_.speed);
-    const RigidMachine::At on_link = machine_.at(phi, r_.speed, true);
+    if (machine_) machine_->set_modes(phi, r_.speed);
+    const RigidMachine::At on_link = machine_ ? machine_->at(phi, r_.speed, true) : along_->at(phi);
+    const double mechanism = machine_ ? machine_->mechanism_inertia(phi).value : along_->mechanism_inertia(phi);
     ReducedPosition p;
     p.number = number;
     p.phi = phi;
     double ratio = r_.to_ratio, second = 0;
+    if (along_) {
+      const RatioAt turning = along_->ratio(phi);
+      ratio = turning.first, second = turning.second;
+      if (std::abs(ratio) < 1e-9) {
+        p.singular = "it stands still, so what is reduced to it is infinite";
+        return p;
+      }
+    }
     if (slider_) {
-      const SliderRatio::At x = (*slider_)(phi);
+      const RatioAt x = (*slider_)(phi);
       ratio = x.first, second = x.second;
       p.ratio = ratio;
       if (std::abs(ratio) < 1e-9 * largest_ratio()) {
@@ -177,8 +194,8 @@ class Reducer {
     }
     const double squared = square(ratio);
     p.inertia = on_link.inertia / squared;
-    p.mechanism_inertia = machine_.mechanism_inertia(phi).value / squared;
-    p.drive_inertia = machine_.constant_inertia() / squared;
+    p.mechanism_inertia = mechanism / squared;
+    p.drive_inertia = machine_ ? machine_->constant_inertia() / squared : p.inertia - p.mechanism_inertia;
     // By the angle (way) of what all is reduced to: d(I/x′²)/dx = (I′ − 2 I x″/x′)/x′³.
     p.slope = (on_link.slope - 2 * on_link.inertia * second / ratio) / (squared * ratio);
     for (std::size_t k = 0; k < on_link.share.size(); ++k) {
@@ -202,37 +219,84 @@ class Reducer {
     constexpr int points = 720;
     std::vector<double> phis;
     for (int k = 0; k <= points; ++k) phis.push_back(r_.cycle * k / points);
-    if (machine_.periodic())
-      for (const double edge : cycle_edges(machine_)) {
-        phis.push_back(edge - 1e-7);
-        phis.push_back(edge + 1e-7);
-      }
+    for (const double edge : edges()) {
+      phis.push_back(edge - 1e-7);
+      phis.push_back(edge + 1e-7);
+    }
     std::sort(phis.begin(), phis.end());
     for (const double phi : phis) {
       if (phi < 0 || phi > r_.cycle) continue;
       ReducedPosition p = position(0, phi);
       // Near a dead centre the reduced mass leaves the plot.
       if (slider_ && std::abs(*p.ratio) < 0.15 * largest_ratio()) continue;
-      r_.curve.push_back(std::move(p));
+      if (p.singular.empty()) r_.curve.push_back(std::move(p));
     }
   }
+  std::vector<double> edges() {
+    if (machine_) return machine_->periodic() ? cycle_edges(*machine_) : std::vector<double>{};
+    std::vector<double> list = along_->cycle().speed.breaks();
+    if (along_->cycle().sense < 0)
+      for (double& s : list) s = r_.cycle - s;
+    return list;
+  }
 
+  // I_r, M_d and M_c over the cycle.
+  using Functions = std::array<Piecewise, 3>;
+  Functions functions_of(const RegimeCycle& c) const { return {c.inertia, c.cycle.drive, c.cycle.load}; }
+  Functions functions_at(double sampling) {
+    const MachineCycle c = machine_cycle(*machine_, r_.speed, sampling);
+    return {c.mechanism.value + c.mechanism.value.constant(machine_->constant_inertia()), c.drive, c.load};
+  }
+
+  // And with looser tolerances, which tells the errors.
   void add_spectra() {
-    if (!machine_.periodic()) return;
-    const MachineCycle c = machine_cycle(machine_, r_.speed);
-    const Piecewise inertia = c.mechanism.value + c.mechanism.value.constant(machine_.constant_inertia());
+    if (machine_ && !machine_->periodic()) return;
+    const Functions fine = machine_ ? functions_at(cycle_sampling) : functions_of(along_->cycle());
+    std::optional<Functions> loose;
+    if (machine_)
+      loose = functions_at(looser_sampling);
+    else if (looser_)
+      loose = functions_of(*looser_);
+    constexpr std::pair<const char*, const char*> named[] = {
+        {"reduced inertia I_r", "kg*m2"}, {"driving torque M_d", "N*m"}, {"resisting torque M_c", "N*m"}};
     const int orders = static_cast<int>(std::lround(options_.orders * r_.cycle / turn));
-    r_.spectra.push_back(spectrum("reduced inertia I_r", "kg*m2", inertia, orders));
-    r_.spectra.push_back(spectrum("driving torque M_d", "N*m", c.drive, orders));
-    r_.spectra.push_back(spectrum("resisting torque M_c", "N*m", c.load, orders));
-    r_.mean_drive = c.drive.mean();
-    r_.mean_load = c.load.mean();
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
+      if (loose) add_errors(s, spectrum(named[i].first, named[i].second, (*loose)[i], orders));
+      if (along_ && along_->cycle().sense < 0)
+        for (Harmonic& h : s.harmonics) h.phase = -h.phase;
+      r_.spectra.push_back(std::move(s));
+    }
+    r_.mean_drive = fine[1].mean();
+    r_.mean_load = fine[2].mean();
+    if (!loose) return;
+    r_.inertia_error = largest_difference(fine[0], (*loose)[0]);
+    r_.drive_error = largest_difference(fine[1], (*loose)[1]);
+    r_.load_error = largest_difference(fine[2], (*loose)[2]);
+    r_.mean_drive_error = std::abs((*loose)[1].mean() - r_.mean_drive) + rounding * fine[1].largest();
+    r_.mean_load_error = std::abs((*loose)[2].mean() - r_.mean_load) + rounding * fine[2].largest();
+  }
+  static void add_errors(Spectrum& s, const Spectrum& looser) {
+    for (std::size_t n = 0; n < s.harmonics.size() && n < looser.harmonics.size(); ++n)
+      s.harmonics[n].error =
+          std::abs(s.harmonics[n].amplitude - looser.harmonics[n].amplitude) + rounding * std::sqrt(s.mean_square);
+  }
+  // Within pieces: at an edge either may be a hair late.
+  static double largest_difference(const Piecewise& f, const Piecewise& looser) {
+    double most = rounding * f.largest();
+    for (std::size_t i = 0; i < f.pieces(); ++i) {
+      const double x = 0.5 * (f.breaks()[i] + f.breaks()[i + 1]) * looser.end() / f.end();
+      most = std::max(most, std::abs(f.value_in(i, 0.5 * (f.breaks()[i] + f.breaks()[i + 1])) - looser.value(x)));
+    }
+    return most;
   }
 
   void add_notes() {
-    if (machine_.uses_time()) r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
-    if (!machine_.periodic())
+    if (machine_ && machine_->uses_time())
+      r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
+    if (machine_ && !machine_->periodic())
       r_.notes.push_back("the machine has no cycle, its parts never come back together; there are no harmonics");
+    add_note_on_basis();
     add_note_on_peaks();
     if (slider_)
       r_.notes.push_back(
@@ -250,6 +314,43 @@ class Reducer {
     }
   }
 
+  // Along a cycle, what moves is in it; at constant speed, how far that is from the steady cycle.
+  void add_note_on_basis() {
+    if (along_) {
+      r_.notes.push_back(fmt::format(
+          "torques and reduced inertia are those along the steady cycle with the scene's effects, for {} {} not of one "
+          "angle and its speed; I_r = 2T/ω², I_drive = I_r − I_em",
+          all_of(beyond_), beyond_.size() == 1 ? "is" : "are"));
+      return;
+    }
+    if (!beyond_.empty())
+      r_.notes.push_back(
+          fmt::format("classical: {} left out", all_of(beyond_) + (beyond_.size() == 1 ? " is" : " are")));
+    if (!machine_->uses_speed() || !machine_->periodic() || !has_cycle_ || options_.speed) return;
+    constexpr int enough_rounds = 40;
+    try {
+      const Regime regime = regime_of(compile_at(scene_, scene_.effects, options_.at), enough_rounds);
+      if (!regime.repeats()) return;
+      const RegimeCycle c = regime_cycle(regime);
+      double off = 0;
+      for (int k = 0; k < 64; ++k) {
+        const double s = c.way() * (k + 0.5) / 64;
+        const double rigid = machine_->constant_inertia() + machine_->mechanism_inertia(c.sense * s).value;
+        off = std::max(off, std::abs(c.inertia.value(s) / rigid - 1));
+      }
+      r_.notes.push_back(fmt::format(
+          "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid "
+          "speed {:.6g} rpm) the mean driving torque is {:.6g} N·m instead of {:.6g} N·m, the mean resisting "
+          "torque {:.6g} N·m instead of {:.6g} N·m, and 2T/ω² {}",
+          and_effects(), r_.speed_unit.text(c.mid_speed()), c.cycle.drive.mean(), r_.mean_drive, c.cycle.load.mean(),
+          r_.mean_load, off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
+    } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
+    }
+  }
+  std::string and_effects() const {
+    return scene_.effects.describe() == "none" ? "" : fmt::format(", and {}", scene_.effects.describe());
+  }
+
   // Twelve positions may miss a blow that lasts ten degrees.
   void add_note_on_peaks() {
     double seen = 0;
@@ -263,28 +364,23 @@ class Reducer {
                     with_unit(peak->load, r_.to_output && !r_.to_rocker ? "N" : "N*m"), peak->phi * 360 / turn));
   }
 
-  RigidMachine machine_;
+  static constexpr double rounding = 1e-12;
+
+  const Scene scene_;
   const ReduceOptions& options_;
+  std::optional<RigidMachine> machine_;  // of the classical basis
+  std::shared_ptr<const Model> model_;   // of the regime's
+  std::optional<AlongCycle> along_;
+  std::optional<RegimeCycle> looser_;
+  std::vector<std::string> beyond_;  // what the rigid machine cannot carry
   MachineReduction r_;
   int target_node_ = 0;
+  bool has_cycle_ = true;  // as far as it is known
   std::unique_ptr<SliderRatio> slider_;
   double largest_ratio_ = 0;
 };
 
 }  // namespace
-
-int node_named(const Model& model, const std::string& name) {
-  const std::size_t dot = name.rfind('.');
-  const std::string end = dot == std::string::npos ? "" : name.substr(dot + 1);
-  const bool port = end == "in" || end == "out";
-  const auto found = model.network.ports.find(port ? name.substr(0, dot) : name);
-  if (found == model.network.ports.end()) refuse_target(model, name);
-  const Network::Ports& ports = found->second;
-  if (!port && ports.in != ports.out)
-    throw std::invalid_argument(fmt::format("--to {}: it has two shafts; write {} or {}", in_quotes(name),
-                                            in_quotes(name + ".in"), in_quotes(name + ".out")));
-  return end == "in" ? ports.in : ports.out;
-}
 
 Spectrum spectrum(const std::string& name, const std::string& unit, const Piecewise& f, int orders) {
   Spectrum s{name, unit, {}, 0, 1};
@@ -315,59 +411,6 @@ Spectrum spectrum(const std::string& name, const std::string& unit, const Piecew
   }
   s.captured = s.mean_square > 0 ? sum / s.mean_square : 1;
   return s;
-}
-
-double Chain::total() const {
-  double sum = 0;
-  for (const ChainInertia& i : inertias) sum += i.reduced;
-  return sum;
-}
-
-Chain elastic_chain(const Model& model, int node) {
-  const Network& net = model.network;
-  const double target = model.node_ratio[at(node)];
-  // Nodes that no elastic element parts are one inertia; it is counted on its first node.
-  std::vector<int> group(net.nodes.size(), -1);
-  Chain chain;
-  for (std::size_t first = 0; first < net.nodes.size(); ++first) {
-    if (group[first] >= 0) continue;
-    const int number = static_cast<int>(chain.inertias.size());
-    chain.inertias.push_back({"", 0, model.node_ratio[first] / target, 0, false});
-    group[first] = number;
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const Network::Joint& joint : net.joints) {
-        if (joint.element) continue;
-        if ((group[at(joint.a)] == number) == (group[at(joint.b)] == number)) continue;
-        group[at(joint.a)] = group[at(joint.b)] = number;
-        grown = true;
-      }
-    }
-  }
-  const auto add = [&](std::size_t n, double inertia, const std::string& label) {
-    ChainInertia& i = chain.inertias[at(group[n])];
-    const double ratio = model.node_ratio[n] / target;
-    i.reduced += inertia * ratio * ratio;
-    if (i.ratio == 0) i.own += inertia;  // stands in the usual motion, such as a housing
-    if (inertia > 0 && i.name.find(label) == std::string::npos) i.name += (i.name.empty() ? "" : ", ") + label;
-  };
-  for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    add(n, net.nodes[n].inertia, model.node_label(static_cast<int>(n)));
-  for (const Network::ShaftElement& e : net.elements)
-    if (e.element->cycle > 0) {
-      add(at(e.node), e.element->mean_inertia, e.component);
-      chain.inertias[at(group[at(e.node)])].mechanism = true;
-    }
-  for (ChainInertia& i : chain.inertias)
-    if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);
-  for (const Network::Joint& joint : net.joints) {
-    if (!joint.element) continue;
-    const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness,
-                 c = joint.element->damping;
-    chain.springs.push_back({joint.component, at(group[at(joint.a)]), at(group[at(joint.b)]), k, c, ratio,
-                             k * ratio * ratio, c * ratio * ratio});
-  }
-  return chain;
 }
 
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options) {

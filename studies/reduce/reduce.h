@@ -6,19 +6,29 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/moment.h"
 #include "studies/cycle/machine_cycle.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
+
+// What the torques and the inertia are those of.
+enum class ReduceBasis {
+  classical,  // the rigid machine at one position after the other, at constant speed
+  regime      // the steady cycle that the machine has with the scene's effects
+};
 
 struct ReduceOptions {
   int positions = 12;           // of the cycle, ≥ 1
   std::string to;               // "gearbox.in", "flywheel", "press.slider", "screen.rocker"; empty: the reduction link
   std::optional<double> speed;  // of the reduction link, for torques that depend on it [rad/s]
   int orders = 12;              // of the harmonics, per turn of the reduction link
+  Moment at = {};               // the machine as it is then; default: when all is switched
+  std::optional<ReduceBasis> basis = {};  // default: classical, where the rigid machine carries all but elasticity
 };
 
-// The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N.
+// The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N. Along a steady
+// cycle I_r is twice the kinetic energy over the speed's square, and I_drive what the mechanisms leave of it.
 struct ReducedPosition {
   int number = 0;
   double phi = 0;                                                           // of the reduction link [rad]
@@ -32,6 +42,7 @@ struct ReducedPosition {
 // a_n cos(n φ − ψ_n) of one quantity; order 1 is once per turn of the reduction link.
 struct Harmonic {
   double order = 0, amplitude = 0, phase = 0;  // phase of the maximum after φ = 0 [rad of n φ]; order 0: the mean
+  std::optional<double> error = {};            // of the amplitude
 };
 struct Spectrum {
   std::string name, unit;
@@ -72,6 +83,7 @@ struct MachineReduction {
   double speed = 0;     // of the link, where torques depend on it [rad/s]
   std::string speed_source;
   SpeedUnit speed_unit;
+  ReduceBasis basis = ReduceBasis::classical;
   double cycle = 0;                   // of the link [rad]
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"
@@ -80,10 +92,13 @@ struct MachineReduction {
   std::vector<Spectrum> spectra;         // on the link: I_r, M_d − M_c
   Chain chain;                           // on the chosen shaft, or on the link
   double mean_drive = 0, mean_load = 0;  // on the link [N·m]
+  // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]; of their means. Nothing comes round: none.
+  std::optional<double> inertia_error, drive_error, load_error, mean_drive_error, mean_load_error;
   std::vector<std::string> notes;
 };
 
-// Throws SceneError where the scene makes no machine, std::invalid_argument in words for options that make no sense.
+// Throws SceneError where the scene makes no machine, std::invalid_argument in words for options that make no sense, and
+// where neither the rigid machine nor a steady cycle tells the torques.
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options);
 
 // The drive's chain on a node of a compiled model.

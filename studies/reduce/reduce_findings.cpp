@@ -26,6 +26,9 @@ std::string conclusion_of(const MachineReduction& r) {
   if (r.to_output)
     return fmt::format("{}: reduced to {} the machine has {:.5g} {} or more, infinite in the dead centres", r.title,
                        r.to, least ? least->inertia : 0.0, pretty_unit(names_of(r).inertia_unit));
+  if (r.basis == ReduceBasis::regime)
+    return fmt::format("{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.title, r.to,
+                       least ? least->inertia : 0.0, most ? most->inertia : 0.0);
   return fmt::format(
       "{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.title,
       r.to, least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
@@ -107,7 +110,11 @@ Rows harmonics_table(const MachineReduction& r) {
   for (const Spectrum& s : r.spectra) {
     const auto amplitude = [&s](std::size_t n) { return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude; };
     table.only_for_people(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)), amplitude);
-    table.only_for_people("phase [°]", [&](std::size_t n) {
+    table.only_for_people("error", [&s](std::size_t n) {
+      const std::optional<double>& error = s.harmonics[n].error;
+      return error ? fmt::format("± {:.1g}", *error) : std::string();
+    });
+    table.only_for_people("phase [°]", [&, amplitude](std::size_t n) {
       return n == 0 || amplitude(n) == 0 ? "—" : phase_text(s.harmonics[n].phase);
     });
   }
@@ -164,7 +171,7 @@ Record spectrum_record(const Spectrum& s) {
           {"unit", s.unit},
           {"captured_of_mean_square", s.captured},
           {"orders", each(s.harmonics, [](const Harmonic& h) {
-             return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}};
+             return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}, {"error", h.error}};
            })}};
 }
 
@@ -193,6 +200,8 @@ std::string harmonics_csv(const MachineReduction& r) {
           "amplitude", [](const auto& row) { return row.second.amplitude + 0.0; }, 15)
       .column(
           "phase [rad]", [](const auto& row) { return row.second.phase + 0.0; }, 15)
+      .column(
+          "error", [](const auto& row) { return row.second.error; }, 3)
       .text();
 }
 
@@ -234,6 +243,14 @@ std::vector<Formula> formulas_of(const MachineReduction& r) {
   return list;
 }
 
+std::string errors_text(const MachineReduction& r) {
+  if (!r.inertia_error) return "no errors are known: nothing comes round";
+  return fmt::format(
+      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (found and sampled 100 times "
+      "less closely)",
+      r.link, *r.inertia_error, *r.drive_error, *r.load_error);
+}
+
 void tell_all(Findings& f, const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   f.tell("link", r.link);
@@ -241,6 +258,10 @@ void tell_all(Findings& f, const MachineReduction& r) {
   f.tell("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
   f.tell("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
   f.tell("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
+  f.tell("basis", r.basis == ReduceBasis::classical ? "classical" : "regime");
+  f.tell("errors", Record{{"reduced_inertia", r.inertia_error},
+                          {"driving_torque", r.drive_error},
+                          {"resisting_torque", r.load_error}});
   f.tell("positions", each(r.positions, [&](const ReducedPosition& p) { return position_record(r, p); }));
   f.tell("chain", chain_record(r.chain));
   f.tell("harmonics", each(r.spectra, spectrum_record));
@@ -249,26 +270,27 @@ void tell_all(Findings& f, const MachineReduction& r) {
 }  // namespace
 
 Findings findings_of(const MachineReduction& r) {
-  Findings f{
-      .title = r.title,
-      .subtitle = fmt::format("Machine reduced to {}", r.to),
-      .scene_file = r.scene_file,
-      .speed_unit = r.speed_unit.name,
-      .conclusion = conclusion_of(r),
-      .tells_complete = false,
-      .figures = {{"constant inertia of the drive",
-                   r.constant_inertia,
-                   "kg*m2",
-                   {},
-                   r.to_output ? "on " + r.link : "",
-                   0,
-                   "constant_inertia"},
-                  {"mean driving torque", r.mean_drive, "N*m", {}, "on " + r.link, 0, "mean_driving_torque"},
-                  {"mean resisting torque", r.mean_load, "N*m", {}, "on " + r.link, 0, "mean_resisting_torque"}}};
+  Findings f{.title = r.title,
+             .subtitle = fmt::format("Machine reduced to {}", r.to),
+             .scene_file = r.scene_file,
+             .speed_unit = r.speed_unit.name,
+             .conclusion = conclusion_of(r),
+             .tells_complete = false,
+             .figures = {{"constant inertia of the drive",
+                          r.constant_inertia,
+                          "kg*m2",
+                          {},
+                          r.to_output ? "on " + r.link : "",
+                          0,
+                          "constant_inertia"},
+                         {"mean driving torque", r.mean_drive, "N*m", r.mean_drive_error, "on " + r.link, 0,
+                          "mean_driving_torque"},
+                         {"mean resisting torque", r.mean_load, "N*m", r.mean_load_error, "on " + r.link, 0,
+                          "mean_resisting_torque"}}};
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);
-  f.say(cycle, Sentences{.lines = {speed_text(r)}, .page = false});
+  f.say(cycle, Sentences{.lines = {speed_text(r), errors_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
   f.say(cycle, positions_table(r));
   for (const Formula& formula : formulas_of(r)) f.show(cycle, formula);

@@ -12,17 +12,13 @@
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
-#include "studies/scenes/kinds.h"
-#include "studies/steady/steady_simulation.h"
+#include "studies/cycle/classical.h"
+#include "studies/size/reach_sized.h"
 
 namespace kurbel {
 namespace {
 
-const Kind& flywheel_kind() {
-  for (const Kind& kind : all_kinds())
-    if (kind.name == "flywheel") return kind;
-  throw std::logic_error("no kind \"flywheel\"");
-}
+constexpr double looser_sampling = 1e-9;
 
 // The component that is sized: the one named, else the scene's only flywheel; empty: one is put on the crank's shaft.
 std::string chosen_flywheel(const Scene& scene, const std::string& named) {
@@ -51,13 +47,13 @@ class Sizer {
     choose_delta();
     s_.flywheel = chosen_flywheel(scene, options.flywheel);
     s_.flywheel_added = s_.flywheel.empty();
-    scene_ = scene;
+    scene_ = as_of(scene, scene.effects, options.at);
     if (s_.flywheel_added) {
-      const RigidMachine bare(scene);
+      const auto bare = compile(scene, scene.effects);
       s_.flywheel = scene.find("flywheel") ? "sized_flywheel" : "flywheel";
-      scene_ = with_flywheel(scene, s_.flywheel, 0, component_of(bare.model(), bare.model().reduction_node));
+      scene_ = with_flywheel(scene_, s_.flywheel, 0, component_of(*bare, bare->reduction_node));
     }
-    machine_.emplace(scene_);
+    choose_basis();
     s_.title = scene.heading();
     s_.speed_unit = scene.speed_unit;
     s_.scene_file = scene.file;
@@ -67,22 +63,28 @@ class Sizer {
 
   Sizing run() {
     list_inertias();
-    find_speed();
-    find_cycle();
-    if (machine_->uses_time()) s_.notes.push_back("some torque depends on time; the torques are those at t = 0");
+    if (s_.basis == SizeBasis::classical) {
+      find_speed();
+      find_cycle();
+    } else {
+      find_regime_cycle();
+    }
+    if (s_.basis == SizeBasis::classical && machine_->uses_time())
+      s_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (model().scene.run.start.speed == 0)
       s_.notes.push_back(
           "sizing looks at steady motion; whether the machine starts from rest is what kurbel run shows");
     apply_methods();
-    count_motor();
+    if (s_.basis == SizeBasis::classical) count_motor();
     find_punch();
     find_dimensions();
-    if (options_.simulate) simulate_sized();
+    if (options_.simulate) reach_sized(s_, scene_, options_, start_speed_);
+    say_what_is_left_out(s_, beyond_);
     return std::move(s_);
   }
 
  private:
-  const Model& model() const { return machine_->model(); }
+  const Model& model() const { return machine_ ? machine_->model() : *model_; }
   static std::string component_of(const Model& m, int node) { return m.network.nodes[at(node)].component; }
 
   void choose_delta() {
@@ -105,11 +107,27 @@ class Sizer {
     check_delta(s_.delta);
   }
 
+  // The rigid machine at constant speed tells the torques where nothing of the scene but elasticity goes beyond it.
+  void choose_basis() {
+    beyond_ = beyond_the_rigid_machine(scene_, options_.at);
+    s_.basis = options_.basis.value_or(beyond_.empty() ? SizeBasis::classical : SizeBasis::regime);
+    if (s_.basis == SizeBasis::classical)
+      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+    else
+      model_ = compile_at(scene_, scene_.effects, options_.at);
+  }
+
   // Everything that turns at constant ratio, on the flywheel's shaft.
   void list_inertias() {
     const Model& m = model();
     const int node = m.network.ports.at(s_.flywheel).in;
     s_.flywheel_ratio = m.node_ratio[at(node)];
+    if (s_.flywheel_ratio == 0)
+      throw std::invalid_argument(fmt::format(
+          "\"{}\" stands in the machine's usual motion, so that its inertia evens out nothing; name another "
+          "one: --flywheel NAME",
+          s_.flywheel));
+    constant_inertia_ = machine_ ? machine_->constant_inertia() : constant_inertia(m);
     std::vector<std::string> motors;
     for (const Network::ShaftElement& e : m.network.elements)
       if (e.element->account == Account::driving && !(e.element->cycle > 0)) motors.push_back(e.component);
@@ -175,19 +193,85 @@ class Sizer {
 
   void find_cycle() {
     s_.cycle = machine_cycle(*machine_, s_.mid_speed);
+    looser_ = machine_cycle(*machine_, s_.mid_speed, looser_sampling);
     const Piecewise &drive = s_.cycle.drive, &load = s_.cycle.load;
     const double scale = std::max(drive.largest(), load.largest());
     s_.engine = drive.maximum().value - drive.minimum().value > 1e-9 * scale;
-    if (!s_.engine) {
-      if (!machine_->uses_speed() && drive.mean() > 1e-12 * scale) compare_constant_drive(drive.mean(), load.mean());
-      s_.diagram = with_constant_drive(load);
-      return;
-    }
+    if (!s_.engine && !machine_->uses_speed() && drive.mean() > 1e-12 * scale)
+      compare_constant_drive(drive.mean(), load.mean());
     const double rest = drive.mean() - load.mean();
-    if (!(drive.mean() > 0)) with_constant_load(drive);  // says that the drive does no net work
-    if (std::abs(rest) > 1e-6 * drive.mean())
+    if (s_.engine && !(drive.mean() > 0)) with_constant_load(drive);  // says that the drive does no net work
+    if (s_.engine && std::abs(rest) > 1e-6 * drive.mean())
       s_.notes.push_back(unbalanced(drive.mean(), load.largest() > 0 ? load.mean() : 0, rest));
-    s_.diagram = work_diagram(drive, load + load.constant(rest));
+    s_.diagram = balanced(s_.cycle);
+  }
+  // The drive is constant, or where it varies with the angle, a constant load makes up for what is missing.
+  WorkDiagram balanced(const MachineCycle& c) const {
+    if (!s_.engine) return with_constant_drive(c.load);
+    return work_diagram(c.drive, c.load + c.load.constant(c.drive.mean() - c.load.mean()));
+  }
+
+  // Torques along the steady cycle that the scene's own start leads to. A machine that stalls for want of inertia is
+  // looked at with more of it.
+  void find_regime_cycle() {
+    const RegimeOptions options{.method = scene_.run.method == "work" ? "auto" : scene_.run.method,
+                                .budget = scene_.run.budget,
+                                .interrupted = options_.simulation.watch.interrupted};
+    Regime regime = find_regime(model_, options);
+    Deadline::check();
+    const std::string as_it_is = regime.words;
+    double tried = s_.flywheel_now;
+    for (int k = 0; k < 3 && regime.kind == Regime::Kind::at_rest; ++k) {
+      tried = std::max(10 * tried, 10 * others());
+      regime = find_regime(compile_at(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, options_.at),
+                           options);
+      Deadline::check();
+    }
+    if (!regime.repeats()) return without_a_cycle(as_it_is);
+    const RegimeCycle found = regime_cycle(regime);
+    s_.cycle = found.cycle;
+    if (const auto looser = looser_regime_cycle(regime)) looser_ = looser->cycle;
+    s_.engine = drive_varies_with_angle();
+    s_.diagram = balanced(s_.cycle);
+    take_speed(found);
+    if (tried == s_.flywheel_now) {
+      s_.delta_of_regime = found.delta();
+    } else {
+      s_.notes.push_back(fmt::format("as the scene is, {}; the torques are those with {:.6g} kg·m² on \"{}\"", as_it_is,
+                                     tried, s_.flywheel));
+    }
+    start_speed_ = found.sense * found.speed.value(0);
+  }
+  // At a mid speed that is given the rigid machine may still tell torques.
+  void without_a_cycle(const std::string& why) {
+    const std::string text = fmt::format("there is no steady cycle to size a flywheel for: {}", why);
+    if (!options_.mid_speed || options_.basis) throw std::invalid_argument(text);
+    try {
+      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+    } catch (const std::invalid_argument&) {
+      throw std::invalid_argument(text);
+    }
+    s_.basis = SizeBasis::classical;
+    s_.notes.push_back(text + "; the work equation takes the rigid machine at the mid speed given");
+    find_speed();
+    find_cycle();
+  }
+  void take_speed(const RegimeCycle& found) {
+    s_.mid_speed = options_.mid_speed.value_or(found.mid_speed());
+    s_.mid_speed_source = options_.mid_speed ? "given" : "of the steady cycle that the scene's own start leads to";
+    if (options_.mid_speed && std::abs(found.mid_speed() / s_.mid_speed - 1) > 0.01)
+      s_.notes.push_back(fmt::format("the mid speed given is {}, but in its steady cycle the machine has {}",
+                                     s_.speed_unit.text(s_.mid_speed, 5), s_.speed_unit.text(found.mid_speed(), 5)));
+  }
+  bool drive_varies_with_angle() const {
+    const auto& elements = model().network.elements;
+    return std::any_of(elements.begin(), elements.end(), [](const Network::ShaftElement& e) {
+      const auto& more = e.element->further_accounts;
+      const bool drives =
+          e.element->account == Account::driving ||
+          std::any_of(more.begin(), more.end(), [](const auto& account) { return account.second == Account::driving; });
+      return drives && e.element->is.uses_angle;
+    });
   }
 
   // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.
@@ -243,8 +327,23 @@ class Sizer {
     s_.approximate = mertsalov(s_.diagram, s_.cycle.mechanism, s_.mid_speed, s_.delta);
     s_.methods = {method("Wittenbauer (exact)", s_.exact.inertia), method("Mertsalov", s_.approximate.inertia),
                   method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mid_speed, s_.delta))};
-    s_.delta_now = delta_of(machine_->constant_inertia()).value_or(std::nan(""));
+    s_.delta_now = delta_of(constant_inertia_).value_or(std::nan(""));
     s_.needed = s_.methods.front().flywheel > 0;
+    if (looser_) measure_errors(balanced(*looser_), looser_->mechanism);
+  }
+  // The same by torques that were sampled, or found, with looser tolerances.
+  void measure_errors(const WorkDiagram& looser, const MechanismInertia& mechanism) {
+    const double speed = options_.mid_speed || machine_ ? s_.mid_speed : looser_->speed;
+    const double other[] = {wittenbauer(looser, mechanism, speed, s_.delta).inertia,
+                            mertsalov(looser, mechanism, speed, s_.delta).inertia,
+                            inertia_by_fluctuation(looser.fluctuation(), speed, s_.delta)};
+    const double rounding = 1e-12;
+    for (std::size_t k = 0; k < std::size(other); ++k)
+      s_.methods[k].error =
+          (std::abs(other[k] - s_.methods[k].drive_inertia) + rounding * std::abs(s_.methods[k].drive_inertia)) /
+          square(s_.flywheel_ratio);
+    s_.fluctuation_error =
+        std::abs(looser.fluctuation() - s_.diagram.fluctuation()) + rounding * s_.diagram.load_work.largest();
   }
 
   SteadyRigidCycle steady(double drive_inertia) {
@@ -280,6 +379,7 @@ class Sizer {
     s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
     s_.soft_cycle = steady(std::exp(root));
     s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;
+    s_.soft->error = s_.methods.front().error;
   }
 
   // A tool that works in less than half of the cycle.
@@ -297,10 +397,11 @@ class Sizer {
       }
       acting = std::max(acting, angle);
     }
-    if (!(energy > 0) || acting >= 0.5 * machine_->cycle()) return;
-    s_.punch = PunchPress{energy, machine_->cycle() / s_.mid_speed, acting / s_.mid_speed};
+    if (!(energy > 0) || acting >= 0.5 * s_.cycle.drive.length()) return;
+    s_.punch = PunchPress{energy, s_.cycle.drive.length() / s_.mid_speed, acting / s_.mid_speed};
     s_.methods.push_back(
         method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
+    s_.methods.back().error = s_.methods[2].error;
   }
 
   void find_dimensions() {
@@ -313,126 +414,26 @@ class Sizer {
                             options_.rim_speed};
     try {
       s_.dimensions = flywheel_dimensions(request);
+      request.inertia += s_.methods.front().error.value_or(0);
+      s_.mass_error = std::abs(flywheel_dimensions(request).mass - s_.dimensions->mass) + 1e-12 * s_.dimensions->mass;
     } catch (const std::invalid_argument& error) {
       if (options_.diameter > 0) throw;
       s_.dimensions_why = error.what();
     }
   }
 
-  // --- simulation ---
-
-  void simulate_sized() {
-    if (!s_.needed) return;
-    if (!s_.operating) return simulate_family();
-    if (!s_.with_motor || !s_.with_motor->found) return;
-    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, *s_.with_motor);
-    if (s_.soft && s_.soft->flywheel > 0 && s_.soft_cycle && s_.soft_cycle->found)
-      reach(SizedBy::slope, s_.soft->name, s_.soft->flywheel, *s_.soft_cycle);
-  }
-
-  // Torques of the angle alone, in balance: the cycle is the one that energy gives.
-  void simulate_family() {
-    if (std::abs(s_.cycle.drive.mean() / s_.diagram.mean_torque() - 1) > 1e-6) {
-      s_.notes.push_back("not simulated: the drive of the scene does not balance its load at any speed");
-      return;
-    }
-    const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
-    SteadyRigidCycle family;
-    family.found = true;
-    family.speed = Piecewise::of(
-        s_.cycle.drive.breaks(), [&](double phi) { return cycle.speed(phi); }, 1e-11);
-    family.fastest = cycle.fastest(), family.slowest = cycle.slowest();
-    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, family);
-  }
-
-  int motor_node() const { return s_.motor.empty() ? model().reduction_node : model().network.ports.at(s_.motor).out; }
-
-  void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle& cycle) {
-    DeltaReached exact;
-    exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
-    exact.crank = exact.motor = cycle.delta();
-    exact.mid_speed = cycle.mid_speed();
-    for (int k = 0; k <= 720; ++k) {
-      exact.phi.push_back(machine_->cycle() * k / 720);
-      exact.speed.push_back(cycle.speed.value(exact.phi.back()));
-    }
-    s_.reached.push_back(std::move(exact));
-    const Scene sized = with_flywheel(scene_, s_.flywheel, flywheel, s_.link);
-    DeltaReached as_rigid;
-    as_rigid.model = SizedModel::rigid, as_rigid.by = by, as_rigid.sized_by = sized_by, as_rigid.flywheel = flywheel;
-    run(as_rigid, sized, rigid_effects(), cycle);
-    Effects elastic = scene_.effects;
-    elastic.locked = true;
-    if (elastic.describe() == "none") elastic.all_elastic = true;
-    const bool has_joints = std::any_of(model().network.joints.begin(), model().network.joints.end(),
-                                        [](const Network::Joint& j) { return j.element != nullptr; });
-    if (!has_joints) return;
-    DeltaReached as_elastic = as_rigid;
-    as_elastic.model = SizedModel::elastic;
-    run(as_elastic, sized, elastic, cycle);
-  }
-
-  void run(DeltaReached r, const Scene& sized, const Effects& effects, const SteadyRigidCycle& cycle) {
-    const std::string name = name_of(r.model);
-    options_.simulation.watch.at(name + ", " + r.sized_by, 0);
-    SteadySimulation sim;
-    try {
-      sim = simulate_steady(sized, effects, cycle.speed.value(0), machine_->cycle(), motor_node(), options_.simulation);
-    } catch (const SceneError& error) {
-      s_.notes.push_back(fmt::format("{}: {}", name, error.what()));
-      return;
-    }
-    if (!sim.complete) {
-      s_.complete = false;
-      s_.diagnosis = fmt::format("{} ({}): {}", name, r.sized_by, sim.diagnosis);
-      return;
-    }
-    r.crank = sim.link_delta, r.motor = sim.motor_delta;
-    r.crank_error = sim.link_error, r.motor_error = sim.motor_error;
-    r.mid_speed = sim.mid_speed, r.settled = sim.settled, r.cycles = sim.cycles;
-    r.phi = std::move(sim.phi), r.speed = std::move(sim.link), r.motor_speed = std::move(sim.motor);
-    if (!r.settled) s_.notes.push_back(unsettled(fmt::format("{} ({})", name, r.sized_by), sim));
-    s_.reached.push_back(std::move(r));
-  }
-
-  static std::string unsettled(const std::string& name, const SteadySimulation& sim) {
-    constexpr double still = 1e-5;
-    const std::string text = fmt::format("{}: not settled after {} cycles: ", name, sim.cycles);
-    const std::string last = "; the figures are those of the last cycle, not of steady motion";
-    if (sim.speed_to_come <= still) return text + "the speed keeps, δ still changes" + last;
-    const std::string change = fmt::format("the speed still {} by {:.2g} % a cycle",
-                                           sim.speed_change > 0 ? "rises" : "falls", 100 * std::abs(sim.speed_change));
-    return text + change +
-           (std::isfinite(sim.speed_to_come) ? fmt::format(", some {:.2g} % are still to come", 100 * sim.speed_to_come)
-                                             : std::string(" and tends nowhere within that time")) +
-           last;
-  }
-
   const SizeOptions& options_;
   Scene scene_;
-  std::optional<RigidMachine> machine_;
+  std::optional<RigidMachine> machine_;  // of the classical basis
+  std::shared_ptr<const Model> model_;   // of the regime's
+  std::vector<std::string> beyond_;      // what the rigid machine cannot carry
+  std::optional<MachineCycle> looser_;
+  double constant_inertia_ = 0;        // on the link [kg·m²]
+  std::optional<double> start_speed_;  // of the link at its angle 0 in steady motion [rad/s]
   Sizing s_;
 };
 
 }  // namespace
-
-Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on) {
-  for (Section& section : scene.components) {
-    if (section.name != flywheel) continue;
-    for (Setting& setting : section.settings)
-      if (setting.key == "inertia") setting.number = inertia;
-    return scene;
-  }
-  Section section{.name = flywheel, .kind = &flywheel_kind(), .at = {}};
-  Setting setting;
-  setting.key = "inertia";
-  setting.given = true;
-  setting.number = inertia;
-  section.settings.push_back(std::move(setting));
-  scene.components.push_back(std::move(section));
-  scene.lines.push_back({.from = on, .names = {flywheel}, .at = {}, .name_at = {}});
-  return scene;
-}
 
 std::string slope_of_what(const Sizing& s) {
   const bool drive = s.operating && std::abs(s.operating->drive_slope) >= 0.5 * std::abs(s.operating->slope);

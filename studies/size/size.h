@@ -1,4 +1,4 @@
-// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; as simulated.
+// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; by the regime.
 #pragma once
 
 #include <functional>
@@ -10,19 +10,28 @@
 #include "studies/findings/output.h"
 #include "studies/run/simulate.h"
 #include "studies/size/flywheel.h"
+#include "studies/size/sized_regimes.h"
 
 namespace kurbel {
 
+// What the work equation's torques are.
+enum class SizeBasis {
+  classical,  // constant drive torque; loads of the rigid machine at constant speed
+  regime      // constant drive torque; loads along the steady cycle that the machine has with the scene's effects
+};
+
 struct SizeOptions {
+  std::optional<SizeBasis> basis;   // default: classical, where the rigid machine carries all but elasticity
   std::optional<double> delta;      // demanded, 0 < δ < 2
   std::string machine;              // or its customary value: "press" (the upper end of the range)
   std::optional<double> mid_speed;  // of the reduction link [rad/s]; default: the operating speed
+  Moment at = {};                   // the machine as it is then; default: when all is switched
   std::string flywheel;             // component that is sized; default: the scene's only flywheel, else on the crank
   FlywheelForm form = FlywheelForm::rim;
   std::string material = "grey cast iron";
   double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
   std::optional<double> sheet;         // length of the diagrams' angle axis [m]
-  bool simulate = true;                // run the sized machine
+  bool simulate = true;                // look for the regime of the sized machine
   SimulateOptions simulation = {};
 };
 
@@ -32,7 +41,9 @@ struct SizeMethod {
   double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
   double flywheel = 0;           // less everything else that turns at constant ratio, on its own shaft [kg·m²]
   double flywheel_by_parts = 0;  // (theory 3.1)
-  std::optional<double> delta;   // reached at constant driving torque, exact; empty: the machine would stop
+  // Reached at constant driving torque, exact, or by the regime; empty: the machine would stop.
+  std::optional<double> delta;
+  std::optional<double> error = {};  // of the flywheel [kg·m²]
 };
 
 // The machine that the sized flywheel is put into.
@@ -42,8 +53,8 @@ constexpr const char* name_of(SizedModel model) {
          : model == SizedModel::rigid       ? "rigid, simulated"
                                             : "elastic, simulated";
 }
-// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope.
-enum class SizedBy { constant_drive, slope };
+// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope, or by the regime's δ.
+enum class SizedBy { constant_drive, slope, regime };
 
 // The sized machine with its real motor, in steady motion.
 struct DeltaReached {
@@ -54,9 +65,9 @@ struct DeltaReached {
   double crank = 0, motor = 0;  // δ
   std::optional<double> crank_error, motor_error;
   double mid_speed = 0;                         // of the link [rad/s]
-  bool settled = true;                          // speed and δ have come to 1e-5 of where they tend to
-  int cycles = 0;                               // simulated
-  std::vector<double> phi, speed, motor_speed;  // last cycle [rad], [rad/s]; motor reduced to the link
+  bool settled = true;                          // a regime is nothing else
+  int cycles = 0;                               // that the search for it cost
+  std::vector<double> phi, speed, motor_speed;  // a cycle [rad], [rad/s]; motor reduced to the link
 };
 
 struct Sizing {
@@ -66,10 +77,12 @@ struct Sizing {
   double mid_speed = 0;
   std::string mid_speed_source;
   SpeedUnit speed_unit;
+  SizeBasis basis = SizeBasis::classical;
 
   MachineCycle cycle;
   WorkDiagram diagram;
-  bool engine = false;  // the drive varies with the angle, the load is made to balance it
+  double fluctuation_error = 0;  // [J]
+  bool engine = false;           // the drive varies with the angle, the load is made to balance it
   Wittenbauer exact;
   Mertsalov approximate;
   std::vector<SizeMethod> methods;  // Wittenbauer, Mertsalov, without I_em
@@ -80,8 +93,9 @@ struct Sizing {
   double flywheel_now = 0;                                           // in the scene, on its own shaft [kg·m²]
   double motor_inertia = 0, gearbox_inertia = 0, other_inertia = 0;  // on the flywheel's shaft [kg·m²]
   std::vector<std::pair<std::string, double>> other_parts;           // on the flywheel's shaft
-  double delta_now = 0;  // of the scene as it is, at constant driving torque; NaN: it stops
-  bool needed = true;    // a flywheel with I > 0
+  double delta_now = 0;                   // of the scene as it is, at constant driving torque; NaN: it stops
+  std::optional<double> delta_of_regime;  // of the scene as it is, with its effects; where the basis is the regime
+  bool needed = true;                     // a flywheel with I > 0
 
   // The motor's slope counted.
   std::string motor;  // first driving component; empty: none
@@ -91,7 +105,12 @@ struct Sizing {
   std::optional<SteadyRigidCycle> soft_cycle;
   std::string soft_why;  // there is none
 
+  // The inertia whose regime has the demanded δ, where the flywheel of the work equation misses it.
+  std::optional<SizeMethod> meeting;
+  std::string meeting_words;  // what it meets, or the least δ that was found; empty: nothing was sought
+
   std::optional<FlywheelDimensions> dimensions;
+  double mass_error = 0;  // [kg]
   std::string dimensions_why;
   std::optional<PunchPress> punch;  // loads that act for a part of the cycle only
   std::vector<DeltaReached> reached;
@@ -102,14 +121,11 @@ struct Sizing {
 };
 
 // Throws SceneError where the scene makes no machine; std::invalid_argument in words for bad options, a load without
-// net resistance, and a motor too weak for the cycle.
+// net resistance, a motor too weak for the cycle, and a machine whose own start leads to no cycle.
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options);
 
 // Whose torque it is that changes with the speed at the operating point: "the motor's slope", "the load's slope".
 std::string slope_of_what(const Sizing& sizing);
-
-// The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
-Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 
 // Files: diagrams.csv. The sizing must outlive the findings.
 Findings findings_of(const Sizing& sizing);

@@ -25,10 +25,6 @@ const DeltaReached* reached(const Sizing& s, SizedModel model) {
   return nullptr;
 }
 
-const char* unless_settled(const DeltaReached& r) {
-  return r.settled ? "" : " in its last cycle, for it does not settle (see the notes)";
-}
-
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (!s.needed)
@@ -46,11 +42,11 @@ std::string conclusion_of(const Sizing& s) {
                                  : fmt::format("; with {} counted none is needed", slope_of_what(s));
   }
   if (const DeltaReached* rigid = reached(s, SizedModel::rigid))
-    text += fmt::format("; simulated rigid it reaches {:.5g}{}", rigid->crank, unless_settled(*rigid));
+    text += fmt::format("; simulated rigid it reaches {:.5g}", rigid->crank);
   if (const DeltaReached* elastic = reached(s, SizedModel::elastic))
-    text += fmt::format(", elastic {:.5g} at the crank{}{}", elastic->crank,
-                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor),
-                        unless_settled(*elastic));
+    text += fmt::format(", elastic {:.5g} at the crank{}", elastic->crank,
+                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor));
+  if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
 }
 
@@ -77,10 +73,13 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
 Rows methods_table(const Sizing& s) {
   std::vector<SizeMethod> all = s.methods;
   if (s.soft) all.push_back(*s.soft);
+  if (s.meeting) all.push_back(*s.meeting);
   return table_of("methods", "Flywheel by each method", std::move(all))
       .column("method", "method", &SizeMethod::name)
       .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 7})
       .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 7})
+      .column("flywheel_error", "error", &SizeMethod::error,
+              [](const std::optional<double>& e) { return e ? fmt::format("± {:.1g}", *e) : std::string(); })
       .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 7})
       .only_for_people(
           "against exact [%]",
@@ -110,7 +109,7 @@ Rows reached_table(const Sizing& s) {
       .only_for_programs("settled", &DeltaReached::settled)
       .only_for_programs("cycles", &DeltaReached::cycles)
       .only_for_people("cycles", [](const DeltaReached& r) {
-        return r.cycles ? fmt::format("{}{}", r.cycles, r.settled ? "" : ", not settled") : std::string("exact");
+        return r.cycles ? fmt::format("{}", r.cycles) : std::string("exact");
       });
 }
 
@@ -218,6 +217,10 @@ Sentences basis_words(const Sizing& s) {
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
                                 s.diagram.least.x * degrees, s.diagram.most.x * degrees),
+                    s.basis == SizeBasis::classical
+                        ? std::string("classical: constant drive torque; loads of the rigid machine at constant speed")
+                        : std::string("loads along the steady cycle that the machine has with the scene's effects, and "
+                                      "the constant drive torque that balances them"),
                     comparison_with_scene(s)},
           .indent = "  ",
           .page = false};
@@ -266,6 +269,7 @@ Record punch_record(const PunchPress& p) {
 
 void tell_basis(Findings& f, const Sizing& s) {
   f.tell("link", s.link);
+  f.tell("basis", s.basis == SizeBasis::classical ? "classical" : "regime");
   f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
   f.tell("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
   f.tell("flywheel", Record{{"component", s.flywheel},
@@ -275,7 +279,8 @@ void tell_basis(Findings& f, const Sizing& s) {
                             {"unit", "kg*m2"},
                             {"in_scene", s.flywheel_now},
                             {"speed_ratio", s.flywheel_ratio},
-                            {"delta_in_scene", s.delta_now}});
+                            {"delta_in_scene", s.delta_now},
+                            {"delta_of_regime_in_scene", s.delta_of_regime}});
   f.tell("work_diagram", Record{{"work", s.diagram.work},
                                 {"mean_torque", s.diagram.mean_torque()},
                                 {"fluctuation", s.diagram.fluctuation()},
@@ -304,22 +309,27 @@ std::string diagrams_csv(const Sizing& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const Sizing& s) {
-  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", {}, "Wittenbauer, exact " + basis_of(s), 0, "flywheel"}};
+  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", exact_method(s).error,
+                "Wittenbauer, exact " + basis_of(s), 0, "flywheel"}};
   if (s.soft)
     f.figures.push_back(
-        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", {}, "", 0, "flywheel_with_slope"});
+        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", s.soft->error, "", 0, "flywheel_with_slope"});
+  if (s.meeting)
+    f.figures.push_back({"flywheel that meets δ", s.meeting->flywheel, "kg*m2", s.meeting->error, s.meeting->name, 0,
+                         "flywheel_that_meets"});
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
-      const char* note = r.settled ? "" : "last cycle, not settled";
       f.figures.push_back(
-          {fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, note, 0, "delta_reached"});
+          {fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, "", 0, "delta_reached"});
       if (r.model == SizedModel::elastic && !s.motor.empty())
-        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, note, 0,
-                             "delta_reached"});
+        f.figures.push_back(
+            {fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, "", 0, "delta_reached"});
     }
-  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J", {}, "", 0, "fluctuation_of_energy"});
+  f.figures.push_back(
+      {"fluctuation of energy", s.diagram.fluctuation(), "J", s.fluctuation_error, "", 0, "fluctuation_of_energy"});
   if (s.dimensions)
-    f.figures.push_back({"mass", s.dimensions->mass, "kg", {}, s.dimensions->material.name, 0, "flywheel_mass"});
+    f.figures.push_back(
+        {"mass", s.dimensions->mass, "kg", s.mass_error, s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {
@@ -328,7 +338,7 @@ void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {
 
 void say_notes(Findings& f, Chapter in, const Sizing& s) {
   std::vector<std::string> notes;
-  for (const std::string& why : {s.soft_why, s.dimensions_why})
+  for (const std::string& why : {s.soft_why, s.dimensions_why, s.meeting ? std::string() : s.meeting_words})
     if (!why.empty()) notes.push_back(why);
   notes.insert(notes.end(), s.notes.begin(), s.notes.end());
   f.say(in, Sentences{.lines = notes, .indent = "note: "});

@@ -15,6 +15,9 @@ constexpr double degrees = 180 / std::numbers::pi;
 }  // namespace
 
 std::string basis_of(const Sizing& s) {
+  if (s.basis == SizeBasis::regime)
+    return s.engine ? "at the torques of its steady cycle"
+                    : "at constant driving torque and the loads of its steady cycle";
   return s.engine ? "at torques of the angle alone" : "at constant driving torque";
 }
 

@@ -14,6 +14,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "studies/reduce/reduce.h"
+#include "studies/run/compare.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
 
@@ -267,10 +268,10 @@ class Comparison {
   }
   // Of the scene's effects: the elastic machine where something of it is elastic; by the better of the sizings.
   const DeltaReached* reached_by(const Sizing& sizing) const {
-    const SizedModel wanted = run_.model->elastic.empty() ? SizedModel::rigid : SizedModel::elastic;
+    const SizedModel wanted = is_elastic(*run_.model) ? SizedModel::elastic : SizedModel::rigid;
     const DeltaReached* best = nullptr;
     for (const DeltaReached& r : sizing.reached)
-      if (r.model == wanted && (!best || r.by == SizedBy::slope)) best = &r;
+      if (r.model == wanted && (!best || r.by != SizedBy::constant_drive)) best = &r;
     return best;
   }
 

@@ -1,0 +1,62 @@
+// classical.cpp — looks through a compiled scene for what angle and speed of one link do not tell.
+#include "studies/cycle/classical.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/analysis/periodicity.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+void list_effects(const Effects& effects, std::vector<std::string>& list) {
+  for (const EffectFlag& effect : effect_flags())
+    if (effects.*(effect.flag) && !effect.of_elasticity && effect.unsaid != EffectFlag::Unsaid::part_of_machine &&
+        effect.flag != &Effects::multibody)
+      list.emplace_back(effect.words);
+}
+
+void list_parts(const Model& m, std::vector<std::string>& list) {
+  const auto add = [&](const std::string& component, const std::string& what) {
+    const std::string name = fmt::format("\"{}\"", component);
+    const bool known = std::any_of(list.begin(), list.end(),
+                                   [&](const std::string& other) { return other.find(name) != std::string::npos; });
+    if (!known) list.push_back(name + what);
+  };
+  for (const OwnStatePlace& own : m.own_states)
+    add(own.component, fmt::format(", whose {} is a state of its own", own.state.name));
+  for (const ElasticJoint& e : m.elastic)
+    if (e.slips || e.springless) add(m.network.joints[at(e.joint)].component, ", which may slip");
+  for (const ShaftRelation& r : m.relations)
+    if (!m.effects.gear_losses || r.loss_account < 0)  // else said already
+      add(m.network.relations[at(r.relation)].component, ", which ties shafts only while the machine runs");
+  for (const Network::ShaftElement& e : m.network.elements)
+    if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)
+      add(e.component, ", whose torque depends on time");
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> compile_at(const Scene& scene, const Effects& effects, const Moment& at) {
+  return at.time ? compile_network(network_as_of(scene, at), scene, effects) : compile(scene, effects);
+}
+
+Effects classical_effects(const Scene& scene) {
+  Effects effects = bare_machine(scene.effects);
+  effects.locked = true;
+  return effects;
+}
+
+std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Moment& at) {
+  std::vector<std::string> list;
+  if (!scene.sequence.steps.empty()) list.emplace_back("the operating sequence");
+  list_effects(scene.effects, list);
+  const auto model = compile_at(scene, without_elasticity(scene.effects), at);
+  list_parts(*model, list);
+  if (prescribed_node(*model) >= 0) list.emplace_back("a prescribed speed");
+  return list;
+}
+
+}  // namespace kurbel

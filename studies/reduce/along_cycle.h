@@ -1,0 +1,57 @@
+// along_cycle.h — the machine along its steady cycle, asked by the angle of its reduction link.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/rigid/rigid_machine.h"
+#include "studies/cycle/regime_cycle.h"
+#include "studies/reduce/targets.h"
+
+namespace kurbel {
+
+// `target`: node that all is reduced to, whose speed is the first of the cycle's others; −1: the link.
+class AlongCycle {
+ public:
+  AlongCycle(const RegimeCycle& cycle, int target) : c_(cycle), slope_(cycle.inertia.derivative()) {
+    if (target < 0) return;
+    const Piecewise& speed = c_.speed;
+    ratio_ =
+        Piecewise::sample(
+            speed.breaks(), 1,
+            [&](double s, std::span<double> out) { out[0] = c_.others.front().value(s) / (c_.sense * speed.value(s)); },
+            {}, 1e-9)
+            .front();
+    ratio_slope_ = ratio_->derivative();
+  }
+  double way(double phi) const {
+    const double s = c_.sense * phi;
+    return s - c_.way() * std::floor(s / c_.way());
+  }
+  RigidMachine::At at(double phi) {
+    const double s = way(phi);
+    share_.clear();
+    for (const Piecewise& one : c_.cycle.share) share_.push_back(one.value(s));
+    constexpr double dust = 1e-9;  // that sampling leaves of a constant
+    const double inertia = std::max(0.0, c_.inertia.value(s)), slope = c_.sense * slope_.value(s);
+    return {inertia, std::abs(slope) < dust * inertia ? 0.0 : slope, 0, share_};
+  }
+  double mechanism_inertia(double phi) const { return c_.cycle.mechanism.value.value(way(phi)); }
+  // Of the chosen shaft to the link, and its derivative by the link's angle.
+  RatioAt ratio(double phi) const {
+    if (!ratio_) return {1, 0};
+    return {ratio_->value(way(phi)), c_.sense * ratio_slope_->value(way(phi))};
+  }
+  double mean_ratio() const { return ratio_ ? ratio_->mean() : 1; }
+  const RegimeCycle& cycle() const { return c_; }
+
+ private:
+  const RegimeCycle c_;
+  Piecewise slope_;
+  std::optional<Piecewise> ratio_, ratio_slope_;
+  std::vector<double> share_;
+};
+
+}  // namespace kurbel

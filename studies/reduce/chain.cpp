@@ -1,0 +1,63 @@
+// chain.cpp — the drive as an engineer draws it: inertias, and what is elastic between them.
+#include <string>
+#include <vector>
+
+#include "engine/numerics/index.h"
+#include "studies/reduce/reduce.h"
+
+namespace kurbel {
+
+double Chain::total() const {
+  double sum = 0;
+  for (const ChainInertia& i : inertias) sum += i.reduced;
+  return sum;
+}
+
+Chain elastic_chain(const Model& model, int node) {
+  const Network& net = model.network;
+  const double target = model.node_ratio[at(node)];
+  // Nodes that no elastic element parts are one inertia; it is counted on its first node.
+  std::vector<int> group(net.nodes.size(), -1);
+  Chain chain;
+  for (std::size_t first = 0; first < net.nodes.size(); ++first) {
+    if (group[first] >= 0) continue;
+    const int number = static_cast<int>(chain.inertias.size());
+    chain.inertias.push_back({"", 0, model.node_ratio[first] / target, 0, false});
+    group[first] = number;
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (const Network::Joint& joint : net.joints) {
+        if (joint.element) continue;
+        if ((group[at(joint.a)] == number) == (group[at(joint.b)] == number)) continue;
+        group[at(joint.a)] = group[at(joint.b)] = number;
+        grown = true;
+      }
+    }
+  }
+  const auto add = [&](std::size_t n, double inertia, const std::string& label) {
+    ChainInertia& i = chain.inertias[at(group[n])];
+    const double ratio = model.node_ratio[n] / target;
+    i.reduced += inertia * ratio * ratio;
+    if (i.ratio == 0) i.own += inertia;  // stands in the usual motion, such as a housing
+    if (inertia > 0 && i.name.find(label) == std::string::npos) i.name += (i.name.empty() ? "" : ", ") + label;
+  };
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    add(n, net.nodes[n].inertia, model.node_label(static_cast<int>(n)));
+  for (const Network::ShaftElement& e : net.elements)
+    if (e.element->cycle > 0) {
+      add(at(e.node), e.element->mean_inertia, e.component);
+      chain.inertias[at(group[at(e.node)])].mechanism = true;
+    }
+  for (ChainInertia& i : chain.inertias)
+    if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);
+  for (const Network::Joint& joint : net.joints) {
+    if (!joint.element) continue;
+    const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness,
+                 c = joint.element->damping;
+    chain.springs.push_back({joint.component, at(group[at(joint.a)]), at(group[at(joint.b)]), k, c, ratio,
+                             k * ratio * ratio, c * ratio * ratio});
+  }
+  return chain;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,37 @@
+// targets.h — what a machine can be reduced to: its shafts, and the sliders and rockers of its mechanisms.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/events/equations.h"
+#include "studies/reduce/reduce.h"
+
+namespace kurbel {
+
+// Speed of what all is reduced to over the link's, and its derivative by the link's angle.
+struct RatioAt {
+  double first = 0, second = 0;
+};
+
+// x′ and x″ of a slider, or of a rocker's angle, by the link's angle, from the model's own channels at ω = 1.
+class SliderRatio {
+ public:
+  SliderRatio(std::shared_ptr<const Model> model, const std::string& mechanism);
+  bool found() const { return velocity_ && acceleration_; }
+  bool rocks() const { return rocks_; }
+  // x′ [m/rad], x″ [m/rad²]: v = x′ ω,  a = x″ ω² + x′ ε
+  RatioAt operator()(double phi);
+
+ private:
+  std::shared_ptr<const Model> model_;
+  Equations equations_;
+  std::function<double(const Snapshot&)> velocity_, acceleration_;
+  bool rocks_ = false;
+};
+
+// Throws std::invalid_argument with the names allowed.
+[[noreturn]] void refuse_target(const Model& model, const std::string& to);
+
+}  // namespace kurbel

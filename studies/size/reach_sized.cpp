@@ -1,0 +1,177 @@
+// reach_sized.cpp — asks the sized machine's regime what δ it has, and seeks the flywheel that meets the demanded one.
+#include "studies/size/reach_sized.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/cycle/classical.h"
+#include "studies/run/compare.h"
+
+namespace kurbel {
+namespace {
+
+class Reach {
+ public:
+  Reach(Sizing& sizing, const Scene& scene, const SizeOptions& options, std::optional<double> start_speed)
+      : s_(sizing),
+        scene_(scene),
+        options_(options),
+        others_(s_.motor_inertia + s_.gearbox_inertia + s_.other_inertia),
+        start_speed_(start_speed),
+        regimes_(scene, {s_.flywheel, s_.link, s_.motor, options.at}, options.simulation.watch) {}
+
+  void run() {
+    if (!s_.needed) return;
+    if (s_.basis == SizeBasis::regime)
+      return reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, nullptr);
+    if (!s_.operating) return reach_family();
+    if (!s_.with_motor || !s_.with_motor->found) return;
+    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &*s_.with_motor);
+    if (s_.soft && s_.soft->flywheel > 0 && s_.soft_cycle && s_.soft_cycle->found)
+      reach(SizedBy::slope, s_.soft->name, s_.soft->flywheel, &*s_.soft_cycle);
+  }
+
+ private:
+  // Torques of the angle alone, in balance: the cycle is the one that energy gives.
+  void reach_family() {
+    if (std::abs(s_.cycle.drive.mean() / s_.diagram.mean_torque() - 1) > 1e-6) {
+      s_.notes.push_back("no regime: the drive of the scene does not balance its load at any speed");
+      return;
+    }
+    const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
+    SteadyRigidCycle family;
+    family.found = true;
+    family.speed = Piecewise::of(
+        s_.cycle.drive.breaks(), [&](double phi) { return cycle.speed(phi); }, 1e-11);
+    family.fastest = cycle.fastest(), family.slowest = cycle.slowest();
+    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &family);
+  }
+
+  // By the work equation with the torques as they are over the speed, where there is such a cycle; then the regimes.
+  void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle* cycle) {
+    if (cycle) {
+      DeltaReached exact;
+      exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
+      exact.crank = exact.motor = cycle->delta();
+      exact.mid_speed = cycle->mid_speed();
+      for (int k = 0; k <= 720; ++k) {
+        exact.phi.push_back(cycle->speed.length() * k / 720);
+        exact.speed.push_back(cycle->speed.value(exact.phi.back()));
+      }
+      s_.reached.push_back(std::move(exact));
+      start_speed_ = cycle->speed.value(0);
+    }
+    Effects elastic = scene_.effects;
+    if (!is_elastic(*compile_at(scene_, elastic, options_.at))) elastic.all_elastic = true;
+    ask(SizedModel::rigid, by, sized_by, flywheel, without_elasticity(scene_.effects));
+    if (is_elastic(*compile_at(scene_, elastic, options_.at)))
+      ask(SizedModel::elastic, by, sized_by, flywheel, elastic);
+  }
+
+  void ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
+    const std::string name = name_of(as);
+    options_.simulation.watch.at(name + ", " + sized_by, 0);
+    const SizedRegime regime = regimes_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
+    if (!regime.found) {
+      if (s_.operating || s_.basis == SizeBasis::regime) {
+        s_.complete = false;
+        s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, regime.why);
+      } else {
+        s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, regime.why));
+      }
+      return;
+    }
+    s_.reached.push_back(told(regime, as, by, sized_by));
+    const bool last = as == SizedModel::elastic || !is_elastic(*compile_at(scene_, scene_.effects, options_.at));
+    const double off = regime.crank / s_.delta - 1;
+    constexpr double missed = 0.01, far_smoother = -0.5;
+    const bool heavier = off > missed;
+    const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
+    if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, regime, effects);
+  }
+  static DeltaReached told(const SizedRegime& regime, SizedModel as, SizedBy by, const std::string& sized_by) {
+    DeltaReached r;
+    r.model = as, r.by = by, r.sized_by = sized_by, r.flywheel = regime.flywheel;
+    r.crank = regime.crank, r.motor = regime.motor;
+    r.crank_error = regime.crank_error, r.motor_error = regime.motor_error;
+    r.mid_speed = regime.mid_speed, r.cycles = regime.cycles;
+    r.phi = regime.phi, r.speed = regime.speed, r.motor_speed = regime.motor_speed;
+    return r;
+  }
+
+  // The flywheel with which the machine as it is has the demanded δ.
+  void meet(SizedModel as, const SizedRegime& first, const Effects& effects) {
+    const SizedRegimes::Meeting found = regimes_.meeting(s_.delta, first, others_, effects);
+    const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
+    if (!found.regime && first.crank <= s_.delta) return;  // it is smooth enough as it is
+    if (!found.regime) {
+      s_.meeting_words = fmt::format(
+          "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
+          "{:.6g} "
+          "kg·m²",
+          which, s_.delta, found.regimes, found.least, found.least_at);
+      return;
+    }
+    const double on_shaft = found.regime->flywheel + others_;
+    s_.meeting = SizeMethod{fmt::format("regime, {}", which),
+                            on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
+                            found.regime->flywheel,
+                            flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
+                            found.regime->crank,
+                            found.error};
+    s_.meeting_words =
+        fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}: {})", found.regime->flywheel, s_.delta,
+                    effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",
+                    which, effects.describe());
+    s_.reached.push_back(told(*found.regime, as, SizedBy::regime, s_.meeting->name));
+  }
+
+  Sizing& s_;
+  const Scene& scene_;
+  const SizeOptions& options_;
+  double others_;  // what turns with the flywheel, on its shaft [kg·m²]
+  std::optional<double> start_speed_;
+  SizedRegimes regimes_;
+};
+
+}  // namespace
+
+void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options, std::optional<double> start_speed) {
+  Reach(sizing, scene, options, start_speed).run();
+}
+
+// What the work equation cannot carry, and how much of δ that is.
+void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
+  std::string what;
+  for (const std::string& one : beyond) what += (what.empty() ? "" : ", ") + one;
+  const DeltaReached *rigid = nullptr, *elastic = nullptr;
+  for (const DeltaReached& r : s.reached)
+    if (r.by == SizedBy::constant_drive) (r.model == SizedModel::elastic ? elastic : rigid) = &r;
+  constexpr double varies = 1e-9;  // less is rounding
+  if (s.delta_of_regime && *s.delta_of_regime < varies) {
+    s.notes.push_back("in its steady motion the speed does not vary");
+  } else if (s.delta_of_regime) {
+    const double least = *s.delta_of_regime, by_work = s.delta_now;
+    s.notes.push_back(
+        fmt::format("the work equation of the rigid machine leaves out {}: at the scene's own inertia it gives {}, the "
+                    "steady cycle "
+                    "has δ = {:.5g}",
+                    what.empty() ? "what the scene's effects change" : what,
+                    std::isnan(by_work) ? "no cycle (the machine would stop)"
+                                        : fmt::format("δ = {:.5g} ({:+.3g} %)", by_work, 100 * (by_work / least - 1)),
+                    least));
+  } else if (!what.empty()) {
+    s.notes.push_back(
+        fmt::format("classical: {} left out{}", what, beyond.size() == 1 ? " is" : " are") +
+        (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank, s.delta)
+               : std::string()));
+  }
+  if (rigid && elastic && s.basis == SizeBasis::classical)
+    s.notes.push_back(
+        fmt::format("the work equation leaves out elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
+                    elastic->crank, rigid->crank, 100 * (elastic->crank / rigid->crank - 1)));
+}
+
+}  // namespace kurbel

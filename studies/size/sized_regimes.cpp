@@ -1,0 +1,153 @@
+// sized_regimes.cpp — asks the regime of the sized machine, and seeks the inertia by it.
+#include "studies/size/sized_regimes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+#include "studies/cycle/classical.h"
+#include "studies/scenes/kinds.h"
+
+namespace kurbel {
+namespace {
+
+constexpr int most_regimes = 8;
+constexpr double met = 1e-5;          // of the demanded δ
+constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
+constexpr int curve_points = 720;
+
+const Kind& flywheel_kind() {
+  for (const Kind& kind : all_kinds())
+    if (kind.name == "flywheel") return kind;
+  throw std::logic_error("no kind \"flywheel\"");
+}
+
+double delta_of(const Piecewise& speed) {
+  const double most = speed.maximum().value, least = speed.minimum().value;
+  return (most - least) / std::abs(0.5 * (most + least));
+}
+
+void fill(SizedRegime& r, const RegimeCycle& c, double motor_ratio) {
+  r.found = true;
+  r.crank = c.delta();
+  r.motor = delta_of(c.others.front());
+  r.mid_speed = c.sense * c.mid_speed();
+  r.start_speed = c.sense * c.speed.value(0);
+  for (int k = 0; k <= curve_points; ++k) {
+    const double s = c.way() * k / curve_points;
+    r.phi.push_back(s);
+    r.speed.push_back(c.sense * c.speed.value(s));
+    r.motor_speed.push_back(c.others.front().value(s) / motor_ratio);
+  }
+}
+
+}  // namespace
+
+Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on) {
+  for (Section& section : scene.components) {
+    if (section.name != flywheel) continue;
+    for (Setting& setting : section.settings)
+      if (setting.key == "inertia") setting.number = inertia;
+    return scene;
+  }
+  Section section{.name = flywheel, .kind = &flywheel_kind(), .at = {}};
+  Setting setting;
+  setting.key = "inertia";
+  setting.given = true;
+  setting.number = inertia;
+  section.settings.push_back(std::move(setting));
+  scene.components.push_back(std::move(section));
+  scene.lines.push_back({.from = on, .names = {flywheel}, .at = {}, .name_at = {}});
+  return scene;
+}
+
+SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optional<double> start_speed,
+                             bool with_error) const {
+  Scene sized = with_flywheel(scene_, parts_.flywheel, flywheel, parts_.on);
+  if (start_speed && sized.sequence.steps.empty()) {
+    sized.run.start = {};
+    sized.run.start.speed = *start_speed;
+    sized.run.start.equilibrium = true;
+  }
+  SizedRegime r;
+  r.flywheel = flywheel;
+  try {
+    const auto model = compile_at(sized, effects, parts_.moment);
+    const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
+    const RegimeOptions options{.method = sized.run.method == "work" ? "auto" : sized.run.method,
+                                .budget = sized.run.budget,
+                                .interrupted = watch_.interrupted,
+                                .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
+    const Regime regime = find_regime(model, options);
+    Deadline::check();
+    watch_.say(fmt::format("flywheel of {:.6g} kg·m², effects {}: {}: {}", flywheel, effects.describe(),
+                           name_of(regime.kind), regime.words));
+    r.cycles = static_cast<int>(std::lround(regime.cost));
+    r.interrupted = regime.kind == Regime::Kind::interrupted;
+    r.why = regime.words;
+    if (!regime.repeats()) return r;
+    fill(r, regime_cycle(regime, {motor}), model->node_ratio[kurbel::at(motor)]);
+    if (!with_error) return r;
+    if (const auto looser = looser_regime_cycle(regime, {motor})) {
+      const double left = regime.polished ? 0 : regime.point.residual;  // what the run has still to settle
+      r.crank_error = std::abs(looser->delta() - r.crank) + least_error * r.crank + left;
+      r.motor_error = std::abs(delta_of(looser->others.front()) - r.motor) + least_error * r.motor + left;
+    }
+  } catch (const SceneError& error) {
+    r.why = error.what();
+  } catch (const std::invalid_argument& error) {
+    r.why = error.what();
+  }
+  return r;
+}
+
+SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& first, double others,
+                                            const Effects& effects) const {
+  Meeting m;
+  m.least = first.crank, m.least_at = first.flywheel;
+  constexpr double flattest = -0.05, furthest = 1.5;
+  // u = ln I, v = ln δ/δ_demanded, which falls as −u where the flywheel carries the whole machine.
+  double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank / delta), slope = -1;
+  double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;
+  (v > 0 ? too_light : heavy_enough) = u;
+  SizedRegime last = first;
+  int in_vain = 0;
+  while (m.regimes < most_regimes && in_vain < 2) {
+    double next = u + std::clamp(-v / slope, -furthest, furthest);
+    if (next <= too_light || next >= heavy_enough) next = 0.5 * (too_light + heavy_enough);
+    if (!std::isfinite(next)) break;
+    const double flywheel = std::max(0.0, std::exp(next) - others);
+    SizedRegime r = at(flywheel, effects, last.start_speed, false);
+    ++m.regimes;
+    if (!r.found) {
+      if (r.interrupted) break;
+      too_light = std::max(too_light, next);  // it stalls: that is too little inertia
+      slope *= 2;
+      ++in_vain;
+      continue;
+    }
+    const double now = std::log(r.crank / delta);
+    const bool heavier_in_vain = next > u && now > v - 1e-3 * (next - u);
+    in_vain = heavier_in_vain ? in_vain + 1 : 0;
+    if (next != u) slope = std::min((now - v) / (next - u), flattest);
+    u = next, v = now, last = std::move(r);
+    if (last.crank < m.least) m.least = last.crank, m.least_at = last.flywheel;
+    if (std::abs(last.crank / delta - 1) <= met) {
+      m.regime = at(last.flywheel, effects, last.start_speed, true);
+      ++m.regimes;
+      m.error = (last.flywheel + others) *
+                (std::abs(m.regime->crank / delta - 1) + m.regime->crank_error.value_or(0) / delta) / -slope;
+      if (!m.regime->found) m.regime.reset();
+      break;
+    }
+    (v > 0 ? too_light : heavy_enough) = u;
+    if (flywheel == 0 && v < 0) break;  // none at all is still enough
+  }
+  return m;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,61 @@
+// sized_regimes.h — the steady motion of the machine with a flywheel of this or that inertia: its δ, and the inertia that
+// meets a demanded one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/moment.h"
+#include "engine/scene/scene.h"
+#include "studies/cycle/regime_cycle.h"
+#include "studies/findings/watch.h"
+
+namespace kurbel {
+
+// The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
+Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
+
+struct SizedRegime {
+  bool found = false;
+  std::string why;  // in words, unless it was found
+  bool interrupted = false;
+  double flywheel = 0;          // [kg·m²]
+  double crank = 0, motor = 0;  // δ of the link and of the motor's shaft, by its own mid speed
+  std::optional<double> crank_error, motor_error;
+  double mid_speed = 0;                         // of the link [rad/s]
+  double start_speed = 0;                       // of the link at its angle 0 [rad/s]
+  int cycles = 0;                               // that the search cost
+  std::vector<double> phi, speed, motor_speed;  // a round [rad], [rad/s]; the motor's reduced to the link
+};
+
+class SizedRegimes {
+ public:
+  struct Parts {
+    std::string flywheel, on, motor;  // component; link that it is put on if it is not there; empty: no motor
+    Moment moment;                    // that the scene is as of
+  };
+  SizedRegimes(const Scene& scene, Parts parts, const Watch& watch)
+      : scene_(scene), parts_(std::move(parts)), watch_(watch) {}
+
+  // From the scene's own start; a machine without a sequence begins at `start_speed` of the link, if given, in quasi-static
+  // equilibrium, as it would get there anyway. The error costs another search.
+  SizedRegime at(double flywheel, const Effects& effects, std::optional<double> start_speed, bool with_error) const;
+
+  struct Meeting {
+    std::optional<SizedRegime> regime;  // whose δ is the demanded one to 1e-5 of it; empty: none
+    double error = 0;                   // of its flywheel [kg·m²]
+    double least = 0, least_at = 0;     // the smallest δ that was found, and its flywheel [kg·m²]
+    int regimes = 0;                    // asked
+  };
+  // By secants over the logarithms of δ and of the inertia, at most eight regimes. `others`: what turns with the flywheel,
+  // on its shaft [kg·m²].
+  Meeting meeting(double delta, const SizedRegime& first, double others, const Effects& effects) const;
+
+ private:
+  const Scene& scene_;
+  Parts parts_;
+  const Watch& watch_;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,181 @@
+// regime_cycle_test.cpp — size and reduce by the steady cycle that a machine really has: closed forms, agreement with
+// the rigid machine where nothing goes beyond it, and the demanded δ in the regime of the sized machine.
+#include "studies/cycle/regime_cycle.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/cycle/classical.h"
+#include "studies/reduce/reduce.h"
+#include "studies/size/size.h"
+#include "tests/published/published.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+RegimeCycle cycle_of_scene(const Scene& scene, const std::vector<int>& nodes = {}) {
+  return regime_cycle(find_regime(compile(scene, scene.effects), {}), nodes);
+}
+
+// A motor drives a fan through a limiter that slips for ever: each side has a speed of its own.
+const char* const slipping = R"(
+line    = ["motor", "limiter", "fan"]
+motor   = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.5 kg*m2" }
+limiter = { kind = "torque limiter", torque = "10 N*m", slipping_part = 0.9 }
+fan     = { kind = "load", quadratic = "0.05 N*m*s2/rad2", inertia = "0.6 kg*m2" }
+)";
+
+// The motor: 60 (1 − ω/40) = 9, the fan: 0.05 ω² = 9.
+TEST(RegimeCycle, LoadBehindASlippingLimiterIsItsLimit) {
+  const MachineReduction r = reduce(test::scene_from(slipping), {});
+  EXPECT_EQ(r.basis, ReduceBasis::regime);
+  const double motor = 34, fan = std::sqrt(9 / 0.05);
+  EXPECT_NEAR(r.speed, motor, 1e-9 * motor);
+  EXPECT_NEAR(r.mean_drive, 9, 1e-9);
+  EXPECT_NEAR(r.mean_load, 9, 1e-9);  // of which the limiter takes the slip's share
+  for (const ReducedPosition& p : r.positions) {
+    EXPECT_NEAR(p.inertia, 0.5 + 0.6 * fan * fan / (motor * motor), 1e-9);
+    EXPECT_NEAR(p.slope, 0, 1e-9);
+  }
+  ReduceOptions to_the_fan;
+  to_the_fan.to = "fan";
+  const MachineReduction behind = reduce(test::scene_from(slipping), to_the_fan);
+  EXPECT_NEAR(behind.to_ratio, fan / motor, 1e-9);
+  EXPECT_NEAR(behind.positions[3].drive, 9 * motor / fan, 1e-8);
+  EXPECT_NEAR(behind.positions[3].inertia, 0.6 + 0.5 * motor * motor / (fan * fan), 1e-8);
+}
+
+// A press on a motor, all rigid: along its cycle the reduced inertia is that of the rigid machine, and the works of
+// drive and load are equal.
+TEST(RegimeCycle, OfARigidMachineHasItsInertiaAndItsLoad) {
+  const Scene scene = test::scene_from(R"(
+line  = ["motor", "press"]
+motor = { kind = "dc shunt motor", stall_torque = "1200 N*m", no_load_speed = "9 rad/s", inertia = "40 kg*m2" }
+press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", rod_mass = "8 kg", rod_com = "70 mm", rod_inertia = "0.05 kg*m2", slider_mass = "80 kg", load = { kind = "press", nominal_force = "60 kN", nominal_travel = "10 mm", rise = "2 mm" } }
+)");
+  EXPECT_TRUE(beyond_the_rigid_machine(scene).empty());
+  const RegimeCycle c = cycle_of_scene(scene);
+  EXPECT_NEAR(c.way(), 2 * pi, 1e-12);
+  RigidMachine machine(scene);
+  for (const double phi : {0.1, 1.3, 2.9, 3.6, 5.2, 6.1}) {
+    const double inertia = machine.constant_inertia() + machine.mechanism_inertia(phi).value;
+    EXPECT_NEAR(c.inertia.value(phi), inertia, 1e-9 * inertia);
+    machine.set_modes(phi, 8);
+    double load = 0;
+    const RigidMachine::At at = machine.at(phi, 8, true);
+    for (std::size_t a = 0; a < at.share.size(); ++a)
+      if (machine.model().accounts[a].kind != Account::driving) load -= at.share[a];
+    EXPECT_NEAR(c.cycle.load.value(phi), load, 1e-7 * 5000) << phi;
+  }
+  EXPECT_NEAR(c.cycle.load.total(), 60e3 * (0.010 - 0.001), 1e-6);
+  EXPECT_NEAR(c.cycle.drive.total(), c.cycle.load.total(), 1e-6);
+  const SteadyRigidCycle exact = steady_rigid_cycle(machine, machine_cycle(machine, 8), 0, 8);
+  EXPECT_NEAR(c.delta(), exact.delta(), 1e-8 * exact.delta());
+  EXPECT_NEAR(c.time, exact.time, 1e-9 * exact.time);
+}
+
+// Either basis gives the same flywheel where the motor's slope is next to nothing: a rectangular load over angle needs
+// ΔA/(ω² δ) with ΔA = (M_1 − M_m) φ_1.
+TEST(RegimeCycle, RectangularLoadNeedsTheFlywheelOfItsArea) {
+  const double high = 300, low = 60, part = 1.0, mean = (high * part + low * (2 * pi - part)) / (2 * pi);
+  const std::string text = fmt::format(R"(
+line   = ["motor", "wheel", "work"]
+motor  = {{ kind = "dc shunt motor", stall_torque = "{} N*m", no_load_speed = "{} rad/s", inertia = "0.1 kg*m2" }}
+wheel  = {{ kind = "flywheel", inertia = "40 kg*m2" }}
+work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], points = [[0, {}], [{}, {}], [{}, {}], [{}, {}]], period = "360 deg" }} }}
+)",
+                                       mean + 20 * 4.0, 20 + mean / 4, high, part, high, test::digits(part + 1e-7), low,
+                                       test::digits(2 * pi), low);
+  SizeOptions options;
+  options.delta = 0.05, options.simulate = false, options.basis = SizeBasis::regime;
+  const Sizing s = size_flywheel(test::scene_from(text), options);
+  EXPECT_EQ(s.basis, SizeBasis::regime);
+  const double area = (high - mean) * part;
+  EXPECT_NEAR(s.diagram.fluctuation(), area, 1e-5 * area);
+  EXPECT_NEAR(s.exact.inertia, area / (s.mid_speed * s.mid_speed * 0.05), 1e-5 * s.exact.inertia);
+  ASSERT_TRUE(s.methods.front().error);
+  EXPECT_LT(*s.methods.front().error, 1e-5 * s.exact.inertia);
+}
+
+// What is said to meet the demanded δ has it: the regime of the scene with that flywheel, from the scene's own start.
+TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
+  for (const char* name : {"gearbox_losses_crank", "rubber_branches_crank", "governor_crank"}) {
+    const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
+    SizeOptions options;
+    options.delta = 0.012;
+    const Sizing s = size_flywheel(scene, options);
+    ASSERT_TRUE(s.complete) << name << s.diagnosis;
+    ASSERT_TRUE(s.meeting) << name << s.meeting_words;
+    ASSERT_TRUE(s.meeting->error && s.reached.back().crank_error) << name;
+    const Scene sized = with_flywheel(scene, s.flywheel, s.meeting->flywheel, s.link);
+    const RegimeCycle c = cycle_of_scene(sized);
+    EXPECT_NEAR(c.delta(), 0.012, 2e-5 * 0.012) << name;
+    EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank_error + 1e-8 * 0.012) << name;
+    // What the work equation leaves out is said with its size.
+    EXPECT_NE(s.notes.back().find("leaves out"), std::string::npos) << name << s.notes.back();
+  }
+}
+
+// A crank far behind a soft shaft swings however heavy the flywheel at the motor is.
+TEST(RegimeCycle, DemandThatNoFlywheelMeetsIsToldWithTheLeast) {
+  Scene scene = test::scene_from(R"(
+line  = ["motor", "wheel", "shaft", "press"]
+motor = { kind = "dc shunt motor", stall_torque = "1200 N*m", no_load_speed = "9 rad/s", inertia = "2 kg*m2" }
+wheel = { kind = "flywheel", inertia = "60 kg*m2" }
+shaft = { kind = "coupling", stiffness = "9 kN*m/rad", damping_ratio = 0.2 }
+press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", slider_mass = "40 kg", load = { kind = "press", nominal_force = "30 kN", nominal_travel = "10 mm", rise = "2 mm" } }
+effects = { elasticity = true }
+)");
+  SizeOptions options;
+  options.delta = 0.02;
+  const Sizing s = size_flywheel(scene, options);
+  EXPECT_FALSE(s.meeting);
+  EXPECT_NE(s.meeting_words.find("no flywheel was found"), std::string::npos) << s.meeting_words;
+  EXPECT_NE(s.meeting_words.find("the least"), std::string::npos);
+}
+
+TEST(RegimeCycle, RefusalsAreOfPhysics) {
+  // Held by nothing: the fan's brake is stronger than the motor.
+  const std::string held = test::with(slipping, "quadratic = \"0.05 N*m*s2/rad2\"", "torque = \"20 N*m\"");
+  const Scene stands =
+      test::scene_from(test::with(held, "torque = \"10 N*m\", slipping_part = 0.9", "torque = \"90 N*m\""));
+  SizeOptions options;
+  options.delta = 0.05;
+  options.basis = SizeBasis::regime;
+  // It turns steadily, and a smooth load needs no flywheel.
+  EXPECT_FALSE(size_flywheel(stands, options).needed);
+  const Scene stalled = test::scene_from(test::with(
+      test::with(held, "torque = \"10 N*m\", slipping_part = 0.9", "torque = \"90 N*m\""), "20 N*m", "70 N*m"));
+  try {
+    size_flywheel(stalled, options);
+    ADD_FAILURE() << "a machine at rest has no cycle";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("rest"), std::string::npos) << error.what();
+  }
+  // Its inertia is what it is.
+  const MachineReduction r = reduce(stalled, {});
+  EXPECT_EQ(r.basis, ReduceBasis::classical);
+  EXPECT_NEAR(r.positions.front().inertia, 1.1, 1e-12);
+  EXPECT_NE(r.notes.front().find("no steady cycle"), std::string::npos);
+}
+
+// The classical basis is one option, and says what it leaves out.
+TEST(RegimeCycle, ClassicalBasisSaysWhatItLeavesOut) {
+  const Scene scene = test::scene_file("tests/agreement/gearbox_losses_crank.toml");
+  SizeOptions options;
+  options.delta = 0.012, options.basis = SizeBasis::classical;
+  const Sizing s = size_flywheel(scene, options);
+  EXPECT_EQ(s.basis, SizeBasis::classical);
+  const auto said = [&](const char* words) {
+    return std::any_of(s.notes.begin(), s.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(said("classical: gear losses"));
+}
+
+}  // namespace
+}  // namespace kurbel
