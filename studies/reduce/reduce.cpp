@@ -340,7 +340,7 @@ class Reducer {
       }
       r_.notes.push_back(fmt::format(
           "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid "
-          "speed {:.6g} rpm) the mean driving torque is {:.6g} N·m instead of {:.6g} N·m, the mean resisting "
+          "speed {}) the mean driving torque is {:.6g} N·m instead of {:.6g} N·m, the mean resisting "
           "torque {:.6g} N·m instead of {:.6g} N·m, and 2T/ω² {}",
           and_effects(), r_.speed_unit.text(c.mid_speed()), c.cycle.drive.mean(), r_.mean_drive, c.cycle.load.mean(),
           r_.mean_load, off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
