@@ -20,10 +20,10 @@ class Reach {
         options_(options),
         others_(s_.motor_inertia + s_.gearbox_inertia + s_.other_inertia),
         start_speed_(start_speed),
-        regimes_(scene, {s_.flywheel, s_.link, s_.motor, options.at}, options.simulation.watch) {}
+        regimes_(scene, parts(sizing, options), options.simulation.watch) {}
 
   void run() {
-    if (!s_.needed) return;
+    if (!s_.needed) return look_without();
     if (s_.basis == SizeBasis::regime)
       return reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, nullptr);
     if (!s_.operating) return reach_family();
@@ -34,6 +34,29 @@ class Reach {
   }
 
  private:
+  // One of a family is there at once, or never: what is elastic takes of a drive that balances the rigid load alone.
+  static SizedRegimes::Parts parts(const Sizing& s, const SizeOptions& options) {
+    SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, options.at};
+    constexpr int few_rounds = 40;
+    if (s.basis == SizeBasis::classical && !s.operating) parts.most_rounds = few_rounds;
+    return parts;
+  }
+
+  // The work equation asks for no flywheel; does the machine as it is keep within δ, too?
+  void look_without() {
+    Effects effects = scene_.effects;
+    const SizedModel as =
+        is_elastic(*compile_at(scene_, effects, options_.at)) ? SizedModel::elastic : SizedModel::rigid;
+    SizedRegime regime = regimes_.at(0, effects, {}, options_.simulation.measure_error);
+    if (!regime.found && s_.flywheel_now > 0)  // a shaft between couplings needs some inertia
+      regime = regimes_.at(s_.flywheel_now, effects, {}, options_.simulation.measure_error);
+    constexpr double missed = 0.01;
+    if (!regime.found || regime.crank <= s_.delta * (1 + missed)) return;
+    s_.reached.push_back(told(regime, as, SizedBy::constant_drive, "no flywheel"));
+    meet(as, regime, effects);
+    s_.needed = true;
+  }
+
   // Torques of the angle alone, in balance: the cycle is the one that energy gives.
   void reach_family() {
     if (std::abs(s_.cycle.drive.mean() / s_.diagram.mean_torque() - 1) > 1e-6) {

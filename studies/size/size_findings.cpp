@@ -27,6 +27,11 @@ const DeltaReached* reached(const Sizing& s, SizedModel model) {
 
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
+  if (s.needed && exact.flywheel <= 0)
+    return fmt::format(
+        "{}: by the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
+        "{:.5g}; {}",
+        s.title, s.delta, s.reached.front().crank, s.meeting_words);
   if (!s.needed)
     return fmt::format(
         "{}: no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title, s.delta,

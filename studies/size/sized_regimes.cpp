@@ -80,6 +80,7 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
     const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
     const RegimeOptions options{.method = sized.run.method == "work" ? "auto" : sized.run.method,
                                 .budget = sized.run.budget,
+                                .most_rounds = parts_.most_rounds,
                                 .interrupted = watch_.interrupted,
                                 .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
     const Regime regime = find_regime(model, options);

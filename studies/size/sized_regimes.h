@@ -34,6 +34,7 @@ class SizedRegimes {
   struct Parts {
     std::string flywheel, on, motor;  // component; link that it is put on if it is not there; empty: no motor
     Moment moment;                    // that the scene is as of
+    int most_rounds = RegimeOptions{}.most_rounds;
   };
   SizedRegimes(const Scene& scene, Parts parts, const Watch& watch)
       : scene_(scene), parts_(std::move(parts)), watch_(watch) {}

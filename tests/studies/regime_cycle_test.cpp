@@ -84,19 +84,18 @@ TEST(RegimeCycle, RectangularLoadNeedsTheFlywheelOfItsArea) {
   const double high = 300, low = 60, part = 1.0, mean = (high * part + low * (2 * pi - part)) / (2 * pi);
   const std::string text = fmt::format(R"(
 line   = ["motor", "wheel", "work"]
-motor  = {{ kind = "dc shunt motor", stall_torque = "{} N*m", no_load_speed = "{} rad/s", inertia = "0.1 kg*m2" }}
+motor  = {{ kind = "dc shunt motor", stall_torque = "{2} N*m", no_load_speed = "{3} rad/s", inertia = "0.1 kg*m2" }}
 wheel  = {{ kind = "flywheel", inertia = "40 kg*m2" }}
-work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], points = [[0, {}], [{}, {}], [{}, {}], [{}, {}]], period = "360 deg" }} }}
+work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], points = [[0, {1}], [0.5, {1}], [0.5001, {0}], [1.5, {0}], [1.5001, {1}], [{4}, {1}]], period = "360 deg" }} }}
 )",
-                                       mean + 20 * 4.0, 20 + mean / 4, high, part, high, test::digits(part + 1e-7), low,
-                                       test::digits(2 * pi), low);
+                                       high, low, mean + 20 * 4.0, 20 + mean / 4, test::digits(2 * pi));
   SizeOptions options;
   options.delta = 0.05, options.simulate = false, options.basis = SizeBasis::regime;
   const Sizing s = size_flywheel(test::scene_from(text), options);
   EXPECT_EQ(s.basis, SizeBasis::regime);
   const double area = (high - mean) * part;
-  EXPECT_NEAR(s.diagram.fluctuation(), area, 1e-5 * area);
-  EXPECT_NEAR(s.exact.inertia, area / (s.mid_speed * s.mid_speed * 0.05), 1e-5 * s.exact.inertia);
+  EXPECT_NEAR(s.diagram.fluctuation(), area, 3e-4 * area);
+  EXPECT_NEAR(s.exact.inertia, area / (s.mid_speed * s.mid_speed * 0.05), 3e-4 * s.exact.inertia);
   ASSERT_TRUE(s.methods.front().error);
   EXPECT_LT(*s.methods.front().error, 1e-5 * s.exact.inertia);
 }
@@ -118,6 +117,20 @@ TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
     // What the work equation leaves out is said with its size.
     EXPECT_NE(s.notes.back().find("leaves out"), std::string::npos) << name << s.notes.back();
   }
+}
+
+// The swing of an elastic belt is none of the work equation's, which asks for no flywheel.
+TEST(RegimeCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
+  const Scene scene = test::scene_file("tests/agreement/belt_elastic_crank.toml");
+  SizeOptions options;
+  options.delta = 0.0317775;
+  const Sizing s = size_flywheel(scene, options);
+  EXPECT_LE(s.methods.front().flywheel, 0);
+  EXPECT_TRUE(s.needed);
+  ASSERT_TRUE(s.meeting) << s.meeting_words;
+  EXPECT_GT(s.meeting->flywheel, 0);
+  EXPECT_NEAR(*s.meeting->delta, *options.delta, 2e-5 * *options.delta);
+  EXPECT_NE(output_of(s).conclusion.find("by the work equation no flywheel is needed"), std::string::npos);
 }
 
 // A crank far behind a soft shaft swings however heavy the flywheel at the motor is.
