@@ -151,6 +151,23 @@ effects = { elasticity = true }
   EXPECT_NE(s.meeting_words.find("the least"), std::string::npos);
 }
 
+// A press that is declutched in the end: while the clutch is in, it has a cycle.
+TEST(RegimeCycle, PressWithItsClutchInIsSizedAsItIsThen) {
+  const Scene scene = test::scene_file("scenes/press_drive.toml");
+  SizeOptions sizing;
+  sizing.delta = 0.03, sizing.simulate = false;
+  EXPECT_THROW(size_flywheel(scene, sizing), std::invalid_argument);
+  sizing.at.after_step = 3;
+  const Sizing s = size_flywheel(scene, sizing);
+  EXPECT_EQ(s.basis, SizeBasis::regime);
+  EXPECT_TRUE(s.needed);
+  ReduceOptions reducing;
+  reducing.at.after_step = 3;
+  const MachineReduction r = reduce(scene, reducing);
+  EXPECT_EQ(r.basis, ReduceBasis::regime);
+  EXPECT_NEAR(r.mean_drive, r.mean_load, 1e-6 * r.mean_load);
+}
+
 TEST(RegimeCycle, RefusalsAreOfPhysics) {
   // Held by nothing: the fan's brake is stronger than the motor.
   const std::string held = test::with(slipping, "quadratic = \"0.05 N*m*s2/rad2\"", "torque = \"20 N*m\"");
