@@ -145,9 +145,9 @@ class Reach {
                             found.regime->crank,
                             found.error};
     s_.meeting_words =
-        fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}: {})", found.regime->flywheel, s_.delta,
+        fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.regime->flywheel, s_.delta,
                     effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",
-                    which, effects.describe());
+                    which, effects.describe() == "none" ? std::string() : ": " + effects.describe());
     s_.reached.push_back(told(*found.regime, as, SizedBy::regime, s_.meeting->name));
   }
 
