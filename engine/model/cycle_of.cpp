@@ -1,4 +1,4 @@
-// cycle_of.cpp — the common period of every element that depends on an angle.
+// cycle_of.cpp — the shortest multiple of a turn that is a period of every element.
 #include "engine/model/cycle_of.h"
 
 #include <algorithm>
@@ -35,15 +35,13 @@ CommonPeriod common_period(const std::vector<double>& periods) {
   return none;
 }
 
-// After which every element that depends on an angle is back; a whole turn of the link where a part of it would do.
+// The shortest multiple of a turn after which every element that depends on an angle is back.
 CyclePeriod cycle_of(const Model& m) {
-  std::vector<double> period;
+  std::vector<double> period = {turn};
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
-  if (period.empty()) return {turn, true};
-  const CommonPeriod common = common_period(period);
-  if (common.value == 0) return {m.cycle > 0 ? m.cycle : turn, false};
-  return {meets(turn, common.value) ? turn : common.value, true};
+  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true};
+  return {m.cycle > 0 ? m.cycle : turn, false};
 }
 
 }  // namespace kurbel

@@ -15,7 +15,7 @@ struct CommonPeriod {
 CommonPeriod common_period(const std::vector<double>& periods);
 
 // Angle of one cycle of the reduction link: 2π; 4π where a four-stroke load says so, n · 2π where gears stand between
-// the link and other elements of an angle (up to 1000 periods of the first of them).
+// the link and other elements of an angle (n ≤ 1000).
 struct CyclePeriod {
   double angle = 0;  // [rad]
   bool periodic = true;

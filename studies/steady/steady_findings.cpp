@@ -12,14 +12,12 @@
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
+#include "studies/steady/steady_words.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-
-std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
-std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
 SpeedUnit speed_unit_of(const SteadyStudy& s) {
   return s.cycles.empty() || !s.cycles.front().model ? SpeedUnit{} : s.cycles.front().model->scene.speed_unit;
@@ -30,79 +28,6 @@ Role role_of(const SteadyCycle& c) { return !is_elastic(*c.model) ? Role::rigid 
 std::string complex_text(std::complex<double> z) {
   if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
   return fmt::format("{:.6g} {} {:.6g} i", z.real(), z.imag() < 0 ? "−" : "+", std::abs(z.imag()));
-}
-
-// --- words ---
-
-std::vector<std::string> words_of(const SteadyCycle& c) {
-  std::vector<std::string> words;
-  if (!c.found) return {fmt::format("NOT found: {}", c.why)};
-  words.push_back(c.stability);
-  if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
-  words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' "
-      "worth "
-      "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
-      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees,
-      c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
-      c.point.rounds, c.point.derivatives, c.cost, c.cost_limit,
-      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; the run-up takes most" : "", 1e3 * c.cpu_seconds,
-      c.point.residual, c.work_residual));
-  if (c.point.grazed)
-    words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
-  for (const MotorUse& m : c.motors)
-    words.push_back(fmt::format("drive \"{}\": torque {} in the mean, {} RMS, {} at most{}", m.component,
-                                with_unit(m.mean, "N*m", 5), with_unit(m.rms, "N*m", 5), with_unit(m.peak, "N*m", 5),
-                                m.rated ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()),
-                                                      with_unit(*m.rated, "N*m", 5))
-                                        : ""));
-  if (!c.added_at.empty())
-    words.push_back(fmt::format("the demanded mid speed needs {} N·m beside the scene's drive at \"{}\"{}",
-                                number(c.added_torque), c.added_at,
-                                std::abs(c.added_torque) < 1e-6 * c.model->torque_scale
-                                    ? ": nothing, the machine has a cycle of this speed as it is"
-                                    : ""));
-  return words;
-}
-
-// Rounding of differences beside the other slope reads as zero.
-std::string beside(double value, double other) {
-  return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value, 4);
-}
-
-std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
-  if (!s.diagram) return {"no operating diagram: " + s.no_diagram};
-  std::vector<std::string> words;
-  const OperatingDiagram& d = *s.diagram;
-  for (const OperatingPoint& p : d.points)
-    words.push_back(
-        fmt::format("operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                    with_error(d.speed_unit.of(p.mean.omega), d.speed_unit.of(p.speed_error), d.speed_unit.name),
-                    with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
-                    beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
-  if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {}), {}",
-                                with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
-                                std::isfinite(d.margin(*p))
-                                    ? with_error(d.margin(*p), d.margin_error(*p), "") + " times what it needs"
-                                    : "and it needs nothing"));
-  if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
-  return words;
-}
-
-std::vector<std::string> words_of_start(const SteadyStudy& s) {
-  std::vector<std::string> words;
-  if (s.start)
-    words.push_back(s.start->reached ? fmt::format("start: from rest to 95 % of the steady speed in {}",
-                                                   with_error(s.start->time, s.start->error, "s"))
-                                     : "start: " + s.start->why);
-  for (const RatioSearch& r : s.ratios)
-    words.push_back(fmt::format(
-        "fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
-        r.at_bound ? " (the end of what was tried)" : "", with_unit(r.best_time, "s", 5),
-        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present, 5), with_unit(r.present_time, "s", 5))
-                           : fmt::format("with its ratio of {} the machine does not start", number(r.present, 5))));
-  return words;
 }
 
 // --- figures and multipliers ---
@@ -156,7 +81,7 @@ auto multiplier_table(const SteadyCycle& c) {
       .only_for_programs("error", error)
       .only_for_people("halves in cycles", [&](std::size_t i) {
         const double size = std::abs(all[i]);
-        return size < 1 - 1e-6 && size > 0 ? number(std::log(2.0) / -std::log(size), 4) : std::string("—");
+        return size < 1 - 1e-6 && size > 0 ? fmt::format("{:.4g}", std::log(2.0) / -std::log(size)) : std::string("—");
       });
 }
 

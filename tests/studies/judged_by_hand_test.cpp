@@ -74,7 +74,7 @@ run = {{ until = "1 s", start = {{ on = "mill", speed = "{} rad/s" }} }}
     // About either point −5 N·m·s/rad: a linear machine under a sine.
     const double middle = link < 25 ? 10 : 40, inertia = 0.8 + 1.5 / 6.25, omega = 8 * pi;
     const double swing = 3 / std::hypot(5, omega * inertia);
-    const Figure *most = c.find("max_speed.drive"), *least = c.find("min_speed.drive");
+    const Figure *most = c.find("cycle_max_speed.drive"), *least = c.find("cycle_min_speed.drive");
     ASSERT_TRUE(most && least);
     EXPECT_NEAR(most->value, middle + swing, 1e-8);
     EXPECT_NEAR(least->value, middle - swing, 1e-8);

@@ -1,0 +1,15 @@
+// steady_words.h — what is said of steady cycles, operating points and starts in sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/steady/steady.h"
+
+namespace kurbel {
+
+std::vector<std::string> words_of(const SteadyCycle& cycle);
+std::vector<std::string> words_of_diagram(const SteadyStudy& study);
+std::vector<std::string> words_of_start(const SteadyStudy& study);
+
+}  // namespace kurbel
