@@ -45,7 +45,7 @@ class Newton {
 
   void iterate() {
     while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
-      const Progress progress = advance(limited(-solver_.solve(residual_)));
+      const Progress progress = advance(-solver_.solve(residual_));
       if (progress == Progress::ended) return;
       if (progress == Progress::floor) break;
     }
@@ -67,15 +67,17 @@ class Newton {
   // One step, halved while it does not pay; with a kept derivative only the whole step is tried. Steps are judged by
   // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
   // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
-  Progress advance(const Eigen::VectorXd& step) {
-    const Eigen::VectorXd from = x_, residual_from = residual_;
-    const double norm_from = norm_, length = step.cwiseAbs().maxCoeff();
+  Progress advance(const Eigen::VectorXd& whole) {
+    const Eigen::VectorXd from = x_, residual_from = residual_, step = limited(whole);
+    const double norm_from = norm_, wanted = whole.cwiseAbs().maxCoeff();
+    const double length = std::isfinite(wanted) ? wanted : step.cwiseAbs().maxCoeff();
+    const double taken = step.cwiseAbs().maxCoeff() / length;  // of what Newton would have
     const bool fresh = at_ == x_;
     for (double part = 1; part > 0.02; part *= 0.5) {
       const Eigen::VectorXd trial = from + part * step;
       if (evaluate(trial, false)) {
         const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
-        if (contraction < 1 - 0.25 * part) {
+        if (contraction < 1 - 0.25 * part * taken) {
           x_ = trial;
           if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
           return evaluate(x_, true) ? Progress::made : Progress::ended;

@@ -43,5 +43,18 @@ TEST(Newton, EvaluatesLastAtTheSolutionWithDerivative) {
   EXPECT_GT(solved, 150);
 }
 
+// Steps have a greatest length; a far solution is reached by several of them, each of which counts as progress.
+TEST(Newton, ReachesAFarSolutionByLimitedSteps) {
+  NewtonSystem system;
+  system.evaluate = [](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
+    residual = Eigen::VectorXd::Constant(1, 2e-4 * (x[0] - 3));  // a machine that settles slowly
+    if (derivative) *derivative = Eigen::MatrixXd::Constant(1, 1, 2e-4);
+    return true;
+  };
+  const NewtonOutcome out = solve(system, Eigen::VectorXd::Zero(1), 1e-12);
+  ASSERT_TRUE(out.found) << out.why;
+  EXPECT_NEAR(out.x[0], 3, 1e-7);
+}
+
 }  // namespace
 }  // namespace kurbel
