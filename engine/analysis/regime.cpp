@@ -125,9 +125,14 @@ class Search {
     const double omega = link_speed(), patience = 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale);
     const std::size_t angle = at(m_.reduction_angle);
     const double begin = equations_.angle_with_turns(angle, state_.y);
+    const bool by_time = period_.by_time && is_settled();
+    const bool aligning = by_time && !aligned_;  // rounds begin at whole periods of time
+    const double periods = std::floor(state_.t / round_time() + 1e-9) + 1;
     RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
                    .method = options_.method,
-                   .until = state_.t + (period_.by_time && is_settled() ? round_time() : patience_factor_ * patience),
+                   .until = aligning  ? periods * round_time()
+                            : by_time ? state_.t + round_time()
+                                      : state_.t + patience_factor_ * patience,
                    .budget = options_.budget,
                    .interrupted = options_.interrupted,
                    .progress = {}};
@@ -146,13 +151,14 @@ class Search {
     }
     const Pace now = pace();
     if (now.speed > far_beyond) return run_away(now.speed);
-    const bool round = outcome.stopped || (period_.by_time && run.until - before.t <= round_time() * (1 + 1e-12));
+    const bool round = outcome.stopped || by_time;
+    aligned_ = aligned_ || by_time;
     events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
     if (std::ssize(events_) > most_remembered) events_.erase(events_.begin(), events_.end() - most_remembered);
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now);
     patience_factor_ = 1;
-    if (is_settled() && !m_.scene.sequence.repeat) look(before, now);
+    if (is_settled() && !aligning && !m_.scene.sequence.repeat) look(before, now);
   }
 
   // The link did not come round.
@@ -343,7 +349,7 @@ class Search {
   Periodicity period_;
   State state_;
   Regime out_;
-  bool done_ = false;
+  bool done_ = false, aligned_ = false;
   double patience_factor_ = 1;
   int settled_rounds_ = 0, next_trial_ = 1;
   std::string why_not_, changes_most_;

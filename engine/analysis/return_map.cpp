@@ -84,7 +84,8 @@ void ReturnMap::take_period(const Periodicity& periodicity) {
         "where it matters least (--effects), or simulate with kurbel run",
         most_unknowns, unknowns));
   periodicity_ = periodicity;
-  variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty();
+  // Joints with friction have a Jacobian that is near enough for steps, not for derivatives.
+  variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty() && !m.effects.joint_friction;
   set_pace(m.speed_scale);
 }
 

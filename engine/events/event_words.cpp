@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace kurbel {
@@ -109,12 +110,15 @@ Event restless_event(double t, const std::string& owners, std::size_t events, do
 }
 
 std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding) {
+  constexpr double rounding = 1e-8;  // of what is held: nothing acts
+  const bool nothing = std::abs(holding.acts) <= rounding * std::max(std::abs(holding.backwards), holding.forwards);
+  const double acts = nothing ? 0 : holding.acts;
   const auto side = [&](double limit, const char* way) {
-    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it locks itself", way)
-                                               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way,
-                                                             limit, std::abs(limit - holding.acts));
+    return std::abs(limit) > holding.unbounded
+               ? fmt::format("{}: it locks itself", way)
+               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way, limit, std::abs(limit - acts));
   };
-  return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, holding.acts,
+  return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, acts,
                      side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
 }
 

@@ -23,8 +23,9 @@ constexpr double slowest_of_rated = 1e-6;  // below that the link stands
 // Channels: time shares … of the accounts, then speed, kinetic energy, speeds of nodes; nodes of a piece per step.
 class RoundRecorder final : public Observer {
  public:
-  RoundRecorder(const Model& m, double sense, const std::vector<int>& nodes)
-      : m_(m), sense_(sense), nodes_(nodes), samples_(m.accounts.size() + 2 + nodes.size()) {}
+  // `origin`: angle from which the way counts [rad].
+  RoundRecorder(const Model& m, double sense, double origin, const std::vector<int>& nodes)
+      : m_(m), sense_(sense), origin_(origin), nodes_(nodes), samples_(m.accounts.size() + 2 + nodes.size()) {}
 
   void begin(double, std::span<const double> y, Equations& equations) override { breaks_ = {way(equations, y)}; }
   void step(StepView& view) override {
@@ -50,7 +51,7 @@ class RoundRecorder final : public Observer {
 
  private:
   double way(Equations& equations, std::span<const double> y) const {
-    return sense_ * equations.angle_with_turns(at(m_.reduction_angle), y);
+    return sense_ * (equations.angle_with_turns(at(m_.reduction_angle), y) - origin_);
   }
   // Where the link has gone so far, within the step.
   double time_at(StepView& view, double s) const {
@@ -83,11 +84,11 @@ class RoundRecorder final : public Observer {
     if (!singular_.empty()) return;
     singular_ = fmt::format("\"{}\" {} within its steady motion, at {:.4g}°", m_.node_label(m_.reduction_node),
                             speed < -slowest_of_rated * m_.speed_scale ? "turns back" : "stands",
-                            sense_ * way(equations, y_) * 180 / std::numbers::pi);
+                            (sense_ * way(equations, y_) + origin_) * 180 / std::numbers::pi);
   }
 
   const Model& m_;
-  double sense_;
+  double sense_, origin_;
   const std::vector<int>& nodes_;
   std::vector<double> breaks_, edges_, y_, rate_;
   std::vector<std::vector<double>> samples_;
@@ -170,7 +171,10 @@ RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
   const double omega = link.gain * equations.snapshot(map.start_time(), y).now.speed[link.shaft];
   const double sense = omega < 0 ? -1 : 1;
-  RoundRecorder recorder(m, sense, nodes);
+  // Where time alone drives, the link may stand anywhere when a period begins: there its way is 0.
+  const bool anywhere = map.periodicity().by_time && !map.periodicity().angle_matters;
+  const double origin = anywhere ? equations.angle_with_turns(at(m.reduction_angle), y) : 0;
+  RoundRecorder recorder(m, sense, origin, nodes);
   const RunOutcome outcome = integrate(equations, run, {&recorder});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())

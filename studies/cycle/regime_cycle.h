@@ -12,7 +12,8 @@
 
 namespace kurbel {
 
-// Over the way s of the reduction link in its own sense of rotation, from its angle 0 on: the angle is sense · s.
+// Over the way s of the reduction link in its own sense of rotation, from its angle 0 on: the angle is sense · s. Where
+// time alone drives and no law reads an angle, s = 0 is where the period of time begins.
 struct RegimeCycle {
   double sense = 1;               // ±1, of the link's rotation
   double time = 0;                // of the round [s]

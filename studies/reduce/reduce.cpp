@@ -61,8 +61,7 @@ class Reducer {
 
   MachineReduction run() {
     choose_basis();
-    const Model& m = model();
-    r_.link = m.node_label(m.reduction_node);
+    r_.link = model().node_label(model().reduction_node);
     choose_target();
     if (machine_) {
       r_.cycle = machine_->cycle();
@@ -70,6 +69,7 @@ class Reducer {
     } else {
       find_cycle();
     }
+    const Model& m = model();  // without a cycle it is another one
     for (const WorkAccount& account : m.accounts)
       r_.accounts.push_back(fmt::format("{} ({})", account.name, name_of(account.kind)));
     r_.constant_inertia = on_link() / square(r_.to_ratio);

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/analysis/periodicity.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "studies/reduce/reduce.h"
@@ -202,7 +203,9 @@ class Comparison {
     ReduceOptions options;
     options.positions = number;
     const MachineReduction reduced = reduce(scene_, options);
-    compare_energies(reduced, places_of(run_, reduced.cycle, number));
+    // Where time alone drives, the link's angle has no place in the cycle.
+    const Periodicity laws = periodicity_of(*compile(scene_, scene_.effects));
+    if (!laws.by_time || laws.angle_matters) compare_energies(reduced, places_of(run_, reduced.cycle, number));
     if (std::abs(run_.angle) < 1e-9) return;  // the link stands
     double driving = 0, resisting = 0, error = 0;
     for (const Measured& m : run_.figures) {
