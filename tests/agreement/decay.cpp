@@ -17,7 +17,8 @@ constexpr int most_periods = 14;      // followed
 constexpr int most_modes = 4;         // told apart
 constexpr std::size_t few = 6;
 constexpr double unseen = 0.03;
-constexpr double fits_well = 1e-3;  // part of a deviation that a recurrence leaves
+constexpr double fits_well = 1e-3;   // part of a deviation that a recurrence leaves
+constexpr double fits_badly = 0.05;  // then it tells no factor
 
 std::vector<Passing> passings_from(const SettledRun& run, const Checkpoint& from, double periods, Passings::Of of,
                                    double base, bool energies) {
@@ -99,12 +100,14 @@ Decay decay_of(const SettledRun& run) {
   decay.factor = std::pow(seen / part, 1.0 / static_cast<double>(d.size() + 1));
   Fit best;
   int order = 0;
-  for (int p = 1; p <= most_modes && 2 * static_cast<std::size_t>(p) + 2 <= d.size(); ++p) {
+  const Model& m = *run.model;
+  const int unknowns = static_cast<int>(m.elastic.size() + m.free_shafts + m.own_states.size());  // no more modes
+  for (int p = 1; p <= std::min(most_modes, unknowns) && 2 * static_cast<std::size_t>(p) + 2 <= d.size(); ++p) {
     const Fit fit = recurrence(d, 0, p);
     if (order == 0 || fit.left < best.left) best = fit, order = p;
     if (fit.left < fits_well) break;
   }
-  if (order == 0) return decay;
+  if (order == 0 || best.left > fits_badly) return decay;
   decay.measured = true;
   decay.factor = best.factor;
   decay.error = std::abs(best.factor - recurrence(d, 1, order).factor) + best.factor * (best.left + 10 * part) +
