@@ -28,7 +28,7 @@ std::string block_after(const std::string& text, const std::string& words) {
 
 // The scene on the first screen of README.md runs as it stands, and what the page says of it is true: rows of
 //     peak_torque.main_coupling   6344.42528 ± 0.00002   7663.59302 ± 0.00004   N·m   1.208
-// name, rigid, its error, elastic, its error.
+// name, rigid, its error, elastic, its error, unit.
 TEST(Documents, SceneOfTheReadmeRunsAndItsAnswerIsThatOfTheProgram) {
   std::ifstream in(test::source_path("README.md"));
   std::stringstream text;
