@@ -281,13 +281,14 @@ class Search {
     if (options_.traces) follow();
   }
 
-  // The same search with looser tolerances; what it finds otherwise is the error. A member of a family is kept as it
+  // The same search with looser tolerances; what it finds otherwise is the error. What the run alone came to, and a
+  // member of a family, is kept as it
   // is: there the looser search would settle beside it.
   void measure_errors(Round& fine) {
     ReturnMap loose(out_.model, map_options(looser_tolerance));
     loose.follow(*map_);
     SteadyPoint point = out_.point;
-    if (!out_.neutral && !options_.mid_speed) point = find_steady(loose, out_.point.z, enough * 100);
+    if (!out_.neutral && !out_.uncertain && !options_.mid_speed) point = find_steady(loose, out_.point.z, enough * 100);
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
