@@ -226,6 +226,30 @@ class Search {
     out_.polished = out_.stable = false;
   }
 
+  // On to the middle of the widest gap between the events of the last period: a round must not begin with one.
+  bool go_where_least_happens(double last, double period) {
+    std::vector<double> times;
+    for (const Event& e : events_)
+      if (e.t > last - (1 - 1e-6) * period && e.t <= last) times.push_back(e.t);
+    std::sort(times.begin(), times.end());
+    times.push_back(times.front() + period);
+    std::size_t widest = 0;
+    for (std::size_t i = 0; i + 1 < times.size(); ++i)
+      if (times[i + 1] - times[i] > times[widest + 1] - times[widest]) widest = i;
+    const double quiet = 0.5 * (times[widest] + times[widest + 1]);
+    RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
+                   .method = options_.method,
+                   .until = quiet + period * std::ceil((state_.t - quiet) / period + 1e-6),
+                   .budget = options_.budget,
+                   .interrupted = options_.interrupted,
+                   .progress = {}};
+    run.from = {state_.t, state_.y};
+    equations_.bind(state_.modes);
+    const RunOutcome outcome = integrate(equations_, run, {});
+    if (outcome.complete) state_ = {outcome.t, outcome.state, equations_.modes()};
+    return outcome.complete;
+  }
+
   // The same event again and again after the same time, with the whole state: so many events may lie between.
   bool find_own_period() {
     constexpr std::size_t most_between = 8;
@@ -243,6 +267,7 @@ class Search {
       if (!(period > 0) || std::abs(period - before) > same_time * period) continue;
       const auto map = std::make_shared<ReturnMap>(shared_, map_options(), period);
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
+      if (!go_where_least_happens(times[0], period)) return false;
       period_.by_time = true;
       const double of_laws = std::exchange(period_.time, period);
       rest_on_run(map);
