@@ -103,6 +103,7 @@ void ReturnMap::go_through(State state, std::vector<char> sticks_throughout, dou
 }
 
 void ReturnMap::follow(const ReturnMap& other) {
+  periodicity_ = other.periodicity_;  // which may be one of its own motion
   section_ = other.section_;
   section_angle_ = other.section_angle_;
   sense_ = other.sense_;

@@ -46,7 +46,7 @@ class ReturnMap {
   const PoincareSection& section() const { return *section_; }
   std::size_t size() const { return section_->size(); }
   double section_angle() const { return section_angle_; }  // φ₀ [rad]
-  // Takes section, sense of rotation and limits over from a map of a like machine.
+  // Takes section, period, sense of rotation and limits over from a map of a like machine.
   void follow(const ReturnMap& other);
 
   enum class End { returned, stands, turns_back, too_slow, failed, interrupted };

@@ -219,6 +219,21 @@ TEST(Steady, WhatIsSwitchedIsSwitched) {
   EXPECT_NEAR(value_of(running.cycles[0], "mean_speed.motor"), 30, 1e-8);
 }
 
+// A clutch that is let go and put in again once a second: the period is that of the sequence, and its figures are sure.
+TEST(Steady, SequenceThatRepeatsGivesThePeriod) {
+  const Scene scene = scene_from(
+      "line = [\"motor\", \"clutch\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", "
+      "no_load_speed = \"40 rad/s\", inertia = \"0.5 kg*m2\" }\nclutch = { kind = \"clutch\", torque = \"30 N*m\" }\n"
+      "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n[sequence]\nrepeat = true\nsteps = [{ "
+      "after = \"0.5 s\", set = \"clutch\", to = 0 }, { after = \"0.5 s\", set = \"clutch\", to = 1 }]\n");
+  const SteadyStudy study = steady(scene, {Effects{}}, {.start_search = false});
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  const SteadyCycle& c = study.cycles[0];
+  EXPECT_NEAR(c.cycle_time, 1, 1e-9);
+  for (const Figure& f : c.figures)
+    EXPECT_LT(f.error.value_or(HUGE_VAL), 1e-6 * std::max(f.scale, std::abs(f.value))) << f.name;
+}
+
 // A press drive stands with its clutch out in the end; after its second step, brake off and clutch still out, as well.
 TEST(Steady, StepsOfASequenceAreCountedFromOne) {
   const Scene scene = scene_file("scenes/dc_hoist.toml");
