@@ -19,7 +19,7 @@ struct Moment {
 // The scene with steps of its sequence that come later left waiting for ever. Of a time the run itself tells how many
 // steps come before. Throws std::invalid_argument in words where there is no such step.
 Scene as_of(const Scene& scene, const Effects& effects, const Moment& moment);
-// Its network, whose sources and loads stay as they are at that time.
+// Its network, whose windows stay open or shut as they are at that time; laws over time themselves go on.
 Network network_as_of(const Scene& scene, const Moment& moment);
 
 }  // namespace kurbel

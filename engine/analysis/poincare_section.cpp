@@ -213,6 +213,7 @@ class PoincareSection::Maker {
     equations_.flow(t, y, apart);
     double together = 0, alone = 0;
     for (std::size_t i = 0; i < equations_.state_count(); ++i) {
+      if (!std::isfinite(there[i] - here[i]) || !std::isfinite(apart[i] - here[i])) return false;
       together = std::max(together, std::abs(there[i] - here[i]));
       alone = std::max(alone, std::abs(apart[i] - here[i]));
     }

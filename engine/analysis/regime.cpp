@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -36,7 +37,11 @@ class Search {
     state_.t = 0;
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
-    while (!done_ && out_.rounds < options_.most_rounds) go_on();
+    try {
+      while (!done_ && out_.rounds < options_.most_rounds) go_on();
+    } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
+      end(Regime::Kind::failed, error.what());
+    }
     if (!done_) drift();
     out_.cost += static_cast<double>(out_.rounds) + map_->cost();
     if (out_.state.y.empty()) out_.state = state_;
@@ -102,7 +107,8 @@ class Search {
       pace.speed =
           std::max(pace.speed, std::abs(equations_.snapshot(state_.t, y).now.speed[s]) / m_.shafts[s].speed_scale);
     const auto consider = [&](std::size_t state, double scale) {
-      pace.rate = std::max(pace.rate, std::abs(rate[state]) / (scale * m_.speed_scale));
+      const double here = std::abs(rate[state]) / (scale * m_.speed_scale);
+      pace.rate = std::isfinite(here) ? std::max(pace.rate, here) : HUGE_VAL;  // no number where joints jam
     };
     for (std::size_t k = 0; k < m_.elastic.size(); ++k)
       if (!m_.elastic[k].slips && !m_.elastic[k].springless)
@@ -202,7 +208,7 @@ class Search {
     next_trial_ = 2 * settled_rounds_;
     const double came_near = out_.still_changes;
     polish();
-    if (!done_ && came_near <= enough_by_run) rest_on_run(new_map());
+    if (!done_ && !found_unstable_ && came_near <= enough_by_run) rest_on_run(new_map());
   }
 
   ReturnMapOptions map_options() const {
@@ -222,6 +228,7 @@ class Search {
     point.rounds = 1;
     if (round.end != ReturnMap::End::returned || point.residual > 10 * enough_by_run) return spend(*map);
     point.found = true;
+    spend(*map);
     accept(map, point);
     out_.polished = out_.stable = false;
   }
@@ -284,6 +291,7 @@ class Search {
   }
 
   void polish() {
+    found_unstable_ = false;
     const auto map = new_map();
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
@@ -306,6 +314,7 @@ class Search {
     if (point.z.size() == 0) return true;
     const double distance = point.z.cwiseAbs().maxCoeff();
     if (point.largest() > 1 + neutral && !point.grazed) {
+      found_unstable_ = true;
       why_not_ = fmt::format("the motion that Newton's method finds is unstable (multiplier {:.3g})", point.largest());
       return false;
     }
@@ -378,7 +387,7 @@ class Search {
   double patience_factor_ = 1;
   int settled_rounds_ = 0, next_trial_ = 1;
   std::string why_not_, changes_most_;
-  bool angle_changes_most_ = false;
+  bool angle_changes_most_ = false, found_unstable_ = false;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
   std::vector<Event> events_;   // the last ones
   std::size_t looked_at_ = 0;

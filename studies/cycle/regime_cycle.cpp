@@ -32,7 +32,13 @@ class RoundRecorder final : public Observer {
     Equations& equations = view.equations();
     const double from = breaks_.back(), to = way(equations, view.y());
     if (view.begins_anew()) edges_.push_back(from);
-    if (to - from < shortest) return;
+    if (to - from < shortest) {  // it stands, or turns back
+      if (to - from < slowest_of_rated * m_.speed_scale * (view.t() - view.t_previous())) {
+        y_.assign(view.y().begin(), view.y().end());
+        refuse(equations, to - from < -shortest ? -m_.speed_scale : 0);
+      }
+      return;
+    }
     breaks_.push_back(to);
     for (std::size_t k = 0; k < Piecewise::nodes; ++k) {
       const double s = from + 0.5 * (to - from) * (1 + Piecewise::node(k));

@@ -187,6 +187,8 @@ class Search {
       cost_ += regime.cost;
       guess.why = "its own start does not lead to a cycle: " + regime.words;
       if (!regime.repeats()) return guess;
+      if (regime.map->periodicity().by_time)
+        throw std::invalid_argument("--mid-speed: a sequence that repeats gives the period, so the speed is not free");
       map_ = regime.map;
       guess.end = ReturnMap::End::returned;
       guess.z = regime.point.z;
