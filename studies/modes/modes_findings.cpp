@@ -96,14 +96,17 @@ Rows mode_table(const ModesStudy& m) {
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",
-                           [](const Mode& mode) { return std::vector<double>(mode.shape.begin(), mode.shape.end()); })
+                           [&](const Mode& mode) {
+                             const Eigen::VectorXd shape = shaft_shape(m, mode);
+                             return std::vector<double>(shape.begin(), shape.end());
+                           })
         .only_for_programs("potential_energy", [](const Mode& mode) { return mode.shares.joint; })
-        .only_for_programs("kinetic_energy", [](const Mode& mode) { return mode.shares.coordinate; });
+        .only_for_programs("kinetic_energy", [](const Mode& mode) { return mode.shares.shaft; });
   return table
       .only_for_people("twist energy in",
                        [&](const Mode& mode) { return largest_shares(mode.shares.joint, m.joint_names); })
       .only_for_people("kinetic energy in",
-                       [&](const Mode& mode) { return largest_shares(mode.shares.coordinate, m.shaft_names); });
+                       [&](const Mode& mode) { return largest_shares(mode.shares.shaft, m.shaft_names); });
 }
 
 Rows response_table(const ModesStudy& m) {
@@ -256,15 +259,15 @@ Record history_record(const TorqueHistory& h) {
 
 std::string shapes_csv(const ModesStudy& m) {
   const std::vector<std::size_t> shafts = numbers_below(m.shaft_names.size());
-  auto csv =
-      csv_of(shafts)
-          .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
-          .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
-          .column("inertia [kg*m2]", [&](std::size_t i) { return m.drive.inertia[static_cast<Eigen::Index>(i)]; });
+  auto csv = csv_of(shafts)
+                 .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
+                 .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
+                 .column("inertia [kg*m2]",
+                         [&](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
   for (const Mode& mode : m.modes)
     csv.column(
         fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)),
-        [&mode](std::size_t i) { return mode.shape[static_cast<Eigen::Index>(i)]; }, 9);
+        [shape = shaft_shape(m, mode)](std::size_t i) { return shape[static_cast<Eigen::Index>(i)]; }, 9);
   return csv.text();
 }
 

@@ -48,11 +48,13 @@ Plot shape_plot(const ModesStudy& m) {
              .role = further_role(k),
              .x = {},
              .y = {}};
-    s.points = m.drive.size() <= 60;
+    const Eigen::VectorXd shape = shaft_shape(m, m.modes[k]);
+    s.points = shape.size() <= 60;
     double largest = 0;
-    for (Eigen::Index i = 0; i < m.drive.size(); ++i) {
+    for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      const double ratio = m.drive.ratio[static_cast<std::size_t>(i)];
       s.x.push_back(static_cast<double>(i + 1));
-      s.y.push_back(m.modes[k].shape[i] / m.drive.ratio[static_cast<std::size_t>(i)]);
+      s.y.push_back(ratio != 0 ? shape[i] / ratio : shape[i]);
       if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
     }
     for (double& y : s.y) y /= largest;
@@ -71,7 +73,7 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
             .bars = true};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k), .x = {}, .y = {}};
-    const std::vector<double>& share = kinetic ? m.modes[k].shares.coordinate : m.modes[k].shares.joint;
+    const std::vector<double>& share = kinetic ? m.modes[k].shares.shaft : m.modes[k].shares.joint;
     for (std::size_t i = 0; i < share.size() && i < 200; ++i) {
       s.x.push_back(static_cast<double>(i + 1));
       s.y.push_back(100 * share[i]);
