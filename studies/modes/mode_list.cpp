@@ -112,7 +112,7 @@ void find_frozen_range(int count, ModesStudy& found) {
   for (int i = 0; i < frozen_angles; ++i) {
     LinearisationPoint point = found.drive.at;
     point.angle = cycle * (i + 0.5) / frozen_angles;
-    const UndampedModes held = undamped_modes(linearise(m, point), {.count = count});
+    const UndampedModes held = undamped_modes(linearise(found.drive.model, point), {.count = count});
     for (std::size_t k = 0; k < springs.size(); ++k) {
       const Eigen::Index place = held.rigid + static_cast<Eigen::Index>(k);
       if (place >= held.omega.size()) break;

@@ -87,8 +87,9 @@ class Study {
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
     note_unsteady_motion();
-    if (samples_ && !options_.speed)
-      found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
+    if (!samples_ || options_.speed) return;
+    found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
+    found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
   void find_regime_cycle() {
