@@ -21,6 +21,7 @@ constexpr std::size_t many_shafts = 500, time_samples = 2048;
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
 constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
+constexpr double strong = 0.05;  // of the strongest order of the same torque
 constexpr std::size_t few_speeds = 3, more_speeds = 9;
 
 // One place where something may be left over, with its samples.
@@ -130,8 +131,8 @@ const OrderSource* find(const Orders& orders, const OrderSource& like) {
 
 class Search {
  public:
-  Search(const LinearDrive& drive, double fastest, double highest_order)
-      : drive_(drive), m_(*drive.model), fastest_(fastest), highest_order_(highest_order) {}
+  Search(const LinearDrive& drive, double fastest, double highest_order, bool further)
+      : drive_(drive), m_(*drive.model), fastest_(fastest), highest_order_(highest_order), further_(further) {}
 
   Excitations find_all() {
     BaseMotion base(drive_.model, drive_.at);
@@ -165,7 +166,7 @@ class Search {
       found_.notes.push_back(
           "no multiple of a turn is a period of all that depends on an angle: orders are those of the "
           "reduction link's own cycle, and what does not fit it is smeared over them");
-    if (drive_.at.speed != 0) found_.here = orders_of(drive_, base, samples_, found_.harmonics);
+    if (drive_.at.speed != 0) look_here(base);
     sample_speeds(few_speeds);
     if (found_.misfit > misfit_refined) sample_speeds(more_speeds);
     if (found_.misfit > misfit_told)
@@ -173,6 +174,23 @@ class Search {
           "excitation over the cycle is no smooth function of the speed: between the speeds at which it was "
           "found the orders are off by up to {:.1g} of the largest",
           found_.misfit));
+  }
+
+  void look_here(BaseMotion& base) {
+    const std::size_t usual = found_.harmonics, all = further_ ? std::max(usual, samples_ / 8) : usual;
+    found_.here = orders_of(drive_, base, samples_, all);
+    found_.counts.assign(all + 1, 0);
+    std::fill(found_.counts.begin(), found_.counts.begin() + static_cast<std::ptrdiff_t>(usual) + 1, 1);
+    for (const OrderSource& source : found_.here) {
+      const std::vector<Complex>& values = source.values.front();
+      double strongest = 0;
+      for (std::size_t r = 1; r <= all; ++r) strongest = std::max(strongest, std::abs(values[r]));
+      for (std::size_t r = usual + 1; r <= all && source.kind == LeftOver::torque; ++r)
+        if (std::abs(values[r]) > strong * strongest)
+          found_.counts[r] = 1, found_.harmonics = std::max(found_.harmonics, r);
+    }
+    found_.counts.resize(found_.harmonics + 1);
+    for (OrderSource& source : found_.here) source.values.front().resize(found_.harmonics + 1);
   }
 
   // At evenly spaced speeds up to the fastest, checked between the first two thirds.
@@ -291,6 +309,7 @@ class Search {
   const LinearDrive& drive_;
   const Model& m_;
   double fastest_, highest_order_;
+  bool further_;
   std::size_t samples_ = 0;
   Excitations found_;
 };
@@ -329,8 +348,8 @@ double Excitations::strength(std::size_t harmonic, double w) const {
   return sum;
 }
 
-Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order) {
-  return Search(drive, fastest, highest_order).find_all();
+Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order, bool further) {
+  return Search(drive, fastest, highest_order, further).find_all();
 }
 
 std::shared_ptr<const Eigen::VectorXd> mean_missed(const LinearDrive& drive, const Excitations& excitations,

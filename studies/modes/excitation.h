@@ -58,6 +58,7 @@ struct GearMesh {
 struct Excitations {
   double fundamental = 1;             // order of the first harmonic: ½ for a cycle of two turns
   std::size_t harmonics = 0;          // counted from 1
+  std::vector<char> counts;           // per harmonic: among those that are looked at; empty: all
   std::vector<OrderSource> by_order;  // over a range of speeds
   std::vector<OrderSource> here;      // at the speed of the drive
   double speed = 0;                   // that one [rad/s]
@@ -66,14 +67,16 @@ struct Excitations {
   double misfit = 0;  // of the interpolation, over the largest amplitude
   std::vector<std::string> notes;
 
+  bool is_looked_at(std::size_t harmonic) const { return counts.empty() || counts[harmonic]; }
   double order(std::size_t harmonic) const { return fundamental * static_cast<double>(harmonic); }
   const std::vector<OrderSource>& at_speed(double w) const { return w == speed && !here.empty() ? here : by_order; }
   // Σ of the torques' magnitudes on the coordinates [N·m].
   double strength(std::size_t harmonic, double speed) const;
 };
 
-// Harmonics up to highest_order, for speeds from 0 to fastest [rad/s]; fastest < 0: the machine turns backwards.
-Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order);
+// Harmonics up to highest_order, for speeds from 0 to fastest [rad/s]; fastest < 0: the machine turns backwards. `further`:
+// and those beyond it that are strong at the drive's own speed, such as of meshing teeth.
+Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order, bool further = false);
 
 // Per coordinate: mean torque that coarse averages of the base motion miss at this speed [N·m].
 std::shared_ptr<const Eigen::VectorXd> mean_missed(const LinearDrive& drive, const Excitations& excitations,

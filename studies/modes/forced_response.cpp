@@ -199,6 +199,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   result.joints.resize(drive.joints.size());
   result.orders.assign(drive.joints.size(), std::vector<Complex>(excitations.harmonics + 1));
   for (std::size_t r = 1; r <= excitations.harmonics && !by_order.empty() && speed > 0; ++r) {
+    if (!excitations.is_looked_at(r)) continue;
     Forcing forcing = Forcing::none(drive);
     for (const OrderSource& source : by_order) forcing.add(source.kind, source.index, source.at(r, drive.at.speed));
     const double omega = excitations.order(r) * speed;

@@ -176,7 +176,8 @@ class Study {
   }
 
   void find_forcing() {
-    found_.excitations = find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order);
+    found_.excitations =
+        find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order, options_.orders == 0);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
       found_.notes.push_back(
@@ -203,6 +204,7 @@ class Study {
       strongest = std::max(strongest, x.strength(r, signed_speed(found_.fastest)));
     for (const Mode& mode : found_.modes)
       for (std::size_t r = 1; r <= x.harmonics; ++r) {
+        if (!x.is_looked_at(r)) continue;
         const double speed = mode.natural() / x.order(r);
         if (speed < found_.slowest || speed > found_.fastest || x.strength(r, signed_speed(speed)) < 1e-6 * strongest)
           continue;

@@ -127,7 +127,7 @@ struct ModesStudy {
   std::vector<ParametricZone> zones;
   SpeedResponse here;                  // at the operating point
   std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations
-  double cycle_order = 1;            // of its first harmonic
+  double cycle_order = 1;              // of its first harmonic
   std::string regime;                  // what the scene's own start leads to, in words
   std::vector<Rattle> rattles;
   std::vector<SpeedResponse> sweep;  // over the range

@@ -31,7 +31,9 @@ const BarredRange* worst_of(const ModesStudy& m) {
   return worst;
 }
 
-bool is_forced(const ModesStudy& m) { return !m.excitations.by_order.empty() || !m.excitations.by_frequency.empty(); }
+bool is_forced(const ModesStudy& m) {
+  return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());
+}
 
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
