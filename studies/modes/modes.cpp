@@ -13,7 +13,6 @@
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "studies/modes/drive_limits.h"
-#include "studies/modes/torque_history.h"
 
 namespace kurbel {
 namespace {
@@ -26,7 +25,7 @@ constexpr int coarse_positions = 16;          // of the average at each speed of
 class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
-      : options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
+      : options_(options), effects_(effects), scene_(scene), model_(compile(scene, linear(effects))) {
     for (const EffectFlag& flag : effect_flags())
       if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine && has_parameters(scene, flag))
         found_.notes.push_back(fmt::format("{} left out of modes and forced response{}", flag.words,
@@ -339,7 +338,13 @@ class Study {
   }
 
   void add_history() {
-    found_.history = simulate_torque(*model_, effects_, found_.modes.back().omega, options_);
+    Watch watch = options_.watch;
+    watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
+    found_.history = simulate_torque(scene_, effects_,
+                                     {.torque = options_.torque,
+                                      .link = model_->network.nodes[at(model_->reduction_node)].component,
+                                      .highest = found_.modes.back().omega,
+                                      .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false;
     found_.diagnosis = found_.history->diagnosis;
@@ -347,6 +352,7 @@ class Study {
 
   const ModesOptions& options_;
   Effects effects_;
+  const Scene& scene_;  // with its operating sequence, which the locked model has not
   std::shared_ptr<const Model> model_;
   ModesStudy found_;
 };
