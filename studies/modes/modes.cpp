@@ -297,7 +297,13 @@ class Study {
   }
 
   void add_history() {
-    found_.history = simulate_torque(*model_, effects_, found_.modes.back().omega, options_);
+    Watch watch = options_.watch;
+    watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
+    found_.history = simulate_torque(scene_, effects_,
+                                     {.torque = options_.torque,
+                                      .link = model_->network.nodes[at(model_->reduction_node)].component,
+                                      .highest = found_.modes.back().natural(),
+                                      .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false;
     found_.diagnosis = found_.history->diagnosis;

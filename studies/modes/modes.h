@@ -19,8 +19,7 @@
 #include "engine/scene/scene.h"
 #include "studies/findings/watch.h"
 #include "studies/modes/forced_response.h"
-#include "studies/modes/rainflow.h"
-#include "studies/modes/spectrum.h"
+#include "studies/modes/torque_history.h"
 
 namespace kurbel {
 
@@ -98,18 +97,6 @@ struct DriveLimits {
   double application_factor = 1;
   double shear_stress = 0, polar_modulus = 0;  // [Pa], W_p [m³]
   bool any() const { return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0; }
-};
-
-struct TorqueHistory {
-  std::string component;  // whose torque it is
-  std::string channel;
-  std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
-  AmplitudeSpectrum spectrum, orders;
-  std::vector<WaterfallLine> lines;
-  std::vector<LoadCycle> cycles;
-  double greatest = 0, least = 0;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 struct ModesStudy {
