@@ -36,6 +36,7 @@ struct Round {
   std::vector<MatrixXd> factors;
   std::vector<MatrixXd> directions;  // before each: δy over the scales = directions · coordinates
   Index rank = 0;                    // least
+  double wiped_out = 0;              // greatest share of a factor that was taken for nothing
 };
 
 // As square as the largest.
@@ -45,15 +46,16 @@ MatrixXd filled(const MatrixXd& m, Index rows, Index columns) {
   return larger;
 }
 
-// What integration cannot tell from nothing is nothing. Returns the rank.
-Index wipe_out(MatrixXd& factor, double least) {
-  if (factor.size() == 0) return 0;
+// What integration cannot tell from nothing is nothing.
+void wipe_out(MatrixXd& factor, double least, Round& round) {
+  if (factor.size() == 0) return;
   const Eigen::JacobiSVD<MatrixXd> svd(factor, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Eigen::VectorXd values = svd.singularValues();
   Index rank = values.size();
-  while (rank > 1 && values[rank - 1] <= least * values[0]) values[--rank] = 0;
+  for (; rank > 1 && values[rank - 1] <= least * values[0]; values[--rank] = 0)
+    round.wiped_out = std::max(round.wiped_out, values[rank - 1] / values[0]);
   if (rank < values.size()) factor = svd.matrixU() * values.asDiagonal() * svd.matrixV().transpose();
-  return rank;
+  round.rank = std::min(round.rank, rank);
 }
 
 class Machine {
@@ -98,7 +100,7 @@ class Machine {
     here.y = map_.place(equations_, z);
     here.modes = equations_.modes();
     std::vector<PoincareSection> sections = {map_.section()};
-    Round round{{}, {}, static_cast<Index>(map_.size())};
+    Round round{{}, {}, static_cast<Index>(map_.size()), 0};
     Index largest = round.rank;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const MatrixXd moved = advance(here, map_.start_time() + ends[k], sections.back().directions());
@@ -109,8 +111,7 @@ class Machine {
       equations_.flow(here.t, here.y, rate);
       Eigen::RowVectorXd slowing;
       round.factors.push_back(end.read_at_end(moved, rate, slowing));
-      round.rank =
-          std::min(round.rank, wipe_out(round.factors.back(), map_.variational() ? gone : gone_by_differences));
+      wipe_out(round.factors.back(), map_.variational() ? gone : gone_by_differences, round);
       largest = std::max(largest, static_cast<Index>(end.size()));
     }
     for (MatrixXd& factor : round.factors) factor = filled(factor, largest, largest);
@@ -232,50 +233,60 @@ class PhaseReader {
   PhaseReader(const std::vector<MeanMode>& modes, const ModeFilter& filter, const std::vector<double>& ends)
       : modes_(modes), filter_(filter), ends_(ends) {}
 
-  // w_k before each interval, over the scales, with A_k w_k = ν_k w_{k+1}.
+  // w_k before each interval, over the scales, with A_k w_k = ν_k w_{k+1}. Of all modes that it has something of, the one
+  // whose own exponent is near to what it would be counts.
   void read(const std::vector<VectorXcd>& w, const std::vector<Complex>& nu, const PeriodicEigenvalue& value,
             FloquetExponent& out) const {
-    const std::size_t count = w.size();
     std::vector<VectorXcd> seen;
-    Eigen::VectorXd score = Eigen::VectorXd::Zero(static_cast<Index>(modes_.size()));
-    double whole = 0;
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Index>(modes_.size()));
     for (const VectorXcd& here : w) {
       seen.push_back(filter_(here));
       const double length = filter_.length(here);
-      if (!(length > 0)) continue;
-      score += seen.back().cwiseAbs() / length;
-      whole += 1;
+      if (length > 0) share += seen.back().cwiseAbs() / (length * static_cast<double>(w.size()));
     }
-    out.mode = mode_for(score, value);
-    if (out.mode < 0 || !(whole > 0)) return take(value.phase, value, 0, out);
-    out.share = score[out.mode] / whole;
-    const double omega = modes_[static_cast<std::size_t>(out.mode)].exponent.imag();
-    double phase = 0, before = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const double by_mode = omega * (ends_[k] - before);
-      const Complex ratio = nu[k] * seen[(k + 1) % count][out.mode] * std::conj(seen[k][out.mode]);
-      phase += by_mode + turned(std::arg(ratio) - by_mode);
-      before = ends_[k];
+    out.phase_advance = out_of_step(value);
+    double best = 0;
+    for (Index j = 0; j < share.size(); ++j) {
+      const Complex mode = modes_[static_cast<std::size_t>(j)].exponent;
+      if (!(share[j] > 0) || (is_real(value) && mode.imag() < 0)) continue;
+      const double phase = mode.imag() == 0 ? out_of_step(value) : branch(phase_by(j, seen, nu), value);
+      const double off = std::abs(Complex(value.log_magnitude, phase) - mode * ends_.back()) / two_pi;
+      const double score = share[j] / (1 + off * off);
+      if (score <= best) continue;
+      best = score;
+      out.mode = static_cast<int>(j);
+      out.share = share[j];
+      out.phase_advance = phase;
+      const double nearest = mode.imag() == 0 ? phase : branch(mode.imag() * ends_.back(), value);
+      out.off_nearest = static_cast<int>(std::round((phase - nearest) / two_pi));
     }
-    take(phase, value, omega * ends_.back(), out);
   }
 
  private:
   // A motion that swings in step with the round is as much of a mode as of its conjugate.
-  int mode_for(const Eigen::VectorXd& score, const PeriodicEigenvalue& value) const {
-    const double off_real = std::min(std::abs(value.phase), std::numbers::pi - std::abs(value.phase));
-    const bool real = off_real <= std::max(1e-9, 10 * value.error);
-    int best = -1;
-    for (Index j = 0; j < score.size(); ++j) {
-      if (real && modes_[static_cast<std::size_t>(j)].exponent.imag() < 0) continue;
-      if (score[j] > (best < 0 ? 0 : score[best])) best = static_cast<int>(j);
-    }
-    return best;
+  static bool is_real(const PeriodicEigenvalue& value) {
+    const double off = std::min(std::abs(value.phase), std::numbers::pi - std::abs(value.phase));
+    return off <= std::max(1e-9, 10 * value.error);
   }
-  static void take(double phase, const PeriodicEigenvalue& value, double by_mode, FloquetExponent& out) {
-    const double rounds = std::round((phase - value.phase) / two_pi);
-    out.phase_advance = value.phase + two_pi * rounds;
-    out.off_nearest = static_cast<int>(rounds - std::round((by_mode - value.phase) / two_pi));
+  // Of what does not swing by itself: 0 or π where it is real.
+  static double out_of_step(const PeriodicEigenvalue& value) {
+    return is_real(value) ? std::abs(value.phase) : value.phase;
+  }
+  // The phase of the multiplier that is nearest to a phase.
+  static double branch(double phase, const PeriodicEigenvalue& value) {
+    return value.phase + two_pi * std::round((phase - value.phase) / two_pi);
+  }
+  // What a mode sees it turn through, in each interval as near to the mode's own turning as can be.
+  double phase_by(Index mode, const std::vector<VectorXcd>& seen, const std::vector<Complex>& nu) const {
+    const double omega = modes_[static_cast<std::size_t>(mode)].exponent.imag();
+    double phase = 0, before = 0;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const double by_mode = omega * (ends_[k] - before);
+      const Complex ratio = nu[k] * seen[(k + 1) % seen.size()][mode] * std::conj(seen[k][mode]);
+      phase += by_mode + turned(std::arg(ratio) - by_mode);
+      before = ends_[k];
+    }
+    return phase;
   }
 
   const std::vector<MeanMode>& modes_;
@@ -308,8 +319,14 @@ void find(const ReturnMap& map, const Eigen::VectorXd& z, const FloquetOptions& 
   out.modes = options.modes.empty() ? of_mean : options.modes;
   if (map.size() == 0) return;
   out.intervals = options.intervals > 0 ? options.intervals : intervals_for(way.time, of_mean);
-  const std::vector<double> ends = ends_away_from(way.events, way.time, out.intervals);
-  const Round round = machine.round(z, ends);
+  std::vector<double> ends = ends_away_from(way.events, way.time, out.intervals);
+  Round round = machine.round(z, ends);
+  // What fades faster than the mean says is not gone yet in shorter intervals; what sticks is gone in any.
+  for (int shorter = 0; options.intervals == 0 && shorter < 2 && round.wiped_out > 0; ++shorter) {
+    out.intervals *= 2;
+    ends = ends_away_from(way.events, way.time, out.intervals);
+    round = machine.round(z, ends);
+  }
   const PeriodicSchur schur(round.factors);
   std::vector<double> off(schur.size(), 0.0);
   if (options.measure_error)
@@ -334,7 +351,7 @@ void find(const ReturnMap& map, const Eigen::VectorXd& z, const FloquetOptions& 
     } else {
       phases.read(w, nu, value, e);
       e.exponent = Complex(value.log_magnitude, e.phase_advance) / way.time;
-      e.error = (in_common * off[j] + value.error) / way.time;
+      e.error = (in_common * off[j] + value.error + value.sensitivity * round.wiped_out) / way.time;
     }
     out.exponents.push_back(std::move(e));
   }

@@ -19,9 +19,8 @@ struct FloquetExponent {
   Eigen::VectorXcd shape;         // δy at the section, per state of y in its own unit; largest over the scales 1
   double phase_advance = 0;       // in one round [rad]: Im s · T
   int mode = -1;                  // that it has most of, of those that are compared with; −1: none
-  double share = 0;               // of that mode in it, on the average over the round; 1: all
-  // By the mode's frequency alone the nearest branch would be this many rounds' frequencies 1/T away; 0 but in fast or
-  // strongly varying systems.
+  double share = 0;               // its coefficient, on the average over the round; near 1 where they are much the same
+  // The branch that is nearest to the mode's own frequency is this many times 1/T off: a mean that is a poor one.
   int off_nearest = 0;
   double error = 0;  // of s [1/s]
 };
