@@ -45,6 +45,7 @@ class Study {
     list_modes(options_.count, found_);
     if (!options_.angle) find_frozen_range(options_.count, found_);
     if (samples_ && !options_.speed) find_rattles(*samples_, options_.count, found_);
+    if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, found_);
     choose_range();
     say("excitation", 0.15);
     find_forcing();
@@ -99,9 +100,9 @@ class Study {
     options.interrupted = options_.watch.interrupted;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
     try {
-      const Regime regime = find_regime(model_, options);
-      found_.regime = regime.words;
-      if (regime.repeats() && std::abs(regime.point.time) > 0) samples_ = sample_cycle(regime, cycle_samples);
+      regime_ = find_regime(model_, options);
+      found_.regime = regime_->words;
+      if (regime_->repeats() && regime_->point.time > 0) samples_ = sample_cycle(*regime_, cycle_samples);
     } catch (const std::invalid_argument& refused) {
       found_.regime = refused.what();
     }
@@ -313,6 +314,7 @@ class Study {
   Effects effects_;
   Scene scene_;
   std::shared_ptr<const Model> model_;
+  std::optional<Regime> regime_;
   std::optional<CycleSamples> samples_;
   ModesStudy found_;
 };

@@ -46,6 +46,9 @@ struct Mode {
   bool of_own_states = false;   // it swings by the states of elements: it has no undamped mode that it grows out of
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
+  // Of the periodic system, where coefficients change with the angle: what the mean leaves out is the difference to λ.
+  std::optional<std::complex<double>> periodic = {};
+  double periodic_error = 0;                                                       // [1/s]
   double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
 };
 

@@ -86,6 +86,13 @@ std::string damped_text(const Mode& m) {
   return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(8)) : "does not swing";
 }
 
+// Of the periodic system: damped frequency and damping ratio.
+std::string periodic_text(const Mode& m) {
+  if (!m.periodic) return "—";
+  return fmt::format("{}, {}", read_as(hertz(m.periodic->imag()), digits(6)),
+                     read_as(-m.periodic->real() / std::abs(*m.periodic), digits(4)));
+}
+
 Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
   table.always().text_in(1, 0);
@@ -114,6 +121,13 @@ Rows mode_table(const ModesStudy& m) {
       return mode.of_own_states ? std::string("—")
                                 : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
     });
+  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.periodic.has_value(); })) {
+    table.only_for_people("periodic system [Hz], ζ", periodic_text);
+    table.only_for_programs("periodic", [](const Mode& mode) {
+      const std::complex<double> s = mode.periodic.value_or(std::nan(""));
+      return Record{{"real", s.real()}, {"imaginary", s.imag()}, {"error", mode.periodic_error}};
+    });
+  }
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",
