@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "engine/model/cycle_of.h"
@@ -162,6 +163,33 @@ void find_exponents(const Regime& regime, ModesStudy& found) {
         "ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
         of->number, of->periodic->imag() / (2 * pi), -of->periodic->real() / std::abs(*of->periodic),
         of->lambda.imag() / (2 * pi), of->ratio));
+}
+
+void note_changes(const CycleSamples& samples, ModesStudy& found) {
+  std::map<std::string, int> changes;
+  for (const Event& event : samples.events) switch (event.kind) {
+      case EventKind::rest:
+      case EventKind::held:
+      case EventKind::motion:
+      case EventKind::lock:
+      case EventKind::slip:
+      case EventKind::flight:
+      case EventKind::touch:
+      case EventKind::impact:
+        ++changes[event.component];
+        break;
+      default:
+        break;
+    }
+  if (changes.empty()) return;
+  std::string list;
+  for (const auto& [component, count] : changes)
+    list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", component, count);
+  found.notes.push_back(
+      fmt::format("within a round of the steady motion contacts change: {}. Modes and forced response have them as "
+                  "they are at {:.4g}° "
+                  "of {}; what the joints do in the steady motion is that of the full equations",
+                  list, samples.link_angle * 180 / pi, found.link));
 }
 
 // Joints whose pieces change within the round, with the linear spring that does most nearly the same there.

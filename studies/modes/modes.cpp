@@ -44,7 +44,10 @@ class Study {
     name_parts();
     list_modes(options_.count, found_);
     if (!options_.angle) find_frozen_range(options_.count, found_);
-    if (samples_ && !options_.speed) find_rattles(*samples_, options_.count, found_);
+    if (samples_ && !options_.speed) {
+      note_changes(*samples_, found_);
+      find_rattles(*samples_, options_.count, found_);
+    }
     if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, found_);
     choose_range();
     say("excitation", 0.15);
