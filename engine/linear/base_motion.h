@@ -92,6 +92,7 @@ class BaseMotion {
   void find_inertia();
   void find_coordinates();
   void balance();
+  bool turn_flanks();
   double angle_rate(std::size_t tracked) const;
 
   std::shared_ptr<const Model> shared_;

@@ -88,4 +88,18 @@ CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolera
   return out;
 }
 
+std::shared_ptr<const MeanMotion> means_of_equilibrium(std::shared_ptr<const Model> shared, const State& state) {
+  const Model& model = *shared;
+  Equations equations(std::move(shared), false);
+  equations.bind(state.modes);
+  std::vector<double> y = state.y;
+  y.resize(equations.size(), 0.0);
+  const Snapshot& s = equations.snapshot(state.t, y);
+  const TrackedAngle& link = model.angles[at(model.reduction_angle)];
+  MeanMotion mean{.state = state, .speed = link.gain * s.now.speed[link.shaft], .mean = y, .joint_torque = {}};
+  mean.state.y = y;
+  mean.joint_torque.assign(s.sums.connection_torque, s.sums.connection_torque + model.elastic.size());
+  return std::make_shared<const MeanMotion>(std::move(mean));
+}
+
 }  // namespace kurbel

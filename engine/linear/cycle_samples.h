@@ -21,4 +21,7 @@ struct CycleSamples {
 // Of a regime that repeats; `count` samples. Throws std::runtime_error in words where the round breaks down.
 CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance = 1e-11);
 
+// Of a state in which no speed changes: its own.
+std::shared_ptr<const MeanMotion> means_of_equilibrium(std::shared_ptr<const Model> model, const State& state);
+
 }  // namespace kurbel

@@ -282,6 +282,25 @@ class BaseMotion::Balance {
   std::vector<char> is_held_;  // per own state
 };
 
-void BaseMotion::balance() { Balance(*this).find(); }
+// Without a regime it is found here which flanks of gears with losses carry.
+void BaseMotion::balance() {
+  constexpr int most_turns_of_flanks = 4;
+  for (int i = 0; i < most_turns_of_flanks; ++i) {
+    Balance(*this).find();
+    if (point_.regime || !turn_flanks()) return;
+  }
+}
+
+bool BaseMotion::turn_flanks() {
+  residual(positions_.front());
+  bool turned = false;
+  for (const int r : equations_.ties().lossy()) {
+    if (!(equations_.ties().flank_margin(kurbel::at(r)) < 0)) continue;
+    equations_.changing_modes().loss_sign[kurbel::at(r)] *= -1;
+    turned = true;
+  }
+  if (turned) equations_.ties().make_rows();
+  return turned;
+}
 
 }  // namespace kurbel

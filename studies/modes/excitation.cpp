@@ -142,7 +142,8 @@ class Search {
     found_.speed = drive_.at.speed;
     samples_ = m_.shafts.size() > many_shafts ? 1024 : 4096;
     while (samples_ < 8 * found_.harmonics) samples_ *= 2;
-    if (base.turns()) find_orders(base, cycle.periodic);
+    const bool stands = drive_.at.regime && drive_.at.regime->speed == 0;
+    if (base.turns() && !stands) find_orders(base, cycle.periodic);
     if (base.time_period() > 0) find_frequencies(base);
     find_meshes();
     return std::move(found_);

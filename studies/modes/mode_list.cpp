@@ -46,6 +46,16 @@ std::vector<char> pair_damped(ModesStudy& found) {
   return used;
 }
 
+// A complex shape at the moment at which its inertias move most together, M-normalised, its heaviest part forwards.
+Eigen::VectorXd principal_shape(const LinearDrive& drive, const Eigen::VectorXcd& shape) {
+  Complex together = 0;
+  for (Eigen::Index i = 0; i < shape.size(); ++i) together += drive.inertia[i] * shape[i] * shape[i];
+  Eigen::VectorXd real = (shape * std::polar(1.0, -0.5 * std::arg(together))).real();
+  Eigen::Index heaviest = 0;
+  drive.inertia.cwiseProduct(real.cwiseAbs2()).maxCoeff(&heaviest);
+  return real / std::copysign(std::sqrt(drive.inertia.dot(real.cwiseAbs2())), real[heaviest]);
+}
+
 // What swings by states of elements, and what springs and states of elements do so differently together that it grows
 // out of no undamped mode.
 void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
@@ -60,8 +70,7 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
     mode.error = d.error;
     mode.of_own_states = true;
     mode.least = mode.greatest = mode.omega;
-    mode.shape = d.shape.real();
-    mode.shape /= std::sqrt(found.drive.inertia.dot(mode.shape.cwiseAbs2()));
+    mode.shape = principal_shape(found.drive, d.shape);
     mode.shares = energy_shares(found.drive, mode.shape);
     found.modes.push_back(std::move(mode));
   }

@@ -86,7 +86,8 @@ class Study {
     LinearisationPoint point{.speed = options_.speed.value_or(samples_ ? samples_->mean->speed : 0),
                              .angle = options_.angle};
     if (samples_) point.regime = samples_->mean;
-    if (!options_.speed && !samples_) point.speed = balanced_or_usual_speed();
+    if (rest_ && !options_.speed) point.regime = rest_;
+    if (!options_.speed && !point.regime) point.speed = balanced_or_usual_speed();
     BaseMotion base(model_, point);
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
@@ -106,11 +107,12 @@ class Study {
       regime_ = find_regime(model_, options);
       found_.regime = regime_->words;
       if (regime_->repeats() && regime_->point.time > 0) samples_ = sample_cycle(*regime_, cycle_samples);
+      if (!samples_ && regime_->kind == Regime::Kind::equilibrium) rest_ = means_of_equilibrium(model_, regime_->state);
     } catch (const std::invalid_argument& refused) {
       found_.regime = refused.what();
     }
-    if (samples_ && samples_->mean->speed == 0) samples_.reset();  // it stands: nothing turns by order
-    if (!samples_)
+    if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
+    if (!samples_ && !rest_)
       found_.notes.push_back(fmt::format(
           "no motion that repeats to linearise at: {}; instead everything turns as geared, clutches locked and brakes "
           "released, at the speed said",
@@ -199,17 +201,21 @@ class Study {
     return linearise(model_, point);
   }
 
+  // The frequency at which an order meets a mode: undamped, as is usual; with states of elements, which stiffen or soften
+  // the drive, that of the damped swing.
+  double of_resonance(const Mode& mode) const { return found_.drive.own_states() > 0 ? mode.natural() : mode.omega; }
+
   // Where an order that has any strength meets a mode.
   void find_critical_speeds() {
     const Excitations& x = found_.excitations;
-    if (x.by_order.empty()) return;
+    if (x.by_order.empty() || found_.joint_names.empty()) return;
     double strongest = 0;
     for (std::size_t r = 1; r <= x.harmonics; ++r)
       strongest = std::max(strongest, x.strength(r, signed_speed(found_.fastest)));
     for (const Mode& mode : found_.modes)
       for (std::size_t r = 1; r <= x.harmonics; ++r) {
         if (!x.is_looked_at(r)) continue;
-        const double speed = mode.natural() / x.order(r);
+        const double speed = of_resonance(mode) / x.order(r);
         if (speed < found_.slowest || speed > found_.fastest || x.strength(r, signed_speed(speed)) < 1e-6 * strongest)
           continue;
         found_.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
@@ -227,7 +233,7 @@ class Study {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * mode.natural() / found_.excitations.order(r);
+        zone.centre = 2 * of_resonance(mode) / found_.excitations.order(r);
         zone.variation = variation[r];
         zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
         if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
@@ -266,7 +272,7 @@ class Study {
 
   void sweep() {
     const Excitations& x = found_.excitations;
-    if (x.by_order.empty()) return;
+    if (x.by_order.empty() || found_.joint_names.empty()) return;
     const std::vector<double> speeds = sweep_speeds();
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
@@ -293,10 +299,11 @@ class Study {
       if (!nearest) return;
       double most = -1;
       for (std::size_t j = 0; j < nearest->orders.size(); ++j) {
-        const double amplitude = std::abs(nearest->orders[j][c.harmonic]);
-        if (amplitude > most) most = amplitude, c.joint = j;
+        const double scale = model_->scale_ratio[at(model_->network.joints[at(model_->elastic[j].joint)].a)];
+        const double reduced = scale * std::abs(nearest->orders[j][c.harmonic]);  // to the link
+        if (reduced > most * (1 + 1e-9)) most = reduced, c.joint = j;
       }
-      c.amplitude = most;
+      c.amplitude = std::abs(nearest->orders[c.joint][c.harmonic]);
     }
   }
 
@@ -318,6 +325,7 @@ class Study {
   Scene scene_;
   std::shared_ptr<const Model> model_;
   std::optional<Regime> regime_;
+  std::shared_ptr<const MeanMotion> rest_;  // where the link stands and others turn
   std::optional<CycleSamples> samples_;
   ModesStudy found_;
 };

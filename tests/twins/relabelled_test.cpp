@@ -116,6 +116,10 @@ bool same_words(std::string a, std::string b) {
   // A motion that never settles ends anywhere: how far it was then hangs on the last digit of its start.
   const std::string unsettled = "there is no steady cycle to look at: after ";
   if (a.starts_with(unsettled) && b.starts_with(unsettled)) return true;
+  const std::size_t changing_a = a.find("the motion still changes by"),
+                    changing_b = b.find("the motion still changes by");
+  if (changing_a != std::string::npos && changing_b != std::string::npos)
+    return a.substr(0, a.find("after ")) == b.substr(0, b.find("after "));
   static const std::regex number("-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?");
   if (std::regex_replace(a, number, "#") != std::regex_replace(b, number, "#")) return false;
   std::sregex_iterator x(a.begin(), a.end(), number), y(b.begin(), b.end(), number), none;
