@@ -64,9 +64,11 @@ class Study {
     find_critical_speeds();
     find_zones();
     sweep();
-    find_barred_ranges(*model_, options_.barred_factor, found_);
+    find_barred_ranges(
+        *model_, options_.barred_factor, [this](double speed) { return respond(drive_at(speed), found_.excitations); },
+        found_);
     if (!options_.torque.empty()) add_history();
-    judge_limits(found_);
+    judge_all_limits();
     return std::move(found_);
   }
 
@@ -304,7 +306,8 @@ class Study {
 
   void sweep() {
     const Excitations& x = found_.excitations;
-    if (x.by_order.empty()) return;
+    // What swings at frequencies of its own bears loads at every speed, too.
+    if (x.by_order.empty() && x.by_frequency.empty() && !any_limits(limited_joints(*model_))) return;
     const std::vector<double> speeds = sweep_speeds();
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
@@ -336,6 +339,24 @@ class Study {
       }
       c.amplitude = most;
     }
+  }
+
+  // By the motion that the machine with all its effects keeps, where any limits are stated.
+  void judge_all_limits() {
+    std::shared_ptr<const Model> machine;
+    Regime regime;
+    if (any_limits(found_.limited)) {
+      machine = compile(model_->scene, effects_);
+      RegimeOptions options;
+      options.budget = model_->scene.run.budget;
+      options.interrupted = options_.watch.interrupted;
+      try {
+        regime = find_regime(machine, options);
+      } catch (const std::invalid_argument& error) {
+        regime.words = error.what();
+      }
+    }
+    judge_limits(machine, regime, !options_.speed && !options_.angle, options_.watch, found_);
   }
 
   void add_history() {
