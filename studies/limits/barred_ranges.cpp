@@ -23,7 +23,8 @@ struct Use {
   double share() const { return limit > 0 ? load / limit : load > 0 ? HUGE_VAL : 0; }
 };
 
-// By the limit that is used most.
+// By the limit that is used most. Not by T_KN: at speeds that the machine does not keep its mean torque is what drive and
+// load leave over for accelerating, not what it would be where the speed is held.
 Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   const DriveLimits& l = joint.limits;
   Use most{0, HUGE_VAL, ""};
@@ -31,7 +32,6 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
     if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
   };
   const double largest = std::abs(load.largest().value);
-  consider(l.application_factor * l.temperature_factor * std::abs(load.mean.value), l.nominal, "nominal_torque");
   consider(l.temperature_factor * load.weighted.value, l.vibratory, "vibratory_torque");
   consider(l.temperature_factor * largest, l.maximum, "maximum_torque");
   consider(l.application_factor * largest, l.shear_stress * l.polar_modulus, "allowable_shear_stress");

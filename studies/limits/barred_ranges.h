@@ -1,6 +1,7 @@
 // barred_ranges.h — speeds at which the drive must not run for long.
 //
-// A joint with limits is barred where its steady load exceeds any of them (theory 12.9). One without is barred by a rule:
+// A joint with limits is barred where its steady load exceeds any of them but T_KN (theory 12.9). One without is barred
+// by a rule:
 //     T_W > f · max(|T_mean|, T_rated)                                                 (theory 12.12)
 // T_rated: the drive's rated torque, reduced to this joint; it does not vanish with the mean. Where the halves of a joint
 // may part and its torque changes sign, T_W > |T_mean|, it hammers: told apart.

@@ -86,7 +86,7 @@ class Integrals final : public Observer {
 
 // S_f and the strongest frequency of a swing; what lies above the harmonics, by Parseval, counts as just above them.
 void add_frequencies(const Integrals::Sums& sums, double time, double noise, JointLoad& load) {
-  const double mean = sums.first / time;
+  const double mean = sums.first / time, rounded = 1e-12 * mean * mean;
   const double all = std::max(0.0, 2 * (sums.square / time - mean * mean));
   double known = 0, weighted = 0, strongest = 0;
   for (std::size_t n = 1; n <= harmonics; ++n) {
@@ -95,7 +95,7 @@ void add_frequencies(const Integrals::Sums& sums, double time, double noise, Joi
     weighted += square * std::max(1.0, f / 10);
     if (square > strongest) strongest = square, load.frequency = f;
   }
-  const double rest = std::max(0.0, all - known);
+  const double rest = all - known > rounded ? all - known : 0;
   weighted += rest * std::max(1.0, (harmonics + 1) / time / 10);
   const double sum = known + rest;
   load.frequency_factor = sum > noise * noise ? std::sqrt(weighted / sum) : 1;
@@ -211,7 +211,8 @@ SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model
     add_errors(follow_loosely(regime, joints), regime.polished ? 0 : regime.still_changes, joints, loads);
     return loads;
   }
-  if (regime.kind != Regime::Kind::equilibrium && regime.kind != Regime::Kind::at_rest) return {.words = regime.words};
+  // What comes to rest does its work before: that is no lasting load.
+  if (regime.kind != Regime::Kind::equilibrium) return {.words = regime.words};
   SteadyLoads loads = constant_loads(regime, machine, joints);
   add_errors(loads, 1e-9, joints, loads);
   return loads;

@@ -42,7 +42,7 @@ struct SteadyLoads {
   std::vector<JointLoad> joints = {};
 };
 
-// Of the motion that the machine keeps. Errors: against one found and followed with tolerances 100 × looser; of one
+// Of the motion that the machine keeps; none of one that comes to rest. Errors: against one found and followed with tolerances 100 × looser; of one
 // that is only as near as the run came, what still changes besides.
 SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
                          const std::vector<LimitedJoint>& joints);

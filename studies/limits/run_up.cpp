@@ -29,9 +29,12 @@ class Search {
     if (!begins_at_rest()) {
       if (!loads_.found) return none(loads_.words);
       if (!make_from_rest()) return out_;
-    } else {
-      if (!loads_.found) return none("the scene's own start leads to no steady motion: " + loads_.words);
+    } else if (loads_.found) {
       if (!find_end()) return out_;
+    } else if (regime_->kind == Regime::Kind::drifting || regime_->kind == Regime::Kind::at_rest) {
+      out_.until = std::max(machine_->scene.run.until, regime_->state.t);  // all is switched by then
+    } else {
+      return none("the scene's own start leads to no steady motion: " + loads_.words);
     }
     find_peaks();
     return out_;
@@ -87,6 +90,10 @@ class Search {
     }
     out_.until = std::max(out_.until, made_.state.t + 2 * loads_.round);
     return true;
+  }
+  std::string where_to() const {
+    if (loads_.found) return "to " + speed_text(loads_.speed);
+    return regime_->kind == Regime::Kind::at_rest ? "until it stands" : "to a motion that does not repeat";
   }
   std::string speed_text(double speed) const { return machine_->scene.speed_unit.text(speed, 5); }
 
@@ -159,9 +166,10 @@ class Search {
       return;
     }
     out_.found = true;
-    out_.words = fmt::format("{} from rest, to {} at {:.4g} s",
-                             out_.made ? "a run-up made for it, not told by the scene," : "the scene's own start",
-                             speed_text(loads_.speed), out_.until);
+    out_.words =
+        fmt::format("{} from rest{}, {} at {:.4g} s",
+                    out_.made ? "a run-up made for it, not told by the scene," : "the scene's own start",
+                    machine_->scene.run.start.equilibrium ? " with its twists in balance" : "", where_to(), out_.until);
   }
 
   std::shared_ptr<const Model> machine_;

@@ -259,14 +259,14 @@ TEST(BarredRanges, RuleDoesNotBreakWhereTheMeanTorqueVanishes) {
 
 TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndTold) {
   DriveLimits limits;
-  limits.nominal = 30;
+  limits.maximum = 30;
   const std::vector<LimitedJoint> joints = {joint_of(limits)};
   const auto ranges = barred_ranges(joints, resonance(-31, 1), 1);
   ASSERT_EQ(ranges.size(), 1u);
   EXPECT_TRUE(ranges[0].everywhere);
   EXPECT_EQ(ranges[0].from, 10);
   EXPECT_EQ(ranges[0].to, 150);
-  EXPECT_EQ(ranges[0].reason, "nominal_torque");
+  EXPECT_EQ(ranges[0].reason, "maximum_torque");
   const auto notes = limits_notes({}, ranges, joints, {}, {});
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("at every speed looked at"), std::string::npos);
@@ -289,17 +289,16 @@ effects = { elasticity = true }
                           [](const std::string& n) { return n.find("at every speed looked at") != n.npos; }));
 }
 
-// Each limit bars alone: upper, lower, alternating, mean, heat, stress; and where all are given, the one used most.
+// Each limit bars alone: upper, lower, alternating, stress, heat; and where all are given, the one used most.
 TEST(BarredRanges, EveryLimitBars) {
   const auto bars = [](const DriveLimits& limits, double mean, double swing) {
     const auto ranges = barred_ranges({joint_of(limits)}, resonance(mean, swing), 1);
     return ranges.empty() ? std::string() : ranges[0].reason;
   };
-  DriveLimits nominal, maximum, vibratory, shear;
-  nominal.nominal = maximum.maximum = vibratory.vibratory = 50;
+  DriveLimits maximum, vibratory, shear;
+  maximum.maximum = vibratory.vibratory = 50;
   shear.shear_stress = 5e6, shear.polar_modulus = 1e-5;
   for (const double sign : {1.0, -1.0}) {
-    EXPECT_EQ(bars(nominal, sign * 51, 1), "nominal_torque");
     EXPECT_EQ(bars(maximum, sign * 30, 21), "maximum_torque");
     EXPECT_EQ(bars(shear, sign * 30, 21), "allowable_shear_stress");
     EXPECT_EQ(bars(vibratory, sign * 300, 51), "vibratory_torque");
@@ -309,9 +308,18 @@ TEST(BarredRanges, EveryLimitBars) {
   DriveLimits both = maximum;
   both.vibratory = 10;
   EXPECT_EQ(bars(both, 20, 40), "vibratory_torque");  // 4 times, 1.2 times
-  DriveLimits warm = nominal;
+  DriveLimits heat;
+  heat.power = 10;
+  std::vector<SpeedLoads> sweep = resonance(20, 40);
+  for (SpeedLoads& s : sweep) s.joints[0].power.value = std::pow(s.joints[0].swing.value, 2) / 40;  // 40 W at the peak
+  const auto hot = barred_ranges({joint_of(heat)}, sweep, 1);
+  ASSERT_EQ(hot.size(), 1u);
+  EXPECT_EQ(hot[0].reason, "dissipated_power");
+  EXPECT_NEAR(hot[0].limit, 20, 1e-9);  // the swing that makes 10 W
+  EXPECT_NEAR(hot[0].from, 75, 0.01);
+  DriveLimits warm = maximum;
   warm.temperature_factor = 1.4;
-  EXPECT_EQ(bars(warm, 40, 1), "nominal_torque");
+  EXPECT_EQ(bars(warm, 40, 1), "maximum_torque");
 }
 
 // Where halves may part and the torque changes sign they hammer, however small the swing: told apart from the size of it.
