@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "engine/numerics/index.h"
@@ -48,6 +49,19 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     joints.push_back(std::move(one));
   }
   return joints;
+}
+
+std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints) {
+  const std::vector<LimitedJoint> known = limited_joints(other);
+  std::vector<LimitedJoint> found;
+  for (const LimitedJoint& joint : joints) {
+    const auto same =
+        std::find_if(known.begin(), known.end(), [&](const LimitedJoint& k) { return k.name == joint.name; });
+    if (same == known.end())
+      throw std::logic_error(fmt::format("\"{}\" is elastic with some effects, and with others not", joint.name));
+    found.push_back(*same);
+  }
+  return found;
 }
 
 bool any_limits(const std::vector<LimitedJoint>& joints) {

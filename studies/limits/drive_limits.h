@@ -29,6 +29,8 @@ struct LimitedJoint {
 
 // Of all elastic joints of a model, in its order.
 std::vector<LimitedJoint> limited_joints(const Model& model);
+// The same joints in a model of the same scene with other effects, whose network may be numbered otherwise.
+std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints);
 bool any_limits(const std::vector<LimitedJoint>& joints);
 
 }  // namespace kurbel

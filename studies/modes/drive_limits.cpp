@@ -76,9 +76,9 @@ void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& reg
   RunUp run_up;
   SteadyLoads loads;
   if (any_limits(found.limited)) {
-    // The regime's loads are of this motion's joints: the network, whose numbers they go by, is the same.
-    const SteadyLoads kept = steady_loads(regime, machine, found.limited);
-    run_up = find_run_up(machine, regime, kept, found.limited, watch);
+    const std::vector<LimitedJoint> joints = joints_of(*machine, found.limited);
+    const SteadyLoads kept = steady_loads(regime, machine, joints);
+    run_up = find_run_up(machine, regime, kept, joints, watch);
     loads = kept;
     if (!at_regime || !kept.found) {
       loads = {.found = true, .words = "the linear response at " + found.speed_unit.text(found.drive.at.speed, 5)};

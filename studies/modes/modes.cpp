@@ -26,7 +26,7 @@ constexpr int coarse_positions = 16;          // of the average at each speed of
 class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
-      : options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
+      : scene_(scene), options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
     for (const EffectFlag& flag : effect_flags())
       if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine && has_parameters(scene, flag))
         found_.notes.push_back(fmt::format("{} left out of modes and forced response{}", flag.words,
@@ -346,9 +346,9 @@ class Study {
     std::shared_ptr<const Model> machine;
     Regime regime;
     if (any_limits(found_.limited)) {
-      machine = compile(model_->scene, effects_);
+      machine = compile(scene_, effects_);  // the model's scene has no sequence: it is locked
       RegimeOptions options;
-      options.budget = model_->scene.run.budget;
+      options.budget = scene_.run.budget;
       options.interrupted = options_.watch.interrupted;
       try {
         regime = find_regime(machine, options);
@@ -366,6 +366,7 @@ class Study {
     found_.diagnosis = found_.history->diagnosis;
   }
 
+  const Scene& scene_;
   const ModesOptions& options_;
   Effects effects_;
   std::shared_ptr<const Model> model_;

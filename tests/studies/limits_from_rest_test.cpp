@@ -112,6 +112,31 @@ stop = "3.02 s"
   EXPECT_NEAR(v.value, std::abs(test::figure(run, "peak_torque.k1")), 1e-3);
 }
 
+// The operating sequence is part of the run-up and of the motion that it leads to: a brake that it releases is not on.
+TEST(LimitsFromRest, BrakeThatTheSequenceReleasesIsReleased) {
+  Scene scene = test::scene_file("tests/agreement/brake_released.toml");
+  for (Section& s : scene.components)
+    if (s.name == "coupling")
+      for (const char* key : {"maximum_torque", "nominal_torque"})
+        s.settings.push_back({.key = key, .at = s.at, .given = true, .number = 100, .sections = {}});
+  const ModesStudy m = find_modes(scene, scene.effects, {});
+  const Result run = test::run(scene, false);
+  EXPECT_NEAR(verdict_on(m, "maximum").value, std::abs(test::figure(run, "peak_torque.coupling")), 1e-4);
+  EXPECT_LT(verdict_on(m, "nominal").value, 15);  // 37 with the brake on
+}
+
+// A worm gear's losses, left out of modes, number the network otherwise: the coupling is found by its name.
+TEST(LimitsFromRest, CouplingIsItselfInTheMachineWithAllItsEffects) {
+  Scene scene = test::scene_file("scenes/inclined_conveyor.toml");
+  for (Section& s : scene.components)
+    if (s.name == "claw_coupling")
+      s.settings.push_back({.key = "maximum_torque", .at = s.at, .given = true, .number = 1e4, .sections = {}});
+  const ModesStudy m = find_modes(scene, scene.effects, {});
+  const Result run = test::run(scene, false);
+  const double peak = std::abs(test::figure(run, "peak_torque.claw_coupling"));
+  EXPECT_NEAR(verdict_on(m, "maximum").value, peak, 1e-5 * peak);
+}
+
 // DIN 740-2: S_t (T_N + S_z T_S); how much of T_N acts at the peak is within the error.
 TEST(LimitsFromRest, StartFactorCountsOnWhatTheStartAddsAndTemperatureOnAll) {
   DriveLimits limits;
