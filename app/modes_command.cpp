@@ -14,7 +14,7 @@ namespace {
 
 struct ModesArguments {
   StudyOptions study;
-  std::string effects, speed, angle, torque;
+  std::string effects, speed, at, angle, torque;
   std::vector<std::string> range;
   int count = 20;
   double orders = 0, barred = 1;
@@ -33,6 +33,7 @@ int modes(const ModesArguments& arguments) {
   options.barred_factor = arguments.barred;
   options.torque = arguments.torque;
   if (!arguments.speed.empty()) options.speed = speed_of("--speed", arguments.speed, any_number);
+  options.at = moment_of(arguments.at, options.speed);
   if (!arguments.angle.empty())
     options.angle = quantity_of("--angle", arguments.angle, "an angle", "90 deg", any_number);
   if (!arguments.range.empty()) {
@@ -50,11 +51,15 @@ int modes(const ModesArguments& arguments) {
 void set_up(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<ModesArguments>();
   add_study_options(command, arguments->study);
-  command.add_option("--effects", arguments->effects,
-                     "none, elasticity, or elasticity:COUPLING,... (default: the scene's, else all)");
+  command.add_option(
+      "--effects", arguments->effects,
+      "as in [effects], or elasticity:COUPLING,... (default: the scene's, with all elasticity where it has none)");
   command.add_option("--count", arguments->count, "number of modes (default: 20)");
-  command.add_option("--speed", arguments->speed,
-                     "operating point, e.g. \"300 rpm\" of the reduction link (default: its start, else steady)");
+  command.add_option(
+      "--speed", arguments->speed,
+      "operating point, e.g. \"300 rpm\" of the reduction link (default: where the scene's own start leads to)");
+  command.add_option("--at", arguments->at,
+                     "as the machine is after a step of its sequence or at a time: \"step 2\", \"1.5 s\"");
   command.add_option("--angle", arguments->angle,
                      "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
   command

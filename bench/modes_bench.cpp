@@ -1,7 +1,7 @@
 // modes_bench.cpp — how long do the lowest 20 modes of a large drive take, branched and geared, and how do they grow?
 #include "bench/benches.h"
 #include "bench/machines.h"
-#include "engine/analysis/eigen_modes.h"
+#include "engine/linear/eigen_modes.h"
 
 namespace kurbel::bench {
 namespace {

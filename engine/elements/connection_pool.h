@@ -83,24 +83,32 @@ class ConnectionPool final : public ElementPool {
       if constexpr (Slipping<E>)
         if (now.slip[p.at.id] == 0) continue;
       const Slots& slot = slots_[i];
-      const Twist<double> x = motion(p, now);
-      using Number = Dual<derivatives>;
-      std::array<Number, own_states + 1> own;
-      for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 2 + k);
-      Twist<Number> dual{
-          Number::input(x.angle, 0), Number::input(x.rate, 1), x.t, x.mode, x.direction, x.command, own.data(), {}, {}};
-      if constexpr (UsesAngle<E>) dual.turn = Number::input(x.turn, 2 + own_states);
-      if constexpr (UsesSpeeds<E>) dual.turn_rate = Number::input(x.turn_rate, derivatives - 1);
-      const Number tau = p.element.torque(dual);
+      const Inputs in(p, now);
+      const Number tau = p.element.torque(in.dual);
       Number on_a = -tau;
-      if constexpr (UsesAngle<E>) on_a = on_a + p.element.turning_torque(dual);
+      if constexpr (UsesAngle<E>) on_a = on_a + p.element.turning_torque(in.dual);
       scatter(on_a, p, p.at.gain_a, slot.a, slots);
       scatter(tau, p, p.at.gain_b, slot.b, slots);
       if constexpr (own_states > 0) {
         std::array<Number, own_states> rate;
-        p.element.rates(dual, rate.data());
+        p.element.rates(in.dual, rate.data());
         for (std::size_t k = 0; k < own_states; ++k) scatter(rate[k], p, 1, slot.own[k], slots);
       }
+    }
+  }
+
+  void add_torque_slopes(const Instant& now, std::vector<TorqueSlope>& slopes) const override {
+    using By = TorqueSlope::By;
+    for (const Placed& p : placed_) {
+      if constexpr (Slipping<E>)
+        if (now.slip[p.at.id] == 0) continue;
+      const Number tau = p.element.torque(Inputs(p, now).dual);
+      slopes.push_back({p.at.id, By::twist, p.at.id, tau.d[0]});
+      slopes.push_back({p.at.id, By::rate, p.at.id, tau.d[1]});
+      if constexpr (own_states > 0)
+        for (int k = 0; k < own_states; ++k) slopes.push_back({p.at.id, By::own, p.more.own + k, tau.d[2 + k]});
+      if constexpr (UsesAngle<E>) slopes.push_back({p.at.id, By::angle, p.more.angle, tau.d[2 + own_states]});
+      if constexpr (UsesSpeeds<E>) slopes.push_back({p.at.id, By::speed_of_a, p.at.shaft_a, tau.d[derivatives - 1]});
     }
   }
 
@@ -167,6 +175,22 @@ class ConnectionPool final : public ElementPool {
  private:
   // θ, θ̇, own states, the angle, the speed of a.
   static constexpr int derivatives = 2 + own_states + (UsesAngle<E> ? 1 : 0) + (UsesSpeeds<E> ? 1 : 0);
+  using Number = Dual<derivatives>;
+  // A connection's motion with unit derivatives.
+  struct Inputs {
+    Inputs(const Placed& p, const Instant& now) : x(motion(p, now)) {
+      for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 2 + k);
+      dual = {
+          Number::input(x.angle, 0), Number::input(x.rate, 1), x.t, x.mode, x.direction, x.command, own.data(), {}, {}};
+      if constexpr (UsesAngle<E>) dual.turn = Number::input(x.turn, 2 + own_states);
+      if constexpr (UsesSpeeds<E>) dual.turn_rate = Number::input(x.turn_rate, derivatives - 1);
+    }
+    Inputs(const Inputs&) = delete;  // `dual` points to `own`
+    Inputs& operator=(const Inputs&) = delete;
+    Twist<double> x;
+    std::array<Number, own_states + 1> own;
+    Twist<Number> dual;
+  };
   // The columns: θ, ω_a, ω_b, own states, the angle.
   static constexpr std::size_t inputs = 3 + own_states + (UsesAngle<E> ? 1 : 0);
   struct Slots {

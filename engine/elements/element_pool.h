@@ -81,6 +81,15 @@ struct Reactions {
   double* work_rate;       // per work account, or null
 };
 
+// How the torque τ that a connection transmits changes with what it reads.
+struct TorqueSlope {
+  enum class By { twist, rate, own, angle, speed_of_a };  // θ, θ̇, own state `index`, tracked angle `index`, gain_a ω_a
+  int connection = 0;
+  By by = By::twist;
+  int index = -1;
+  double value = 0;
+};
+
 struct GuardLabel {
   std::string component, what;  // what happens when it fires
   EventKind kind = EventKind::law;
@@ -93,6 +102,9 @@ class ElementPool {
   virtual void register_jacobian(JacobianPattern& pattern) = 0;
   // Adds ∂(sum of torques − inertia · alpha)/∂(state) to the slots, at the accelerations alpha per shaft.
   virtual void add_jacobian(const Instant& now, const double* alpha, double* slots) const = 0;
+
+  // Those of all connections in motion; one that sticks has none.
+  virtual void add_torque_slopes(const Instant&, std::vector<TorqueSlope>&) const {}
 
   // Joint friction and the like: torques at the accelerations alpha per shaft; the equations find both together.
   virtual bool reacts() const { return false; }

@@ -33,6 +33,8 @@ class Ties {
   void make_rows();
   bool makes_a_row(std::size_t contact) const;
   const std::vector<std::size_t>& contacts_in_rows() const { return row_contact_; }
+  // G ω = 0: of relations, then of stuck contacts.
+  const std::vector<ConstraintRow>& rows() const { return rows_; }
   // Some rows say what others say, as the last solution found: they share by capacity.
   bool repeats() const { return tied_ && constraints_.repeats(); }
   bool stands(std::size_t shaft) const { return still_[shaft]; }        // tied to the frame

@@ -1,7 +1,10 @@
-// excitation.h — what makes a drive swing: torques by order of the reduction link's turn, by frequency, tooth meshes.
+// excitation.h — what makes a drive swing: what the full equations leave over along the uniform motion, by order and
+// frequency.
 //
-// An element that depends on the angle exerts T(φ) = T₀ + Re Σ T_r e^{i r φ} at uniform speed; a mechanism among it
-// −½ I_r′(φ) Ω² and its loads. T_r = a + b Ω + c Ω², found from three speeds and checked at a fourth.
+// Along the base motion (base_motion.h) the equations are not satisfied: torques Zᵀ(M − I ω̇), rates of own states, and
+// twists of joints that turn unevenly are left over, whatever element they come from. Over the angle they are T(φ) = T₀ +
+// Re Σ T_r e^{i r φ}; found at a few speeds and interpolated between them (a mechanism's is a + b Ω + c Ω²), checked at
+// another one. What hangs on time is found over its common period at a fixed angle.
 #pragma once
 
 #include <complex>
@@ -9,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/linearise.h"
+#include "engine/linear/linearise.h"
 
 namespace kurbel {
 
@@ -18,20 +21,32 @@ using Complex = std::complex<double>;
 // Complex amplitudes 2/N Σ x_k e^{−2πi rk/N} of r = 0 … N/2; entry 0 is the mean. N a power of two.
 std::vector<Complex> harmonics_of(const std::vector<double>& samples);
 
+// Where something is left over.
+enum class LeftOver {
+  torque,       // on a coordinate [N·m]
+  own_rate,     // of an own state
+  twist,        // of a joint, which the kinematics demand [rad]
+  joint_torque  // that a joint transmits along the base motion [N·m]
+};
+
+// Speeds of the reduction link at which amplitudes were found [rad/s].
+using NodeSpeeds = std::shared_ptr<const std::vector<double>>;
+
 struct OrderSource {
-  std::string component;
-  int coordinate = -1;           // it acts on
-  std::vector<Complex> a, b, c;  // per harmonic of the cycle, on the coordinate [N·m], [N·m·s], [N·m·s²]
-  Complex at(std::size_t harmonic, double speed) const {
-    return a[harmonic] + speed * (b[harmonic] + speed * c[harmonic]);
-  }
+  std::string component;  // where it acts
+  LeftOver kind = LeftOver::torque;
+  int index = -1;                            // coordinate, own state, joint
+  NodeSpeeds nodes;                          // null: of one speed alone
+  std::vector<std::vector<Complex>> values;  // per node: of the harmonics of the cycle; entry 0 is the mean
+  Complex at(std::size_t harmonic, double speed) const;
 };
 
 struct FrequencySource {
   std::string component;
-  int coordinate = -1;
+  LeftOver kind = LeftOver::torque;
+  int index = -1;
   double omega = 0;   // [rad/s]
-  Complex amplitude;  // on the coordinate: Re(A e^{iωt}) [N·m]
+  Complex amplitude;  // Re(A e^{iωt})
 };
 
 // Ideal gears excite nothing; where their meshing would, order = teeth · speed of the wheel over the link's.
@@ -41,27 +56,32 @@ struct GearMesh {
 };
 
 struct Excitations {
-  double fundamental = 1;     // order of the first harmonic: ½ for a cycle of two turns
-  std::size_t harmonics = 0;  // counted from 1
-  std::vector<OrderSource> by_order;
+  double fundamental = 1;             // order of the first harmonic: ½ for a cycle of two turns
+  std::size_t harmonics = 0;          // counted from 1
+  std::vector<char> counts;           // per harmonic: among those that are looked at; empty: all
+  std::vector<OrderSource> by_order;  // over a range of speeds
+  std::vector<OrderSource> here;      // at the speed of the drive
+  double speed = 0;                   // that one [rad/s]
   std::vector<FrequencySource> by_frequency;
   std::vector<GearMesh> meshes;
-  double misfit = 0;  // at the fourth speed, over the largest amplitude
+  double misfit = 0;  // of the interpolation, over the largest amplitude
   std::vector<std::string> notes;
 
+  bool is_looked_at(std::size_t harmonic) const { return counts.empty() || counts[harmonic]; }
   double order(std::size_t harmonic) const { return fundamental * static_cast<double>(harmonic); }
-  // Σ over the sources, regardless of phase [N·m].
+  const std::vector<OrderSource>& at_speed(double w) const { return w == speed && !here.empty() ? here : by_order; }
+  // Σ of the torques' magnitudes on the coordinates [N·m].
   double strength(std::size_t harmonic, double speed) const;
 };
 
-// Harmonics up to highest_order, for speeds from 0 to fastest [rad/s]; fastest < 0: the machine turns backwards.
-Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order);
+// Harmonics up to highest_order, for speeds from 0 to fastest [rad/s]; fastest < 0: the machine turns backwards. `further`:
+// and those beyond it that are strong at the drive's own speed, such as of meshing teeth.
+Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order, bool further = false);
 
-// What swings over time counts with its mean: what to add per shaft to its torque at t = 0.
-std::vector<double> mean_beyond_start(const LinearDrive& drive, const Excitations& excitations);
-
-// Mean torques per shaft, at a speed, of all that depends on the angle.
-std::vector<double> mean_of_angle(const LinearDrive& drive, const Excitations& excitations, double speed);
+// Per coordinate: mean torque that coarse averages of the base motion miss at this speed [N·m].
+std::shared_ptr<const Eigen::VectorXd> mean_missed(const LinearDrive& drive, const Excitations& excitations,
+                                                   double speed);
+inline constexpr int coarse_positions = 16;  // of those averages, a turn
 
 // Variation of the mechanisms' inertia in a mode, relative to its modal inertia: ε_r of vᵀ(M(φ) − M̄)v, vᵀM̄v = 1.
 std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::VectorXd& shape, std::size_t harmonics);

@@ -48,55 +48,106 @@ double polished(const std::vector<Complex>& x, double begin, double step) {
 
 }  // namespace
 
+// (K + iω C − ω² M) [q; z] = right, over coordinates and own states together.
 struct FrequencyResponse::Solver {
-  Eigen::MatrixXcd dense_stiffness, dense_damping;
   ComplexSparse stiffness, damping, mass;
+  Eigen::MatrixXcd dense_stiffness, dense_damping, dense_mass;
   Eigen::SparseLU<ComplexSparse> lu;
   bool analysed = false;
+
+  Eigen::VectorXcd solve(double omega, const Eigen::VectorXcd& right) {
+    const Complex iw(0, omega);
+    if (right.size() <= small_drive)
+      return (dense_stiffness + iw * dense_damping - omega * omega * dense_mass).partialPivLu().solve(right);
+    ComplexSparse a = stiffness + iw * damping - omega * omega * mass;
+    a.makeCompressed();
+    if (!analysed) lu.analyzePattern(a);
+    analysed = true;
+    lu.factorize(a);
+    if (lu.info() != Eigen::Success) return Eigen::VectorXcd::Constant(right.size(), Complex(HUGE_VAL, 0));
+    return lu.solve(right);
+  }
 };
 
 FrequencyResponse::FrequencyResponse(const LinearDrive& drive) : drive_(drive), solver_(std::make_shared<Solver>()) {
-  const Index n = drive.size();
-  SparseMatrix k = drive.stiffness;
-  if (drive.angle_stiffness.nonZeros() > 0) k += drive.angle_stiffness;
-  if (n <= small_drive) {
-    solver_->dense_stiffness = Eigen::MatrixXd(k).cast<Complex>();
-    solver_->dense_damping = Eigen::MatrixXd(drive.damping).cast<Complex>();
-    return;
+  const Index n = drive.size(), z = drive.own_states();
+  std::vector<Eigen::Triplet<Complex>> k, c, m;
+  const auto add = [](const SparseMatrix& from, Index row, Index column, double factor,
+                      std::vector<Eigen::Triplet<Complex>>& to) {
+    for (Index i = 0; i < from.outerSize(); ++i)
+      for (SparseMatrix::InnerIterator it(from, i); it; ++it)
+        to.emplace_back(row + it.row(), column + i, factor * it.value());
+  };
+  for (Index i = 0; i < n; ++i) m.emplace_back(i, i, drive.inertia[i]);
+  add(drive.stiffness, 0, 0, 1, k);
+  add(drive.other_stiffness, 0, 0, 1, k);
+  add(drive.damping, 0, 0, 1, c);
+  if (z > 0) {
+    add(drive.torque_by_own, 0, n, -1, k);
+    add(drive.own_by_twist * SparseMatrix(drive.twists), n, 0, -1, k);
+    add(drive.own_by_angle, n, 0, -1, k);
+    add(drive.own_by_own, n, n, -1, k);
+    add(drive.own_by_speed, n, 0, -1, c);
+    for (Index i = 0; i < z; ++i) c.emplace_back(n + i, n + i, 1.0);
   }
-  solver_->stiffness = k.cast<Complex>();
-  solver_->damping = drive.damping.cast<Complex>();
-  solver_->mass = ComplexSparse(n, n);
-  solver_->mass.setIdentity();
-  for (Index i = 0; i < n; ++i) solver_->mass.coeffRef(i, i) = drive.inertia[i];
+  const auto matrix = [&](std::vector<Eigen::Triplet<Complex>>& entries) {
+    for (Index i = 0; i < n + z; ++i) entries.emplace_back(i, i, 0.0);
+    ComplexSparse sparse(n + z, n + z);
+    sparse.setFromTriplets(entries.begin(), entries.end());
+    return sparse;
+  };
+  solver_->stiffness = matrix(k), solver_->damping = matrix(c), solver_->mass = matrix(m);
+  if (n + z > small_drive) return;
+  solver_->dense_stiffness = solver_->stiffness, solver_->dense_damping = solver_->damping;
+  solver_->dense_mass = solver_->mass;
 }
 
-Eigen::VectorXcd FrequencyResponse::motion(double omega, const Eigen::VectorXcd& force) {
-  Solver& s = *solver_;
-  const Complex iw(0, omega);
-  if (drive_.size() <= small_drive) {
-    Eigen::MatrixXcd a = s.dense_stiffness + iw * s.dense_damping;
-    a.diagonal() -= omega * omega * drive_.inertia.cast<Complex>();
-    return a.partialPivLu().solve(force);
-  }
-  ComplexSparse a = s.stiffness + iw * s.damping;
-  a -= omega * omega * s.mass;
-  a.makeCompressed();
-  if (!s.analysed) s.lu.analyzePattern(a);
-  s.analysed = true;
-  s.lu.factorize(a);
-  if (s.lu.info() != Eigen::Success) return Eigen::VectorXcd::Constant(drive_.size(), Complex(HUGE_VAL, 0));
-  return s.lu.solve(force);
+Forcing Forcing::none(const LinearDrive& drive) {
+  const auto joints = static_cast<Index>(drive.joints.size());
+  return {Eigen::VectorXcd::Zero(drive.size()), Eigen::VectorXcd::Zero(drive.own_states()),
+          Eigen::VectorXcd::Zero(joints), Eigen::VectorXcd::Zero(joints)};
 }
 
-std::vector<Complex> FrequencyResponse::torques(double omega, const Eigen::VectorXcd& force) {
-  const Eigen::VectorXcd q = motion(omega, force);
-  std::vector<Complex> tau;
-  for (const LinearDrive::Joint& j : drive_.joints) {
-    const Complex theta = (j.a >= 0 ? j.gain_a * q[j.a] : 0.0) - (j.b >= 0 ? j.gain_b * q[j.b] : 0.0);
-    tau.push_back(Complex(j.stiffness, omega * j.damping) * theta);
-  }
-  return tau;
+void Forcing::add(LeftOver kind, int index, Complex amplitude) {
+  Eigen::VectorXcd& to = kind == LeftOver::torque     ? torque
+                         : kind == LeftOver::own_rate ? own
+                         : kind == LeftOver::twist    ? twist
+                                                      : joint_torque;
+  to[index] += amplitude;
+}
+
+FrequencyResponse::Motion FrequencyResponse::motion(double omega, const Forcing& f) {
+  const Index n = drive_.size(), z = drive_.own_states();
+  Eigen::VectorXcd right(n + z);
+  right << f.torque + drive_.torque_by_twist * f.twist, f.own;
+  if (z > 0) right.tail(z) += drive_.own_by_twist * f.twist;
+  const Eigen::VectorXcd x = solver_->solve(omega, right);
+  return {x.head(n), x.tail(z)};
+}
+
+std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omega, const Forcing& f) {
+  const Motion x = motion(omega, f);
+  const Eigen::VectorXcd twist = drive_.twists * x.q + f.twist;
+  Eigen::VectorXcd torque = f.joint_torque + Complex(0, omega) * (drive_.joint_by_speed * x.q);
+  if (x.own.size() > 0) torque += drive_.joint_by_own * x.own;
+  std::vector<JointSwing> all;
+  for (Index j = 0; j < twist.size(); ++j)
+    all.push_back({torque[j] + drive_.joints[static_cast<std::size_t>(j)].stiffness * twist[j], twist[j]});
+  return all;
+}
+
+Eigen::VectorXcd FrequencyResponse::motion(double omega, const Eigen::VectorXcd& torque) {
+  Forcing f = Forcing::none(drive_);
+  f.torque = torque;
+  return motion(omega, f).q;
+}
+
+std::vector<Complex> FrequencyResponse::torques(double omega, const Eigen::VectorXcd& torque) {
+  Forcing f = Forcing::none(drive_);
+  f.torque = torque;
+  std::vector<Complex> all;
+  for (const JointSwing& swing : swings(omega, f)) all.push_back(swing.torque);
+  return all;
 }
 
 Extremes extremes_of_sum(const std::vector<Complex>& x) {
@@ -123,46 +174,55 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
   return found;
 }
 
+namespace {
+
+// Counts what one frequency does to one joint.
+void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double omega, std::size_t harmonic) {
+  const double amplitude = std::abs(swing.torque);
+  joint.amplitude_sum += amplitude;
+  joint.rms += 0.5 * amplitude * amplitude;
+  joint.power += 0.5 * (swing.torque * std::conj(Complex(0, omega) * swing.twist)).real();
+  if (amplitude <= joint.dominant_amplitude) return;
+  joint.dominant_amplitude = amplitude;
+  joint.dominant = harmonic;
+  joint.dominant_omega = omega;
+}
+
+}  // namespace
+
 SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) {
   FrequencyResponse response(drive);
   SpeedResponse result;
   result.speed = drive.at.speed;
   const double speed = std::abs(drive.at.speed);
+  const std::vector<OrderSource>& by_order = excitations.at_speed(drive.at.speed);
   result.joints.resize(drive.joints.size());
   result.orders.assign(drive.joints.size(), std::vector<Complex>(excitations.harmonics + 1));
-  const auto count = [&](std::size_t j, Complex tau, double omega, std::size_t harmonic) {
-    JointResponse& joint = result.joints[j];
-    const double amplitude = std::abs(tau);
-    joint.amplitude_sum += amplitude;
-    joint.rms += 0.5 * amplitude * amplitude;
-    const LinearDrive::Joint& data = drive.joints[j];
-    const double twist = amplitude / std::abs(Complex(data.stiffness, omega * data.damping));
-    joint.power += 0.5 * data.damping * std::pow(omega * twist, 2);
-    if (amplitude <= joint.dominant_amplitude) return;
-    joint.dominant_amplitude = amplitude;
-    joint.dominant = harmonic;
-    joint.dominant_omega = omega;
-  };
-  for (std::size_t r = 1; r <= excitations.harmonics && !excitations.by_order.empty(); ++r) {
-    Eigen::VectorXcd force = Eigen::VectorXcd::Zero(drive.size());
-    for (const OrderSource& source : excitations.by_order) force[source.coordinate] += source.at(r, drive.at.speed);
+  for (std::size_t r = 1; r <= excitations.harmonics && !by_order.empty() && speed > 0; ++r) {
+    if (!excitations.is_looked_at(r)) continue;
+    Forcing forcing = Forcing::none(drive);
+    for (const OrderSource& source : by_order) forcing.add(source.kind, source.index, source.at(r, drive.at.speed));
     const double omega = excitations.order(r) * speed;
-    const std::vector<Complex> tau = response.torques(omega, force);
-    for (std::size_t j = 0; j < tau.size(); ++j) count(j, result.orders[j][r] = tau[j], omega, r);
+    const auto swings = response.swings(omega, forcing);
+    for (std::size_t j = 0; j < swings.size(); ++j) {
+      result.orders[j][r] = swings[j].torque;
+      count(result.joints[j], swings[j], omega, r);
+    }
   }
   std::vector<double> beside(drive.joints.size(), 0.0);
-  // Torques of one frequency keep their phases.
+  // What swings at one frequency keeps its phases.
   std::vector<FrequencySource> sources = excitations.by_frequency;
   std::sort(sources.begin(), sources.end(),
             [](const FrequencySource& a, const FrequencySource& b) { return a.omega < b.omega; });
   for (std::size_t i = 0; i < sources.size();) {
-    Eigen::VectorXcd force = Eigen::VectorXcd::Zero(drive.size());
+    Forcing forcing = Forcing::none(drive);
     const double omega = sources[i].omega;
-    for (; i < sources.size() && sources[i].omega == omega; ++i) force[sources[i].coordinate] += sources[i].amplitude;
-    const std::vector<Complex> tau = response.torques(omega, force);
-    for (std::size_t j = 0; j < tau.size(); ++j) {
-      count(j, tau[j], omega, 0);
-      beside[j] += std::abs(tau[j]);
+    for (; i < sources.size() && sources[i].omega == omega; ++i)
+      forcing.add(sources[i].kind, sources[i].index, sources[i].amplitude);
+    const auto swings = response.swings(omega, forcing);
+    for (std::size_t j = 0; j < swings.size(); ++j) {
+      count(result.joints[j], swings[j], omega, 0);
+      beside[j] += std::abs(swings[j].torque);
     }
   }
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
@@ -173,6 +233,33 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     joint.lower = joint.mean + swing.least - beside[j];
     joint.peak = std::max(swing.greatest, -swing.least) + beside[j];
     joint.rms = std::sqrt(joint.rms);
+  }
+  return result;
+}
+
+SpeedResponse response_of_samples(const std::vector<std::vector<double>>& torques, double speed, double round) {
+  SpeedResponse result;
+  result.speed = speed;
+  for (const std::vector<double>& samples : torques) {
+    JointResponse joint;
+    const std::vector<Complex> orders = harmonics_of(samples);
+    joint.mean = orders.front().real();
+    joint.upper = *std::max_element(samples.begin(), samples.end());
+    joint.lower = *std::min_element(samples.begin(), samples.end());
+    joint.peak = std::max(joint.upper - joint.mean, joint.mean - joint.lower);
+    double square = 0;
+    for (const double v : samples) square += (v - joint.mean) * (v - joint.mean);
+    joint.rms = std::sqrt(square / static_cast<double>(samples.size()));
+    for (std::size_t r = 1; r < orders.size(); ++r) {
+      const double amplitude = std::abs(orders[r]);
+      joint.amplitude_sum += amplitude;
+      if (amplitude <= joint.dominant_amplitude) continue;
+      joint.dominant_amplitude = amplitude;
+      joint.dominant = r;
+      joint.dominant_omega = 2 * std::numbers::pi * static_cast<double>(r) / round;
+    }
+    result.joints.push_back(joint);
+    result.orders.push_back(orders);
   }
   return result;
 }

@@ -13,6 +13,7 @@
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "studies/modes/drive_limits.h"
+#include "studies/modes/mode_list.h"
 #include "studies/modes/torque_history.h"
 
 namespace kurbel {
@@ -21,22 +22,13 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
-constexpr int coarse_positions = 16;          // of the average at each speed of the sweep
+constexpr std::size_t cycle_samples = 4096;   // of a round of the steady motion
 
 class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
-      : scene_(scene), options_(options), effects_(effects), model_(compile(scene, linear(effects))) {
-    for (const EffectFlag& flag : effect_flags())
-      if (effects.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine && has_parameters(scene, flag))
-        found_.notes.push_back(fmt::format("{} left out of modes and forced response{}", flag.words,
-                                           options.torque.empty() ? "" : ", counted in the simulated torque"));
-    const auto told_to = [&](std::string_view what) {
-      return std::any_of(scene.components.begin(), scene.components.end(),
-                         [&](const Section& s) { return s.kind && s.kind->name.find(what) != std::string::npos; });
-    };
-    if (told_to("clutch")) found_.notes.push_back("clutches count as locked");
-    if (told_to("brake")) found_.notes.push_back("brakes count as released");
+      : options_(options), effects_(effects), scene_(as_of(scene, effects, options.at)) {
+    model_ = compile_network(network_as_of(scene_, options.at), scene_, effects);
     found_.title = scene.heading();
     found_.speed_unit = scene.speed_unit;
     found_.scene_file = scene.file;
@@ -44,21 +36,17 @@ class Study {
     found_.link = model_->node_label(model_->reduction_node);
   }
 
-  static Effects linear(Effects effects) {
-    for (const EffectFlag& flag : effect_flags())
-      if (flag.unsaid != EffectFlag::Unsaid::part_of_machine) effects.*(flag.flag) = false;
-    effects.locked = true;
-    return effects;
-  }
-
   ModesStudy result() {
     check_options();
+    say("regime", 0);
     find_operating_point();
-    say("modes", 0);
-    find_all_modes();
+    say("modes", 0.1);
     name_parts();
+    list_modes(options_.count, found_);
+    if (!options_.angle) find_frozen_range(options_.count, found_);
+    if (samples_ && !options_.speed) find_rattles(*samples_, options_.count, found_);
     choose_range();
-    say("excitation", 0.1);
+    say("excitation", 0.15);
     find_forcing();
     say("forced response", 0.2);
     find_critical_speeds();
@@ -88,9 +76,52 @@ class Study {
     if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
+  // The regime that the scene's own start leads to, unless a speed is asked for of a machine that knows no contacts and
+  // no states of its own: then all turns as geared, whatever the speed.
   void find_operating_point() {
-    const double speed = options_.speed.value_or(steady_or_usual_speed());
-    found_.drive = linearise(model_, {.speed = speed, .angle = options_.angle});
+    const bool plain = !model_->has_contacts() && model_->own_states.empty() && scene_.sequence.steps.empty();
+    if (!(options_.speed && plain)) find_regime_cycle();
+    LinearisationPoint point{.speed = options_.speed.value_or(samples_ ? samples_->mean->speed : 0),
+                             .angle = options_.angle};
+    if (samples_) point.regime = samples_->mean;
+    if (!options_.speed && !samples_) point.speed = balanced_or_usual_speed();
+    BaseMotion base(model_, point);
+    found_.drive = linearise(base);
+    if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
+    note_unsteady_motion();
+    if (!samples_ || options_.speed) return;
+    found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
+    found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
+  }
+
+  void look_for_regime() {
+    RegimeOptions options;
+    options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
+    options.budget = scene_.run.budget;
+    options.interrupted = options_.watch.interrupted;
+    options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
+    regime_.emplace();
+    try {
+      regime_ = find_regime(model_, options);
+    } catch (const std::invalid_argument& refused) {
+      regime_->words = refused.what();
+    }
+  }
+
+  void find_regime_cycle() {
+    look_for_regime();
+    found_.regime = regime_->words;
+    try {
+      if (regime_->repeats() && std::abs(regime_->point.time) > 0) samples_ = sample_cycle(*regime_, cycle_samples);
+    } catch (const std::invalid_argument& refused) {
+      found_.regime = refused.what();
+    }
+    if (samples_ && samples_->mean->speed == 0) samples_.reset();  // it stands: nothing turns by order
+    if (!samples_)
+      found_.notes.push_back(fmt::format(
+          "no motion that repeats to linearise at: {}; instead everything turns as geared, clutches locked and brakes "
+          "released, at the speed said",
+          found_.regime));
   }
 
   void note_unsteady_motion() {
@@ -103,19 +134,12 @@ class Study {
           found_.speed_unit.text(speed, 5), torque, found_.link));
   }
 
-  // A machine that starts from rest is looked at where it runs steadily near its rated speed, if it does: mean torques
-  // balance, and a faster motion is braked.
-  double steady_or_usual_speed() const {
+  // Without a regime: where mean torques balance near the rated speed and a faster motion is braked, if they do.
+  double balanced_or_usual_speed() const {
     const double rated = usual_speed(*model_);
     if (model_->scene.run.start.speed != 0 || model_->free_shafts < model_->shafts.size()) return rated;
-    const LinearDrive coarse = linearise(model_, {.speed = rated, .positions = coarse_positions});
-    const Excitations loads = find_excitations(coarse, 1.25 * rated, 1);
     const auto left = [&](double speed) {
-      return linearise(model_, {.speed = speed,
-                                .positions = coarse_positions,
-                                .added = mean_of_angle(coarse, loads, speed),
-                                .angle_torques = false})
-          .mean_torque;
+      return BaseMotion(model_, {.speed = speed, .positions = 4 * coarse_positions}).left_over();
     };
     double high = 1.05 * rated, above = left(high);
     for (int i = 1; i <= 60 && above <= 0; ++i) {
@@ -128,56 +152,6 @@ class Study {
   }
 
   double signed_speed(double speed) const { return std::copysign(speed, found_.drive.at.speed); }
-
-  void find_all_modes() {
-    const ModesWanted wanted{.count = options_.count};
-    found_.undamped = undamped_modes(found_.drive, wanted);
-    found_.damped = damped_modes(found_.drive, found_.undamped, wanted);
-    const UndampedModes& u = found_.undamped;
-    for (Eigen::Index i = u.rigid; i < u.omega.size() && i < u.rigid + options_.count; ++i) {
-      Mode mode;
-      mode.number = static_cast<int>(i) - u.rigid + 1;
-      mode.omega = u.omega[i];
-      mode.shape = u.shapes.col(i);
-      mode.shares = energy_shares(found_.drive, mode.shape);
-      found_.modes.push_back(std::move(mode));
-    }
-    pair_damped();
-    for (const DampedMode& d : found_.damped)
-      if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
-        found_.notes.push_back(
-            fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the "
-                        "torques there feed it more than they damp it (as those of a motor below its breakdown speed)",
-                        d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
-                                            : "the motion as a "
-                                              "whole",
-                        d.lambda.real()));
-        break;
-      }
-  }
-
-  // The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
-  void pair_damped() {
-    std::vector<char> used(found_.damped.size(), 0);
-    for (Mode& mode : found_.modes) {
-      double best = 0;
-      std::size_t which = found_.damped.size();
-      for (std::size_t i = 0; i < found_.damped.size(); ++i) {
-        const DampedMode& d = found_.damped[i];
-        if (used[i] || d.lambda.imag() <= 0) continue;
-        const Eigen::VectorXcd moved = found_.drive.inertia.cwiseProduct(mode.shape).cast<Complex>();
-        const double norm = std::sqrt((found_.drive.inertia.array() * d.shape.array().abs2()).sum());
-        const double near = 1 - std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
-        const double like = std::abs(moved.dot(d.shape)) / norm * near;
-        if (like > best) best = like, which = i;
-      }
-      mode.ratio = 1;  // until a swing is found that grows out of it
-      if (best < 0.3) continue;
-      used[which] = 1;
-      mode.lambda = found_.damped[which].lambda;
-      mode.ratio = found_.damped[which].ratio();
-    }
-  }
 
   void name_parts() {
     for (const int s : found_.drive.shaft) {
@@ -213,30 +187,22 @@ class Study {
   }
 
   void find_forcing() {
-    found_.excitations = find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order);
+    found_.excitations =
+        find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order, options_.orders == 0);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
-    if (!found_.excitations.by_frequency.empty()) {
-      LinearisationPoint point = found_.drive.at;
-      point.added = mean_beyond_start(found_.drive, found_.excitations);
-      found_.drive = linearise(model_, point);
-    }
-    note_unsteady_motion();
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
       found_.notes.push_back(
-          "nothing in the scene excites the drive by order or frequency: no torque depends on an "
-          "angle, and no torque source swings");
+          "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or swings "
+          "over time");
     found_.here = respond(found_.drive, found_.excitations);
   }
 
   LinearDrive drive_at(double speed) const {
-    LinearisationPoint point{.speed = signed_speed(speed), .angle = options_.angle, .positions = coarse_positions};
-    point.added = found_.drive.at.added;
-    if (!options_.angle) {
-      point.angle_torques = false;
-      point.added.resize(model_->shafts.size(), 0.0);
-      const std::vector<double> mean = mean_of_angle(found_.drive, found_.excitations, point.speed);
-      for (std::size_t s = 0; s < mean.size(); ++s) point.added[s] += mean[s];
-    }
+    LinearisationPoint point = found_.drive.at;
+    point.speed = signed_speed(speed);
+    point.positions = coarse_positions;
+    if (!options_.angle && !found_.excitations.by_order.empty())
+      point.added = mean_missed(found_.drive, found_.excitations, point.speed);
     return linearise(model_, point);
   }
 
@@ -249,7 +215,8 @@ class Study {
       strongest = std::max(strongest, x.strength(r, signed_speed(found_.fastest)));
     for (const Mode& mode : found_.modes)
       for (std::size_t r = 1; r <= x.harmonics; ++r) {
-        const double speed = mode.omega / x.order(r);
+        if (!x.is_looked_at(r)) continue;
+        const double speed = mode.natural() / x.order(r);
         if (speed < found_.slowest || speed > found_.fastest || x.strength(r, signed_speed(speed)) < 1e-6 * strongest)
           continue;
         found_.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
@@ -267,7 +234,7 @@ class Study {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * mode.omega / found_.excitations.order(r);
+        zone.centre = 2 * mode.natural() / found_.excitations.order(r);
         zone.variation = variation[r];
         zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
         if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
@@ -341,22 +308,10 @@ class Study {
     }
   }
 
-  // By the motion that the machine with all its effects keeps, where any limits are stated.
+  // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
   void judge_all_limits() {
-    std::shared_ptr<const Model> machine;
-    Regime regime;
-    if (any_limits(found_.limited)) {
-      machine = compile(scene_, effects_);  // the model's scene has no sequence: it is locked
-      RegimeOptions options;
-      options.budget = scene_.run.budget;
-      options.interrupted = options_.watch.interrupted;
-      try {
-        regime = find_regime(machine, options);
-      } catch (const std::invalid_argument& error) {
-        regime.words = error.what();
-      }
-    }
-    judge_limits(machine, regime, !options_.speed && !options_.angle, options_.watch, found_);
+    if (!regime_ && any_limits(found_.limited)) look_for_regime();
+    judge_limits(model_, regime_.value_or(Regime{}), !options_.speed && !options_.angle, options_.watch, found_);
   }
 
   void add_history() {
@@ -366,14 +321,18 @@ class Study {
     found_.diagnosis = found_.history->diagnosis;
   }
 
-  const Scene& scene_;
   const ModesOptions& options_;
   Effects effects_;
+  Scene scene_;
   std::shared_ptr<const Model> model_;
+  std::optional<Regime> regime_;
+  std::optional<CycleSamples> samples_;
   ModesStudy found_;
 };
 
 }  // namespace
+
+Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return study.drive.motion * mode.shape; }
 
 double parametric_half_width(double variation, double damping_ratio) {
   const double rest = variation * variation / 16 - damping_ratio * damping_ratio;

@@ -1,17 +1,21 @@
 // modes.h — the drive in the frequency domain: modes, critical speeds, forced response, limits, a torque's spectrum.
 //
-//   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
+// The machine is linearised at its regime (engine/linear), with everything that the scene's effects do.
+//   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = |λ| (Campbell)
 // A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
 // first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/analysis/eigen_modes.h"
+#include "engine/analysis/moment.h"
+#include "engine/linear/cycle_samples.h"
+#include "engine/linear/eigen_modes.h"
 #include "engine/scene/scene.h"
 #include "studies/findings/watch.h"
 #include "studies/limits/barred_ranges.h"
@@ -24,7 +28,8 @@ namespace kurbel {
 
 struct ModesOptions {
   int count = 20;                    // of modes, rigid motion not counted
-  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: start speed, else steady near the rated
+  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the regime
+  Moment at = {};                    // as the machine is then; default: when all is switched
   std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
@@ -36,11 +41,25 @@ struct ModesOptions {
 
 struct Mode {
   int number = 0;         // 0: rigid motion
-  double omega = 0;       // undamped [rad/s]
+  double omega = 0;       // undamped [rad/s]; of a swing of own states, |λ|
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
   std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
   double ratio = 1;             // ζ; 1: does not swing
+  double error = 0;             // of λ, of ω where none was found [rad/s]
+  bool of_own_states = false;   // it swings by the states of elements: it has no undamped mode that it grows out of
+  // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
+  double least = 0, greatest = 0;
+  double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
+};
+
+// A joint whose law changes its piece within the round of the steady motion: backlash that opens, a stop that is met.
+struct Rattle {
+  std::size_t joint = 0;
+  int changes = 0;  // in a round
+  double stiffness = 0;  // of the linear spring that does most nearly the same: ⟨τ θ⟩/⟨θ²⟩ over the round [N·m/rad]
+  double linear = 0;          // at the mean twist [N·m/rad]
+  std::vector<double> omega;  // undamped frequencies with it, ascending [rad/s]
 };
 
 struct CriticalSpeed {
@@ -76,16 +95,20 @@ struct ModesStudy {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
   UndampedModes undamped;
-  std::vector<Mode> modes;         // without the rigid ones
-  std::vector<DampedMode> damped;  // all that were found
-  std::vector<std::string> shaft_names, joint_names;
-  std::string link;  // reduction link
+  std::vector<Mode> modes;                            // without the rigid ones
+  std::vector<DampedMode> damped;                     // all that were found
+  std::vector<std::string> shaft_names, joint_names;  // of the shafts that may move, of all elastic joints
+  std::string link;                                   // reduction link
   SpeedUnit speed_unit;
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed
   std::vector<ParametricZone> zones;
-  SpeedResponse here;                 // at the operating point
+  SpeedResponse here;                  // at the operating point
+  std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations
+  double cycle_order = 1;              // of its first harmonic
+  std::string regime;                  // what the scene's own start leads to, in words
+  std::vector<Rattle> rattles;
   std::vector<SpeedResponse> sweep;   // over the range
   std::vector<LimitedJoint> limited;  // per joint: what it may bear
   std::vector<BarredRange> barred;
@@ -99,6 +122,9 @@ struct ModesStudy {
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
 // senseless; std::runtime_error where modes cannot be found.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
+
+// Amplitudes of a mode at the shafts that may move.
+Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);
 
 // Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
 double parametric_half_width(double variation, double damping_ratio);

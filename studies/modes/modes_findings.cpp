@@ -15,6 +15,7 @@ namespace {
 
 using namespace modes;
 
+constexpr double cycle_error = 1e-5;  // of a peak read from 4096 samples of a round
 constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.
@@ -23,22 +24,28 @@ ReadAs in_unit(const SpeedUnit& unit, int count = 5) {
   return {.factor = unit.of(1), .digits = count, .otherwise = "unbounded"};
 }
 
-bool is_forced(const ModesStudy& m) { return !m.excitations.by_order.empty() || !m.excitations.by_frequency.empty(); }
+bool is_forced(const ModesStudy& m) {
+  return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());
+}
 
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
   if (m.modes.empty()) {
     text = "The drive has no mode with twist.";
   } else {
-    text = fmt::format("First mode at {:.6g} Hz{}", hertz(m.modes.front().omega),
+    text = fmt::format("First mode at {:.6g} Hz{}", hertz(m.modes.front().natural()),
                        m.modes.front().lambda.imag() > 0 ? fmt::format(" (ζ = {:.3g})", m.modes.front().ratio)
                                                          : " undamped (it does not swing: ζ ≥ 1)");
-    if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
+    if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
   }
   if (is_forced(m)) {
-    const std::size_t j = joint_with_largest_swing(m.here);
+    const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
+    const std::size_t j = joint_with_largest_swing(said);
     text += fmt::format("; at {} {} swings by {} about {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                        m.joint_names[j], torque_text(m.here.joints[j].peak), torque_text(m.here.joints[j].mean));
+                        m.joint_names[j], torque_text(said.joints[j].peak), torque_text(said.joints[j].mean));
+    const double linear = m.here.joints[j].peak, really = said.joints[j].peak;
+    if (m.cycle && std::abs(linear - really) > 0.1 * really)
+      text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / really - 1));
   }
   const std::string limits = limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit);
   if (!limits.empty()) text += "; " + limits;
@@ -76,39 +83,64 @@ Rows mode_table(const ModesStudy& m) {
                          [](const Mode& mode) {
                            return Record{{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}};
                          })
+      .only_for_programs("natural_frequency", [](const Mode& mode) { return hertz(mode.natural()); })
+      .only_for_programs("error", [](const Mode& mode) { return hertz(mode.error); })
+      .only_for_programs("of_own_states", &Mode::of_own_states)
+      .only_for_programs("held",
+                         [](const Mode& mode) {
+                           return Record{{"least", hertz(mode.least)}, {"greatest", hertz(mode.greatest)}};
+                         })
       .only_for_people("f damped [Hz]", damped_text)
       .only_for_programs("damping_ratio", &Mode::ratio)
       .only_for_people(
           "ζ", [](const Mode& mode) { return mode.lambda.imag() > 0 ? read_as(mode.ratio, digits(4)) : "≥ 1"; });
+  table.only_for_people("error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
+  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
+    table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
+      return mode.of_own_states ? std::string("—")
+                                : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
+    });
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",
-                           [](const Mode& mode) { return std::vector<double>(mode.shape.begin(), mode.shape.end()); })
+                           [&](const Mode& mode) {
+                             const Eigen::VectorXd shape = shaft_shape(m, mode);
+                             return std::vector<double>(shape.begin(), shape.end());
+                           })
         .only_for_programs("potential_energy", [](const Mode& mode) { return mode.shares.joint; })
-        .only_for_programs("kinetic_energy", [](const Mode& mode) { return mode.shares.coordinate; });
+        .only_for_programs("kinetic_energy", [](const Mode& mode) { return mode.shares.shaft; });
   return table
       .only_for_people("twist energy in",
                        [&](const Mode& mode) { return largest_shares(mode.shares.joint, m.joint_names); })
       .only_for_people("kinetic energy in",
-                       [&](const Mode& mode) { return largest_shares(mode.shares.coordinate, m.shaft_names); });
+                       [&](const Mode& mode) { return largest_shares(mode.shares.shaft, m.shaft_names); });
 }
 
 Rows response_table(const ModesStudy& m) {
   const auto of = [&](auto member) { return [&m, member](std::size_t j) { return m.here.joints[j].*member; }; };
   const auto order = [&](std::size_t j) { return m.excitations.order(m.here.joints[j].dominant); };
-  return table_of("response", fmt::format("At {} of {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5), m.link),
-                  numbers_below(m.here.joints.size()))
-      .headed("forced response at that speed")
+  auto table =
+      table_of("response", fmt::format("At {} of {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5), m.link),
+               numbers_below(m.here.joints.size()));
+  table.headed("forced response at that speed")
       .programs_see_first(most_for_programs)
       .people_see_first(is_forced(m) ? responses_shown : 0)
       .column("joint", "joint", [&](std::size_t j) { return m.joint_names[j]; })
       .column("mean", "mean [N·m]", of(&JointResponse::mean), digits(5))
-      .column("peak", "peak of swing [N·m]", of(&JointResponse::peak), digits(6))
-      .column("amplitude_sum", "Σ of amplitudes", of(&JointResponse::amplitude_sum), digits(5))
+      .column("peak", "peak of swing [N·m]", of(&JointResponse::peak), digits(6));
+  if (m.cycle) {
+    const auto really = [&](auto member) { return [&m, member](std::size_t j) { return m.cycle->joints[j].*member; }; };
+    table.column("cycle_peak", "in the steady motion", really(&JointResponse::peak), digits(6))
+        .column(
+            "linear_error", "linear less that",
+            [&m](std::size_t j) { return m.here.joints[j].peak - m.cycle->joints[j].peak; }, digits(3))
+        .only_for_programs("cycle_amplitude", really(&JointResponse::dominant_amplitude));
+  }
+  return table.column("amplitude_sum", "Σ of amplitudes", of(&JointResponse::amplitude_sum), digits(5))
       .column("rms", "RMS", of(&JointResponse::rms), digits(5))
       .column("order", "strongest order", order,
               [&](double r) { return r > 0 ? read_as(r, digits(4)) : std::string("—"); })
-      .only_for_people("its amplitude", of(&JointResponse::dominant_amplitude), digits(5))
+      .column("amplitude", "its amplitude", of(&JointResponse::dominant_amplitude), digits(5))
       .column("power", "dissipated [W]", of(&JointResponse::power), digits(4));
 }
 
@@ -188,6 +220,7 @@ Record operating_point(const ModesStudy& m) {
   return {{"speed", m.drive.at.speed},
           {"link", m.link},
           {"mode_set", m.drive.mode_set},
+          {"regime", m.regime},
           {"torque_left_over", m.drive.mean_torque}};
 }
 
@@ -209,15 +242,15 @@ Record history_record(const TorqueHistory& h) {
 
 std::string shapes_csv(const ModesStudy& m) {
   const std::vector<std::size_t> shafts = numbers_below(m.shaft_names.size());
-  auto csv =
-      csv_of(shafts)
-          .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
-          .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
-          .column("inertia [kg*m2]", [&](std::size_t i) { return m.drive.inertia[static_cast<Eigen::Index>(i)]; });
+  auto csv = csv_of(shafts)
+                 .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
+                 .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
+                 .column("inertia [kg*m2]",
+                         [&](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
   for (const Mode& mode : m.modes)
     csv.column(
         fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)),
-        [&mode](std::size_t i) { return mode.shape[static_cast<Eigen::Index>(i)]; }, 9);
+        [shape = shaft_shape(m, mode)](std::size_t i) { return shape[static_cast<Eigen::Index>(i)]; }, 9);
   return csv.text();
 }
 
@@ -234,20 +267,23 @@ std::string response_csv(const ModesStudy& m) {
 
 // --- all of it ---
 
+// Of the round that was sampled: its integration. Of the linear drive alone nobody knows.
+std::optional<double> swing_error(const ModesStudy& m, std::size_t j) {
+  if (!m.cycle) return {};
+  return cycle_error * std::abs(m.cycle->joints[j].peak);
+}
+
 void add_key_figures(Findings& f, const ModesStudy& m) {
   for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k)
-    f.figures.push_back({fmt::format("mode {}", m.modes[k].number),
-                         hertz(m.modes[k].omega),
-                         "Hz",
-                         {},
-                         m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "",
-                         6,
-                         "natural_frequency"});
-  if (!is_forced(m)) return;
-  const std::size_t j = joint_with_largest_swing(m.here);
-  if (std::isfinite(m.here.joints[j].peak))
     f.figures.push_back(
-        {"largest swing at that speed", m.here.joints[j].peak, "N*m", {}, m.joint_names[j], 5, "largest_swing"});
+        {fmt::format("mode {}", m.modes[k].number), hertz(m.modes[k].natural()), "Hz", hertz(m.modes[k].error),
+         m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "", 6, "natural_frequency"});
+  if (!is_forced(m)) return;
+  const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
+  const std::size_t j = joint_with_largest_swing(said);
+  if (std::isfinite(said.joints[j].peak))
+    f.figures.push_back({"largest swing at that speed", said.joints[j].peak, "N*m", swing_error(m, j), m.joint_names[j],
+                         5, "largest_swing"});
 }
 
 Formula rayleigh(const ModesStudy& m) {

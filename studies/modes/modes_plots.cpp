@@ -44,15 +44,17 @@ Plot shape_plot(const ModesStudy& m) {
             .y = {"relative amplitude", ""},
             .series = {}};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
-    Series s{.name = fmt::format("mode {}, {:.4g} Hz", m.modes[k].number, hertz(m.modes[k].omega)),
+    Series s{.name = fmt::format("mode {}, {:.4g} Hz", m.modes[k].number, hertz(m.modes[k].natural())),
              .role = further_role(k),
              .x = {},
              .y = {}};
-    s.points = m.drive.size() <= 60;
+    const Eigen::VectorXd shape = shaft_shape(m, m.modes[k]);
+    s.points = shape.size() <= 60;
     double largest = 0;
-    for (Eigen::Index i = 0; i < m.drive.size(); ++i) {
+    for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      const double ratio = m.drive.ratio[static_cast<std::size_t>(i)];
       s.x.push_back(static_cast<double>(i + 1));
-      s.y.push_back(m.modes[k].shape[i] / m.drive.ratio[static_cast<std::size_t>(i)]);
+      s.y.push_back(ratio != 0 ? shape[i] / ratio : shape[i]);
       if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
     }
     for (double& y : s.y) y /= largest;
@@ -71,7 +73,7 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
             .bars = true};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k), .x = {}, .y = {}};
-    const std::vector<double>& share = kinetic ? m.modes[k].shares.coordinate : m.modes[k].shares.joint;
+    const std::vector<double>& share = kinetic ? m.modes[k].shares.shaft : m.modes[k].shares.joint;
     for (std::size_t i = 0; i < share.size() && i < 200; ++i) {
       s.x.push_back(static_cast<double>(i + 1));
       s.y.push_back(100 * share[i]);
@@ -146,12 +148,23 @@ Plot order_plot(const ModesStudy& m) {
     response.y.push_back(std::abs(m.here.orders[j][r]));
   }
   plot.series.push_back(std::move(response));
+  if (!m.cycle) return plot;
+  plot.series.back().name = "linear drive";
+  Series really{.name = "steady motion", .role = Role::rigid, .x = {}, .y = {}};
+  const std::vector<Complex>& orders = m.cycle->orders[j];
+  const double end = m.excitations.order(m.excitations.harmonics);
+  for (std::size_t r = 1; r < orders.size() && static_cast<double>(r) * m.cycle_order <= end * (1 + 1e-9); ++r) {
+    really.x.push_back(static_cast<double>(r) * m.cycle_order);
+    really.y.push_back(std::abs(orders[r]));
+  }
+  plot.series.push_back(std::move(really));
   return plot;
 }
 
 void mark_modes(const ModesStudy& m, Plot& plot, double end) {
   for (const Mode& mode : m.modes)
-    if (hertz(mode.omega) <= end) plot.marks.push_back({hertz(mode.omega), fmt::format("mode {}", mode.number)});
+    if (hertz(mode.natural()) <= end)
+      plot.marks.push_back({hertz(mode.natural()), fmt::format("mode {}", mode.number)});
 }
 
 // Up to a little above the highest mode that still shows.
@@ -244,8 +257,8 @@ Plot campbell_plot(const ModesStudy& m) {
   for (const std::size_t r : orders) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
   if (!m.modes.empty()) top = std::max(top, 1.2 * hertz(m.modes.front().omega));
   for (const Mode& mode : m.modes)
-    if (hertz(mode.omega) <= top)
-      plot.series.push_back(level(m, fmt::format("mode {}", mode.number), Role::elastic, hertz(mode.omega)));
+    if (hertz(mode.natural()) <= top)
+      plot.series.push_back(level(m, fmt::format("mode {}", mode.number), Role::elastic, hertz(mode.natural())));
   // All rays in one series: each comes back to the origin.
   Series rays{.name = "orders", .role = Role::rigid, .x = {}, .y = {}};
   for (const std::size_t r : orders) {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "engine/analysis/linearise.h"
+#include "engine/linear/linearise.h"
 #include "engine/run/recorders.h"
 #include "engine/run/run.h"
 #include "studies/modes/modes.h"

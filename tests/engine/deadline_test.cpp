@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/analysis/eigen_modes.h"
+#include "engine/linear/eigen_modes.h"
 #include "studies/forces/forces.h"
 #include "studies/modes/modes.h"
 #include "studies/reduce/reduce.h"

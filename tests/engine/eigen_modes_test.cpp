@@ -1,5 +1,5 @@
 // eigen_modes_test.cpp — modes of linearised drives: closed forms, published lines, dense against sparse, counting.
-#include "engine/analysis/eigen_modes.h"
+#include "engine/linear/eigen_modes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -192,8 +192,8 @@ TEST(UndampedModes, EnergySharesSumToOneAndKnowTheTwistedSpring) {
   const EnergyShares shares = energy_shares(d, m.shapes.col(1));
   EXPECT_NEAR(shares.joint[0] + shares.joint[1], 1, 1e-14);
   EXPECT_GT(shares.joint[1], 0.9999);
-  EXPECT_NEAR(shares.coordinate[0] + shares.coordinate[1] + shares.coordinate[2], 1, 1e-14);
-  EXPECT_NEAR(shares.coordinate[2], 2.0 / 3, 1e-4);  // 20 against 10: amplitudes 1 : −2
+  EXPECT_NEAR(shares.shaft[0] + shares.shaft[1] + shares.shaft[2], 1, 1e-14);
+  EXPECT_NEAR(shares.shaft[2], 2.0 / 3, 1e-4);  // 20 against 10: amplitudes 1 : −2
 }
 
 // λ² + 2ζω₀λ + ω₀² = 0 with c and k in parallel, 2ζω₀ = c/J_red.

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "drivetrain/couplings/coupling.h"
-#include "engine/analysis/eigen_modes.h"
-#include "engine/analysis/linearise.h"
+#include "engine/linear/eigen_modes.h"
+#include "engine/linear/linearise.h"
 #include "engine/run/run.h"
 #include "engine/steppers/stepper.h"
 #include "studies/modes/modes.h"
@@ -71,10 +72,11 @@ TEST(LinearDrive, TorqueOverTheAngleOfAGearedShaftIsASpringByTheSquareOfItsRatio
                elastic);
   const LinearDrive drive = linearise(model, {.speed = 30, .angle = 2.5 * 1.2});
   const auto node = static_cast<std::size_t>(model->network.ports.at("b").in);
-  const int coordinate = drive.coordinate[static_cast<std::size_t>(model->shaft_of_node[node])];
+  const auto coordinate =
+      std::find(drive.shaft.begin(), drive.shaft.end(), model->shaft_of_node[node]) - drive.shaft.begin();
   const double gain = model->gain_of_node[node];
   ASSERT_NE(std::abs(gain), 1);
-  EXPECT_NEAR(drive.angle_stiffness.coeff(coordinate, coordinate), 50 * gain * gain, 1e-9);
+  EXPECT_NEAR(drive.other_stiffness.coeff(coordinate, coordinate), 50 * gain * gain, 1e-9);
 }
 
 // Twelve equal branches on the middle of a long chain: eleven modes at their own frequency with the hub still, in the

@@ -2,8 +2,8 @@
 //
 // Seeds are fixed. A machine that fails is shrunk: parts are taken away as long as it still fails, and the scene that
 // is left is printed.
-#include "engine/analysis/eigen_modes.h"
-#include "engine/analysis/linearise.h"
+#include "engine/linear/eigen_modes.h"
+#include "engine/linear/linearise.h"
 #include "engine/run/run.h"
 #include "tests/hard/random_machine.h"
 #include "tests/support/scenes.h"

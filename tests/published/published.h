@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/eigen_modes.h"
+#include "engine/linear/eigen_modes.h"
 #include "engine/events/equations.h"
 #include "engine/scene/csv.h"
 #include "tests/support/scenes.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -131,7 +132,8 @@ run = { start = { speed = "30 rad/s" }, until = "1 s" }
 )");
   const LinearDrive drive = linearise(compile(scene, scene.effects), {.speed = 30});
   const auto a = static_cast<std::size_t>(drive.model->network.ports.at("a").in);
-  const int on_a = drive.coordinate[static_cast<std::size_t>(drive.model->shaft_of_node[a])];
+  const auto on_a = static_cast<int>(std::find(drive.shaft.begin(), drive.shaft.end(), drive.model->shaft_of_node[a]) -
+                                     drive.shaft.begin());
   const auto torque = [](double omega, Complex force) {
     const Complex spring(2500, omega * 4);
     return spring * force / 0.3 / (spring / 0.225 - omega * omega);
@@ -139,8 +141,8 @@ run = { start = { speed = "30 rad/s" }, until = "1 s" }
   for (const double side : {1.0, -1.0}) {
     Excitations x;
     x.harmonics = 2;
-    x.by_order.push_back({"push", on_a, {0, 20 * side, 11 * side}, {0, 0, 0}, {0, 0, 0}});
-    x.by_frequency.push_back({"hum", on_a, 51, Complex(3, -4)});
+    x.by_order.push_back({"push", LeftOver::torque, on_a, nullptr, {{0, 20 * side, 11 * side}}});
+    x.by_frequency.push_back({"hum", LeftOver::torque, on_a, 51, Complex(3, -4)});
     const Complex first = torque(30, 20 * side), second = torque(60, 11 * side);
     const double beside = std::abs(torque(51, Complex(3, -4)));
     double greatest = -HUGE_VAL, least = HUGE_VAL;

@@ -68,7 +68,7 @@ void expect_same_shapes(const ModesStudy& a, const ModesStudy& b) {
     expect_near(x.ratio, y.ratio, mode + "ζ", 1);
     for (const auto& [name, joint] : in_a)
       expect_near(x.shares.joint[joint], y.shares.joint[in_b.at(name)], mode + "twist energy in " + name, 1);
-    std::vector<double> kinetic_a = x.shares.coordinate, kinetic_b = y.shares.coordinate;
+    std::vector<double> kinetic_a = x.shares.shaft, kinetic_b = y.shares.shaft;
     std::sort(kinetic_a.begin(), kinetic_a.end());
     std::sort(kinetic_b.begin(), kinetic_b.end());
     ASSERT_EQ(kinetic_a.size(), kinetic_b.size());

@@ -1,5 +1,5 @@
-// eigen_modes.cpp — dense for small drives; for large ones a block Krylov space of (K + s M)⁻¹ M, checked by counting.
-#include "engine/analysis/eigen_modes.h"
+// eigen_modes.cpp — undamped: dense for small drives; for large ones a block Krylov space of (K + s M)⁻¹ M, checked by counting.
+#include "engine/linear/eigen_modes.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -25,6 +25,7 @@ using Eigen::VectorXi;
 constexpr int block = 4;                 // vectors a step of the Krylov space
 constexpr double converged = 1e-10;      // residual of (A + s)⁻¹ x = θ x over θ
 constexpr double good_enough = 1e-10;    // backward error that is handed out at all
+constexpr double rounding = 1e-15;       // of a frequency by its energies
 constexpr double shift_of_free = 1e-12;  // s over the largest eigenvalue, where rigid motions make K singular
 
 // A = M^(−½) K M^(−½)
@@ -65,35 +66,50 @@ int count_below(const SparseMatrix& a, double sigma) {
   throw std::runtime_error("the modes below a frequency could not be counted: the stiffness matrix has no finite LDLᵀ");
 }
 
-// Parts of the drive that hang together by springs and on nothing that is held: each turns freely as a whole.
+// Motions without twist, orthonormal in √J q.
 MatrixXd rigid_motions(const LinearDrive& drive) {
-  const Index n = drive.size();
-  std::vector<int> parent(at(n) + 1);  // the last one: what is held
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
-  const auto held = static_cast<int>(n);
-  for (const LinearDrive::Joint& j : drive.joints)
-    if (j.stiffness != 0) parent[at(root(j.a >= 0 ? j.a : held))] = root(j.b >= 0 ? j.b : held);
-  std::vector<int> column(at(n) + 1, -1);
-  int free = 0;
-  for (int i = 0; i < held; ++i)
-    if (const int r = root(i); r != root(held) && column[at(r)] < 0) column[at(r)] = free++;
-  MatrixXd motions = MatrixXd::Zero(n, free);
-  for (int i = 0; i < held; ++i)
-    if (const int c = column[at(root(i))]; c >= 0) motions(i, c) = drive.ratio[at(i)] * std::sqrt(drive.inertia[i]);
+  std::vector<Eigen::Triplet<double>> entries;
+  int row = 0;
+  for (std::size_t j = 0; j < drive.joints.size(); ++j) {
+    if (drive.joints[j].stiffness == 0) continue;
+    for (SparseRows::InnerIterator it(drive.twists, static_cast<Index>(j)); it; ++it)
+      entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    ++row;
+  }
+  SparseMatrix springs(row, drive.size());
+  springs.setFromTriplets(entries.begin(), entries.end());
+  MatrixXd motions = drive.inertia.cwiseSqrt().asDiagonal() * motions_without_twist(springs);
   motions.colwise().normalize();
-  return motions;
+  bool apart = true;  // parts of the drive that do not touch
+  for (Index i = 0; apart && i < motions.rows(); ++i) apart = (motions.row(i).array() != 0).count() <= 1;
+  if (apart) return motions;
+  const Eigen::HouseholderQR<MatrixXd> qr(motions);
+  return qr.householderQ() * MatrixXd::Identity(motions.rows(), motions.cols());
+}
+
+VectorXd stiffnesses(const LinearDrive& drive) {
+  VectorXd k(static_cast<Index>(drive.joints.size()));
+  for (Index j = 0; j < k.size(); ++j) k[j] = drive.joints[at(j)].stiffness;
+  return k;
 }
 
 // ω² = Σ k θ²/Σ J q²: the energies know low frequencies beside stiff springs to more digits than the matrix does.
 double frequency(const LinearDrive& drive, const VectorXd& q) {
-  double potential = 0;
-  for (std::size_t j = 0; j < drive.joints.size(); ++j)
-    potential += drive.joints[j].stiffness * std::pow(drive.twist(j, q), 2);
+  const double potential = stiffnesses(drive).dot((drive.twists * q).cwiseAbs2());
   return std::sqrt(std::max(0.0, potential) / drive.inertia.dot(q.cwiseAbs2()));
+}
+
+// Of ω = √(ω²), behind `rigid` ones that are exact: ω² lies within the residual, or within its square over the gap.
+VectorXd errors(const VectorXd& omega, const VectorXd& residual, Index rigid) {
+  VectorXd error = VectorXd::Zero(omega.size());
+  for (Index i = rigid; i < omega.size(); ++i) {
+    const double square = omega[i] * omega[i], r = residual[i - rigid];
+    double gap = i > 0 ? square - std::pow(omega[i - 1], 2) : square;
+    if (i + 1 < omega.size()) gap = std::min(gap, std::pow(omega[i + 1], 2) - square);
+    const double of_square = gap > r ? std::min(r, r * r / gap) : r;
+    error[i] = omega[i] > 0 ? of_square / (2 * omega[i]) + rounding * omega[i] : std::sqrt(r);
+  }
+  return error;
 }
 
 // From orthonormal vectors of A to modes of K, M, sorted; rigid motions first.
@@ -111,13 +127,16 @@ UndampedModes collect(const LinearDrive& drive, const SparseMatrix& a, const Mat
   modes.omega = VectorXd::Zero(r + m);
   modes.shapes.resize(drive.size(), r + m);
   for (Index i = 0; i < r; ++i) modes.shapes.col(i) = scale.cwiseProduct(rigid.col(i));
+  VectorXd residual(m);
   for (Index i = 0; i < m; ++i) {
     const VectorXd x = found.col(order[at(i)]);
     const double w = omega[order[at(i)]];
     modes.omega[r + i] = w;
     modes.shapes.col(r + i) = scale.cwiseProduct(x);
-    modes.residual = std::max(modes.residual, (a * x - w * w * x).norm() / (norm * x.norm()));
+    residual[i] = (a * x - w * w * x).norm() / x.norm();
+    modes.residual = std::max(modes.residual, residual[i] / norm);
   }
+  modes.error = errors(modes.omega, residual, r);
   modes.complete = r + m == drive.size();
   return modes;
 }
@@ -254,139 +273,6 @@ class KrylovSearch {
   std::mt19937_64 random_{20240607};
 };
 
-// First order in springs' and inertias' own scales: x = [√k θ, √J ω] is skew-symmetric without damping.
-MatrixXd first_order_matrix(const LinearDrive& drive) {
-  const Index n = drive.size(), t = static_cast<Index>(drive.joints.size());
-  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
-  MatrixXd a = MatrixXd::Zero(t + n, t + n);
-  for (Index j = 0; j < t; ++j) {
-    const LinearDrive::Joint& joint = drive.joints[at(j)];
-    const double root = std::sqrt(std::max(0.0, joint.stiffness));
-    if (joint.a >= 0) a(j, t + joint.a) = root * joint.gain_a * scale[joint.a];
-    if (joint.b >= 0) a(j, t + joint.b) = -root * joint.gain_b * scale[joint.b];
-  }
-  a.bottomLeftCorner(n, t) = -a.topRightCorner(t, n).transpose();
-  a.bottomRightCorner(n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
-  return a;
-}
-
-// With torques that depend on the angle: x = [√J q, √J ω].
-MatrixXd second_order_matrix(const LinearDrive& drive) {
-  const Index n = drive.size();
-  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
-  MatrixXd a = MatrixXd::Zero(2 * n, 2 * n);
-  a.topRightCorner(n, n).setIdentity();
-  a.bottomLeftCorner(n, n) =
-      -(scale.asDiagonal() * MatrixXd(drive.stiffness + drive.angle_stiffness) * scale.asDiagonal());
-  a.bottomRightCorner(n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
-  return a;
-}
-
-DampedMode normalised(std::complex<double> lambda, Eigen::VectorXcd shape) {
-  Index largest = 0;
-  shape.cwiseAbs().maxCoeff(&largest);
-  shape /= shape[largest];
-  return {lambda, std::move(shape)};
-}
-
-void sort_modes(std::vector<DampedMode>& modes) {
-  std::stable_sort(modes.begin(), modes.end(), [](const DampedMode& x, const DampedMode& y) {
-    const bool swings_x = x.lambda.imag() > 0, swings_y = y.lambda.imag() > 0;
-    if (swings_x != swings_y) return swings_x;
-    return std::abs(x.lambda) < std::abs(y.lambda);
-  });
-}
-
-std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
-  const bool by_angle = drive.angle_stiffness.nonZeros() > 0;
-  const MatrixXd a = by_angle ? second_order_matrix(drive) : first_order_matrix(drive);
-  const Eigen::EigenSolver<MatrixXd> solver(a);
-  if (solver.info() != Eigen::Success)
-    throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
-  const double noise = 1e-12 * a.norm();
-  std::vector<DampedMode> modes;
-  for (Index i = 0; i < a.rows(); ++i) {
-    std::complex<double> lambda = solver.eigenvalues()[i];
-    if (lambda.imag() < 0) continue;
-    if (std::abs(lambda.imag()) <= noise) lambda = lambda.real();
-    if (std::abs(lambda) <= noise) lambda = 0;
-    modes.push_back(
-        normalised(lambda, drive.inertia.cwiseSqrt().cwiseInverse().cast<std::complex<double>>().cwiseProduct(
-                               solver.eigenvectors().col(i).tail(drive.size()))));
-  }
-  sort_modes(modes);
-  return modes;
-}
-
-// Newton on the quadratic problem: a step of inverse iteration, then the root of the quadratic form vᵀ(λ²M + λC + K)v.
-class DampedNewton {
- public:
-  explicit DampedNewton(const LinearDrive& drive) : drive_(drive), k_(drive.stiffness) {
-    if (drive.angle_stiffness.nonZeros() > 0) k_ += drive.angle_stiffness;
-  }
-
-  bool refine(std::complex<double>& lambda, Eigen::VectorXcd& v) {
-    for (int iteration = 0; iteration < 12; ++iteration) {
-      const Eigen::SparseMatrix<std::complex<double>> q = at_lambda(lambda);
-      if (!analysed_) solver_.analyzePattern(q);
-      analysed_ = true;
-      solver_.factorize(q);
-      if (solver_.info() != Eigen::Success) return true;  // λ is an eigenvalue to the last bit
-      const Eigen::VectorXcd w = solver_.solve(2.0 * lambda * drive_.inertia.cwiseProduct(v) + drive_.damping * v);
-      if (!w.allFinite()) return false;
-      v = w.normalized();
-      const std::complex<double> before = lambda;
-      lambda = root(v, lambda);
-      if (std::abs(lambda - before) <= 1e-12 * std::abs(lambda)) return true;
-    }
-    return false;
-  }
-
- private:
-  Eigen::SparseMatrix<std::complex<double>> at_lambda(std::complex<double> lambda) const {
-    using Complex = std::complex<double>;
-    Eigen::SparseMatrix<Complex> q = k_.cast<Complex>() + lambda * drive_.damping.cast<Complex>();
-    Eigen::SparseMatrix<Complex> mass(drive_.size(), drive_.size());
-    mass.setIdentity();
-    for (Index i = 0; i < drive_.size(); ++i) mass.coeffRef(i, i) = lambda * lambda * drive_.inertia[i];
-    q += mass;
-    q.makeCompressed();
-    return q;
-  }
-  std::complex<double> root(const Eigen::VectorXcd& v, std::complex<double> near) const {
-    const auto form = [&](const auto& m) { return (v.transpose() * (m * v)).value(); };
-    const std::complex<double> a = (v.array().square() * drive_.inertia.array()).sum(), c = form(drive_.damping),
-                               k = form(k_);
-    const std::complex<double> half = std::sqrt(c * c - 4.0 * a * k);
-    const std::complex<double> one = (-c + half) / (2.0 * a), two = (-c - half) / (2.0 * a);
-    return std::abs(one - near) < std::abs(two - near) ? one : two;
-  }
-
-  const LinearDrive& drive_;
-  SparseMatrix k_;
-  Eigen::SparseLU<Eigen::SparseMatrix<std::complex<double>>> solver_;
-  bool analysed_ = false;
-};
-
-std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedModes& undamped) {
-  DampedNewton newton(drive);
-  std::vector<DampedMode> modes;
-  for (Index i = undamped.rigid; i < undamped.omega.size(); ++i) {
-    const VectorXd shape = undamped.shapes.col(i);
-    const double decay = 0.5 * shape.dot(drive.damping * shape);
-    std::complex<double> lambda(-decay, std::sqrt(std::max(0.0, std::pow(undamped.omega[i], 2) - decay * decay)));
-    Eigen::VectorXcd v = shape.cast<std::complex<double>>();
-    if (!newton.refine(lambda, v)) continue;
-    const bool known = std::any_of(modes.begin(), modes.end(), [&](const DampedMode& m) {
-      return std::abs(m.lambda - lambda) < 1e-9 * std::abs(lambda) &&
-             std::abs(m.shape.normalized().dot(v.normalized())) > 1 - 1e-6;
-    });
-    if (!known) modes.push_back(normalised(lambda, v));
-  }
-  sort_modes(modes);
-  return modes;
-}
-
 }  // namespace
 
 UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted) {
@@ -413,23 +299,15 @@ int modes_below(const LinearDrive& drive, double omega) {
   return omega <= 0 ? 0 : count_below(scaled_stiffness(drive), omega * omega);
 }
 
-std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
-                                     const ModesWanted& wanted) {
-  return drive.size() <= wanted.dense_below ? dense_damped(drive) : sparse_damped(drive, undamped);
-}
-
 EnergyShares energy_shares(const LinearDrive& drive, const VectorXd& shape) {
-  EnergyShares shares;
-  double potential = 0;
-  for (std::size_t j = 0; j < drive.joints.size(); ++j) {
-    shares.joint.push_back(drive.joints[j].stiffness * std::pow(drive.twist(j, shape), 2));
-    potential += shares.joint.back();
-  }
-  for (double& share : shares.joint) share = potential > 0 ? share / potential : 0;
-  const double kinetic = drive.inertia.dot(shape.cwiseAbs2());
-  for (Index i = 0; i < drive.size(); ++i)
-    shares.coordinate.push_back(drive.inertia[i] * shape[i] * shape[i] / kinetic);
-  return shares;
+  const auto shares = [](const VectorXd& energy) {
+    const double sum = energy.sum();
+    std::vector<double> share(energy.begin(), energy.end());
+    for (double& s : share) s = sum > 0 ? s / sum : 0;
+    return share;
+  };
+  return {shares(stiffnesses(drive).cwiseProduct((drive.twists * shape).cwiseAbs2())),
+          shares(drive.shaft_inertia.cwiseProduct((drive.motion * shape).cwiseAbs2()))};
 }
 
 }  // namespace kurbel

@@ -1,7 +1,9 @@
-// eigen_modes.h — natural frequencies and shapes of a linearised drive.
+// eigen_modes.h — natural frequencies and shapes of a linearised drive, and how near to the exact ones they are.
 //
 //     undamped   K v = ω² M v,  vᵀ M v = 1                      small drives dense; large ones by shift and invert
-//     damped     (λ² M + λ C + K) v = 0,  λ = −ζ |λ| ± i ω_d
+//     damped     (λ² M + λ C + K − B (λ − F)⁻¹ (λ H + G T)) v = 0,  λ = −ζ |λ| ± i ω_d
+// Undamped: springs alone, the elements' own states as they are. Errors: of ω², the residual of its pair, or its square over
+// the gap to the next one (Kato, Temple); of λ, its condition number times the backward error.
 // Modes are counted by Sylvester's law of inertia (Sturm's count): K − σ M has as many negative pivots as there are
 // modes below √σ. So it is proven that none is missed.
 #pragma once
@@ -9,7 +11,7 @@
 #include <complex>
 #include <vector>
 
-#include "engine/analysis/linearise.h"
+#include "engine/linear/linearise.h"
 
 namespace kurbel {
 
@@ -22,6 +24,7 @@ struct UndampedModes {
   int rigid = 0;           // motions without twist: ω = 0 exactly; they come first
   Eigen::VectorXd omega;   // ascending [rad/s]
   Eigen::MatrixXd shapes;  // columns; M-orthonormal
+  Eigen::VectorXd error;   // of each ω [rad/s]
   double residual = 0;  // backward error: largest ‖A x − ω² x‖/‖A‖, A = M^(−½) K M^(−½), ‖x‖ = 1
   bool complete = false;  // all modes of the drive
   int counted_below = 0;  // by Sturm, up to just above the last one: equals what was found
@@ -35,8 +38,10 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
 int modes_below(const LinearDrive& drive, double omega);
 
 struct DampedMode {
-  std::complex<double> lambda;                                             // [1/s], Im ≥ 0; Im = 0: does not swing
-  Eigen::VectorXcd shape;                                                  // per coordinate; largest entry 1
+  std::complex<double> lambda;  // [1/s], Im ≥ 0; Im = 0: does not swing
+  Eigen::VectorXcd shape;       // per coordinate; largest entry 1
+  double error = 0;             // of λ [1/s]
+  double in_own_states = 0;     // share of its vector in the elements' own states: 1 where the machine hardly moves
   double natural() const { return std::abs(lambda); }                      // [rad/s]
   double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: grows by itself
 };
@@ -46,9 +51,9 @@ struct DampedMode {
 std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
                                      const ModesWanted& wanted = {});
 
-// Shares of each joint in the potential energy and of each coordinate in the kinetic energy of a shape.
+// Shares of each joint in the potential energy and of each shaft that may move in the kinetic energy of a shape.
 struct EnergyShares {
-  std::vector<double> joint, coordinate;  // each sums to 1
+  std::vector<double> joint, shaft;  // each sums to 1
 };
 EnergyShares energy_shares(const LinearDrive& drive, const Eigen::VectorXd& shape);
 

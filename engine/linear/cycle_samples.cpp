@@ -1,0 +1,91 @@
+// cycle_samples.cpp — the round is run once more; what it does is read between the steps.
+#include "engine/linear/cycle_samples.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+class Sampler final : public Observer {
+ public:
+  Sampler(const Model& m, CycleSamples& out, double begin, std::size_t count)
+      : m_(m), out_(out), begin_(begin), count_(count), mean_(m.state_count(), 0.0) {
+    for (auto* values : {&out_.torque, &out_.twist}) values->assign(m.elastic.size(), std::vector<double>(count, 0.0));
+  }
+
+  void step(StepView& view) override {
+    for (; next_ < count_; ++next_) {
+      const double t = begin_ + (static_cast<double>(next_) + 0.5) / static_cast<double>(count_) * out_.time;
+      if (t > view.t()) break;
+      take(view, std::max(t, view.t_previous()));
+    }
+  }
+  // Samples beyond the last step, which ends the round to rounding.
+  bool is_full() const { return next_ >= count_; }
+  std::vector<double> means() const {
+    std::vector<double> all = mean_;
+    for (double& v : all) v /= static_cast<double>(count_);
+    return all;
+  }
+
+ private:
+  void take(StepView& view, double t) {
+    Equations& equations = view.equations();
+    const std::span<const double> now = view.at(t);
+    y_.assign(now.begin(), now.begin() + static_cast<std::ptrdiff_t>(equations.size()));
+    const Snapshot& s = equations.snapshot(t, y_);
+    for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] += y_[i];
+    for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
+      const Network::Joint& joint = m_.network.joints[at(m_.elastic[j].joint)];
+      const double rest = joint.element->is.turns_unevenly ? joint.element->rest_twist(s.node_angle[joint.a]) : 0;
+      out_.torque[j][next_] = s.sums.connection_torque[j];
+      out_.twist[j][next_] = s.now.twist[j] - rest;
+      mean_[equations.twist_index(static_cast<int>(j))] -= rest;
+    }
+  }
+
+  const Model& m_;
+  CycleSamples& out_;
+  double begin_;
+  std::size_t count_, next_ = 0;
+  std::vector<double> mean_, y_;
+};
+
+}  // namespace
+
+CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance) {
+  const ReturnMap& map = *regime.map;
+  const Model& m = map.model();
+  Equations equations(map.shared_model(), false);
+  const std::vector<double> y = map.place(equations, regime.point.z);
+  CycleSamples out;
+  out.time = regime.point.time;
+  out.link_angle = equations.angle_with_turns(at(m.reduction_angle), y);
+  MeanMotion mean{.state = {map.start_time(), y, equations.modes()}, .speed = 0, .mean = {}, .joint_torque = {}};
+  RunOptions run{.tolerance = tolerance,
+                 .method = "auto",
+                 .until = map.start_time() + out.time,
+                 .budget = 60,
+                 .interrupted = nullptr,
+                 .progress = {}};
+  run.from = {map.start_time(), y};
+  Sampler sampler(m, out, map.start_time(), count);
+  const RunOutcome outcome = integrate(equations, run, {&sampler});
+  if (!outcome.diagnosis.empty()) throw std::runtime_error(outcome.diagnosis);
+  if (!sampler.is_full()) throw std::runtime_error("the round of the steady motion ended before its period");
+  out.events = outcome.events;
+  mean.mean = sampler.means();
+  mean.speed = (equations.angle_with_turns(at(m.reduction_angle), outcome.state) - out.link_angle) / out.time;
+  for (const std::vector<double>& torque : out.torque) {
+    double sum = 0;
+    for (const double v : torque) sum += v;
+    mean.joint_torque.push_back(sum / static_cast<double>(count));
+  }
+  out.mean = std::make_shared<const MeanMotion>(std::move(mean));
+  return out;
+}
+
+}  // namespace kurbel

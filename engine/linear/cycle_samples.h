@@ -1,0 +1,24 @@
+// cycle_samples.h — a round of the steady motion, sampled evenly over time: means and orders of what it does.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/analysis/regime.h"
+#include "engine/linear/base_motion.h"
+
+namespace kurbel {
+
+struct CycleSamples {
+  double time = 0;                          // of the round [s]
+  double link_angle = 0;                    // at its begin [rad]
+  std::shared_ptr<const MeanMotion> mean;   // of the round
+  std::vector<std::vector<double>> torque;  // per elastic joint: at (k + ½)/n of the round [N·m]
+  std::vector<std::vector<double>> twist;   // less what it is unloaded [rad]
+  std::vector<Event> events;                // that the round goes through
+};
+
+// Of a regime that repeats; `count` samples. Throws std::runtime_error in words where the round breaks down.
+CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance = 1e-11);
+
+}  // namespace kurbel

@@ -1,0 +1,241 @@
+// damped_modes.cpp — eigenvalues of the damped drive: dense; large drives by Newton from the undamped modes.
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "engine/linear/eigen_modes.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The state of first order in springs' and inertias' own scales, x = [√k θ, √J ω, z/scale], is skew-symmetric without
+// damping.
+struct FirstOrder {
+  MatrixXd a;
+  Index speeds = 0, own = 0;  // where they begin
+};
+
+// Twists of joints that anything depends on.
+FirstOrder by_twists(const LinearDrive& drive) {
+  const Index n = drive.size(), z = drive.own_states();
+  std::vector<Index> joints;
+  VectorXd root(static_cast<Index>(drive.joints.size()));
+  for (Index j = 0; j < root.size(); ++j) {
+    const double k = drive.joints[at(j)].stiffness;
+    root[j] = k > 0 ? std::sqrt(k) : 1;
+    if (drive.torque_by_twist.col(j).norm() > 0 || (z > 0 && drive.own_by_twist.col(j).norm() > 0)) joints.push_back(j);
+  }
+  const auto t = static_cast<Index>(joints.size());
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  const MatrixXd twists = MatrixXd(drive.twists) * scale.asDiagonal(),
+                 torque = scale.asDiagonal() * MatrixXd(drive.torque_by_twist);
+  const MatrixXd own = z > 0 ? MatrixXd(drive.own_by_twist) : MatrixXd(0, root.size());
+  FirstOrder f{MatrixXd::Zero(t + n + z, t + n + z), t, t + n};
+  for (Index i = 0; i < t; ++i) {
+    const Index j = joints[at(i)];
+    f.a.block(i, t, 1, n) = root[j] * twists.row(j);
+    f.a.block(t, i, n, 1) = torque.col(j) / root[j];
+    if (z > 0) f.a.block(t + n, i, z, 1) = drive.own_scale.cwiseInverse().cwiseProduct(own.col(j)) / root[j];
+  }
+  return f;
+}
+
+// With the link held at an angle: x = [√J q, √J ω, z/scale].
+FirstOrder by_angles(const LinearDrive& drive) {
+  const Index n = drive.size(), z = drive.own_states();
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  FirstOrder f{MatrixXd::Zero(2 * n + z, 2 * n + z), n, 2 * n};
+  f.a.block(0, n, n, n).setIdentity();
+  f.a.block(n, 0, n, n) =
+      -(scale.asDiagonal() * MatrixXd(drive.stiffness + drive.other_stiffness) * scale.asDiagonal());
+  if (z > 0)
+    f.a.block(2 * n, 0, z, n) = drive.own_scale.cwiseInverse().asDiagonal() *
+                                MatrixXd(drive.own_by_twist * SparseMatrix(drive.twists) + drive.own_by_angle) *
+                                scale.asDiagonal();
+  return f;
+}
+
+FirstOrder first_order(const LinearDrive& drive) {
+  const Index n = drive.size(), z = drive.own_states();
+  FirstOrder f = drive.at.angle ? by_angles(drive) : by_twists(drive);
+  const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  f.a.block(f.speeds, f.speeds, n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
+  if (z == 0) return f;
+  const VectorXd per_own = drive.own_scale.cwiseInverse();
+  f.a.block(f.speeds, f.own, n, z) = scale.asDiagonal() * MatrixXd(drive.torque_by_own) * drive.own_scale.asDiagonal();
+  f.a.block(f.own, f.speeds, z, n) = per_own.asDiagonal() * MatrixXd(drive.own_by_speed) * scale.asDiagonal();
+  f.a.block(f.own, f.own, z, z) = per_own.asDiagonal() * MatrixXd(drive.own_by_own) * drive.own_scale.asDiagonal();
+  return f;
+}
+
+DampedMode normalised(std::complex<double> lambda, Eigen::VectorXcd shape) {
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  shape /= shape[largest];
+  return {lambda, std::move(shape), 0, 0};
+}
+
+void sort_modes(std::vector<DampedMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const DampedMode& x, const DampedMode& y) {
+    const bool swings_x = x.lambda.imag() > 0, swings_y = y.lambda.imag() > 0;
+    if (swings_x != swings_y) return swings_x;
+    return std::abs(x.lambda) < std::abs(y.lambda);
+  });
+}
+
+// Of each eigenvalue: its condition number times the backward error of its pair and of the solver.
+VectorXd eigenvalue_errors(const MatrixXd& a, const Eigen::EigenSolver<MatrixXd>& solver) {
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const Eigen::MatrixXcd left = vectors.partialPivLu().inverse();  // rows
+  const double backward = 4 * std::numeric_limits<double>::epsilon() *
+                          std::sqrt(a.cwiseAbs().rowwise().sum().maxCoeff() * a.cwiseAbs().colwise().sum().maxCoeff());
+  VectorXd error(a.rows());
+  for (Index i = 0; i < a.rows(); ++i) {
+    const Eigen::VectorXcd v = vectors.col(i);
+    const double residual = (a * v - solver.eigenvalues()[i] * v).norm() / v.norm();
+    const double condition = left.row(i).norm() * v.norm();
+    error[i] = std::isfinite(condition) ? condition * (residual + backward) : std::sqrt(backward * a.norm());
+  }
+  return error;
+}
+
+std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
+  const FirstOrder system = first_order(drive);
+  const MatrixXd& a = system.a;
+  const Eigen::EigenSolver<MatrixXd> solver(a);
+  if (solver.info() != Eigen::Success)
+    throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
+  const double noise = 1e-12 * a.norm();
+  const VectorXd error = eigenvalue_errors(a, solver), scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  std::vector<DampedMode> modes;
+  for (Index i = 0; i < a.rows(); ++i) {
+    std::complex<double> lambda = solver.eigenvalues()[i];
+    if (lambda.imag() < 0) continue;
+    if (std::abs(lambda.imag()) <= noise) lambda = lambda.real();
+    if (std::abs(lambda) <= noise) lambda = 0;
+    const Eigen::VectorXcd v = solver.eigenvectors().col(i);
+    DampedMode mode =
+        normalised(lambda, scale.cast<std::complex<double>>().cwiseProduct(v.segment(system.speeds, drive.size())));
+    mode.error = error[i];
+    mode.in_own_states = v.tail(drive.own_states()).squaredNorm() / v.squaredNorm();
+    modes.push_back(std::move(mode));
+  }
+  sort_modes(modes);
+  return modes;
+}
+
+// Newton on Q(λ) x = 0, x = [q, z]: inverse iteration with the derivative, Q w = Q′ x. Where Q is symmetric λ is then the
+// root of the quadratic form, else it moves by what w tells.
+class DampedNewton {
+ public:
+  using Complex = std::complex<double>;
+
+  explicit DampedNewton(const LinearDrive& drive) : drive_(drive), n_(drive.size()), states_(drive.own_states()) {
+    std::vector<Eigen::Triplet<Complex>> mass, damping, stiffness;
+    for (Index i = 0; i < n_; ++i) mass.emplace_back(i, i, drive.inertia[i]);
+    add(drive.damping, 0, 0, 1, damping);
+    add(drive.stiffness, 0, 0, 1, stiffness);
+    add(drive.other_stiffness, 0, 0, 1, stiffness);
+    if (states_ > 0) {
+      add(drive.torque_by_own, 0, n_, -1, stiffness);
+      add(drive.own_by_twist * SparseMatrix(drive.twists), n_, 0, -1, stiffness);
+      add(drive.own_by_angle, n_, 0, -1, stiffness);
+      add(drive.own_by_speed, n_, 0, -1, damping);
+      add(drive.own_by_own, n_, n_, -1, stiffness);
+      for (Index k = 0; k < states_; ++k) damping.emplace_back(n_ + k, n_ + k, 1.0);
+    }
+    mass_ = matrix(mass), damping_ = matrix(damping), stiffness_ = matrix(stiffness);
+  }
+
+  // False where it does not converge. `change`: of λ in the last step, what its error is of the order of.
+  bool refine(Complex& lambda, Eigen::VectorXcd& v, double& change) {
+    Eigen::VectorXcd x = Eigen::VectorXcd::Zero(n_ + states_);
+    x.head(n_) = v;
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      const Sparse q = lambda * lambda * mass_ + lambda * damping_ + stiffness_;
+      if (!analysed_) solver_.analyzePattern(q);
+      analysed_ = true;
+      solver_.factorize(q);
+      if (solver_.info() != Eigen::Success) return true;  // λ is an eigenvalue to the last bit
+      const Eigen::VectorXcd w = solver_.solve((2.0 * lambda * mass_ + damping_) * x);
+      if (!w.allFinite()) return false;
+      const Complex before = lambda;
+      const Complex step = x.dot(x) / x.dot(w);
+      x = w.normalized();
+      lambda = drive_.is_symmetric() ? root(x, lambda) : lambda - step;
+      v = x.head(n_);
+      change = std::abs(lambda - before);
+      if (change <= 1e-12 * std::abs(lambda)) return true;
+    }
+    return false;
+  }
+
+ private:
+  using Sparse = Eigen::SparseMatrix<Complex>;
+
+  static void add(const SparseMatrix& m, Index row, Index column, double factor,
+                  std::vector<Eigen::Triplet<Complex>>& to) {
+    for (Index c = 0; c < m.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator it(m, c); it; ++it)
+        to.emplace_back(row + it.row(), column + c, factor * it.value());
+  }
+  Sparse matrix(std::vector<Eigen::Triplet<Complex>>& entries) const {
+    for (Index i = 0; i < n_ + states_; ++i) entries.emplace_back(i, i, 0.0);
+    Sparse m(n_ + states_, n_ + states_);
+    m.setFromTriplets(entries.begin(), entries.end());
+    return m;
+  }
+  Complex root(const Eigen::VectorXcd& v, Complex near) const {
+    const auto form = [&](const Sparse& m) { return (v.transpose() * (m * v)).value(); };
+    const Complex a = form(mass_), c = form(damping_), k = form(stiffness_);
+    const Complex half = std::sqrt(c * c - 4.0 * a * k);
+    const Complex one = (-c + half) / (2.0 * a), two = (-c - half) / (2.0 * a);
+    return std::abs(one - near) < std::abs(two - near) ? one : two;
+  }
+
+  const LinearDrive& drive_;
+  Index n_, states_;
+  Sparse mass_, damping_, stiffness_;
+  Eigen::SparseLU<Sparse> solver_;
+  bool analysed_ = false;
+};
+
+std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedModes& undamped) {
+  DampedNewton newton(drive);
+  std::vector<DampedMode> modes;
+  for (Index i = undamped.rigid; i < undamped.omega.size(); ++i) {
+    const VectorXd shape = undamped.shapes.col(i);
+    const double decay = 0.5 * shape.dot(drive.damping * shape);
+    std::complex<double> lambda(-decay, std::sqrt(std::max(0.0, std::pow(undamped.omega[i], 2) - decay * decay)));
+    Eigen::VectorXcd v = shape.cast<std::complex<double>>();
+    double change = 0;
+    if (!newton.refine(lambda, v, change)) continue;
+    const bool known = std::any_of(modes.begin(), modes.end(), [&](const DampedMode& m) {
+      return std::abs(m.lambda - lambda) < 1e-9 * std::abs(lambda) &&
+             std::abs(m.shape.normalized().dot(v.normalized())) > 1 - 1e-6;
+    });
+    if (known) continue;
+    modes.push_back(normalised(lambda, v));
+    modes.back().error = std::max(change, 1e-14 * std::abs(lambda));
+  }
+  sort_modes(modes);
+  return modes;
+}
+
+}  // namespace
+
+std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
+                                     const ModesWanted& wanted) {
+  return drive.size() <= wanted.dense_below ? dense_damped(drive) : sparse_damped(drive, undamped);
+}
+
+}  // namespace kurbel

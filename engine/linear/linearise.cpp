@@ -1,0 +1,208 @@
+// linearise.cpp — M, C, K and the elements' own states from averages along the base motion.
+#include "engine/linear/linearise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+using Eigen::Index;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+constexpr double rounding = 1e-11;  // of the largest entry: what is left of a difference of equal ones
+
+void refuse_what_cannot_swing(const Model& m) {
+  const bool springs = std::any_of(m.elastic.begin(), m.elastic.end(), [&](const ElasticJoint& e) {
+    return m.network.joints[at(e.joint)].element->is.has_spring();
+  });
+  if (!springs && m.own_states.empty())
+    throw std::invalid_argument(
+        "nothing is elastic, so the drive has no modes; switch elasticity on in [effects], or with --effects "
+        "elasticity");
+}
+
+class Lineariser {
+ public:
+  explicit Lineariser(BaseMotion& base) : base_(base), m_(base.model()) {}
+
+  LinearDrive drive(std::shared_ptr<const Model> model) {
+    drive_.model = std::move(model);
+    drive_.at = base_.point();
+    list_shafts();
+    drive_.twists = base_.twists();
+    drive_.inertia = base_.inertia();
+    drive_.mean_torque = base_.left_over();
+    take_slopes();
+    take_torques();
+    take_jacobian();
+    describe();
+    return std::move(drive_);
+  }
+
+ private:
+  void list_shafts() {
+    const SparseRows motion = base_.coordinates().motion;
+    Triplets entries;
+    for (Index s = 0; s < motion.rows(); ++s) {
+      bool any = false;
+      for (SparseRows::InnerIterator it(motion, s); it; ++it) {
+        entries.emplace_back(static_cast<int>(drive_.shaft.size()), static_cast<int>(it.col()), it.value());
+        any = true;
+      }
+      if (!any) continue;
+      drive_.shaft.push_back(static_cast<int>(s));
+      drive_.ratio.push_back(m_.node_ratio[at(m_.shafts[at(s)].reference)]);
+    }
+    drive_.motion = SparseMatrix(static_cast<Index>(drive_.shaft.size()), motion.cols());
+    drive_.motion.setFromTriplets(entries.begin(), entries.end());
+    drive_.shaft_inertia.resize(static_cast<Index>(drive_.shaft.size()));
+    for (std::size_t i = 0; i < drive_.shaft.size(); ++i)
+      drive_.shaft_inertia[static_cast<Index>(i)] = base_.shaft_inertia()[drive_.shaft[i]];
+  }
+
+  // How the joints' torques change with what they read, averaged.
+  void take_slopes() {
+    using By = TorqueSlope::By;
+    drive_.joints.resize(m_.elastic.size());
+    std::vector<TorqueSlope> slopes;
+    Triplets by_speed, by_own;
+    std::vector<double> of_a(m_.elastic.size(), 0.0);
+    const double share = 1.0 / static_cast<double>(base_.positions().size());
+    for (const BaseMotion::Position& position : base_.positions()) {
+      const Instant now = base_.equations().instant(base_.time(position), base_.at(position));
+      slopes.clear();
+      for (const auto& pool : m_.pools) pool->add_torque_slopes(now, slopes);
+      for (const TorqueSlope& slope : slopes) {
+        LinearDrive::Joint& joint = drive_.joints[at(slope.connection)];
+        const double value = share * slope.value;
+        if (slope.by == By::twist) joint.stiffness += value;
+        if (slope.by == By::rate) joint.damping += value;
+        if (slope.by == By::own && value != 0) by_own.emplace_back(slope.connection, slope.index, value);
+        if (slope.by == By::speed_of_a) of_a[at(slope.connection)] += value;
+      }
+    }
+    const auto joints = static_cast<Index>(m_.elastic.size()), shafts = static_cast<Index>(m_.shafts.size());
+    for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
+      const ElasticJoint& e = m_.elastic[j];
+      const double c = drive_.joints[j].damping;
+      by_speed.emplace_back(static_cast<int>(j), e.shaft_a, e.gain_a * (c + of_a[j]));
+      by_speed.emplace_back(static_cast<int>(j), e.shaft_b, -e.gain_b * c);
+    }
+    SparseMatrix of_shafts(joints, shafts);
+    of_shafts.setFromTriplets(by_speed.begin(), by_speed.end());
+    drive_.joint_by_speed = of_shafts * base_.coordinates().motion;
+    drive_.joint_by_own = SparseMatrix(joints, static_cast<Index>(m_.own_states.size()));
+    drive_.joint_by_own.setFromTriplets(by_own.begin(), by_own.end());
+  }
+
+  void take_torques() {
+    const Modes& modes = base_.equations().modes();
+    const std::shared_ptr<const MeanMotion>& regime = base_.point().regime;
+    const bool known = regime && regime->speed == base_.point().speed && !base_.point().angle;
+    const Eigen::VectorXd mean = known ? Eigen::VectorXd() : base_.mean_joint_torques();
+    for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
+      LinearDrive::Joint& joint = drive_.joints[j];
+      const ConnectionTraits& is = m_.network.joints[at(m_.elastic[j].joint)].element->is;
+      joint.torque = known ? regime->joint_torque[j] : mean[static_cast<Index>(j)];
+      joint.state = is.springless        ? LinearDrive::Joint::State::film
+                    : !is.slips          ? LinearDrive::Joint::State::spring
+                    : modes.slip[j] == 0 ? LinearDrive::Joint::State::sticks
+                                         : LinearDrive::Joint::State::slips;
+    }
+  }
+
+  void take_jacobian() {
+    MeanJacobian j = base_.mean_jacobian();
+    const Index n = drive_.size();
+    const SparseMatrix t = base_.twists();
+    Eigen::VectorXd k(t.rows());
+    for (Index i = 0; i < k.size(); ++i) k[i] = drive_.joints[at(i)].stiffness;
+    drive_.stiffness = SparseMatrix(t.transpose()) * k.asDiagonal() * t;
+    drive_.damping = -j.torque_by_speed;
+    drive_.torque_by_twist = std::move(j.torque_by_twist);
+    SparseMatrix rest = -(drive_.torque_by_twist * t) - drive_.stiffness;
+    const double scale = largest(drive_.stiffness);
+    rest.prune([&](Index, Index, double v) { return std::abs(v) > rounding * scale; });
+    if (base_.point().angle) rest -= j.torque_by_angle;
+    drive_.other_stiffness = rest.nonZeros() > 0 ? rest : SparseMatrix(n, n);
+    drive_.torque_by_own = std::move(j.torque_by_own);
+    drive_.own_by_twist = std::move(j.own_by_twist);
+    drive_.own_by_speed = std::move(j.own_by_speed);
+    drive_.own_by_angle = std::move(j.own_by_angle);
+    drive_.own_by_own = std::move(j.own_by_own);
+    drive_.own_scale.resize(static_cast<Index>(m_.own_states.size()));
+    for (std::size_t i = 0; i < m_.own_states.size(); ++i)
+      drive_.own_scale[static_cast<Index>(i)] = m_.own_states[i].state.scale;
+  }
+  static double largest(const SparseMatrix& m) {
+    double most = 0;
+    for (Index c = 0; c < m.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator it(m, c); it; ++it) most = std::max(most, std::abs(it.value()));
+    return most;
+  }
+
+  void describe() {
+    std::string text;
+    const bool variable = std::any_of(m_.shafts.begin(), m_.shafts.end(), [](const Shaft& s) { return s.variable; });
+    if (drive_.at.angle) {
+      text = fmt::format("mechanisms with their inertia at {:.4g}° of the reduction link",
+                         *drive_.at.angle * 180 / std::numbers::pi);
+    } else if (variable) {
+      text = "mechanisms with the mean of their inertia over the cycle";
+    } else {
+      text = "constant inertias";
+    }
+    std::string held;
+    std::vector<char> moves(m_.shafts.size(), 0);
+    for (const int s : drive_.shaft) moves[at(s)] = 1;
+    for (std::size_t s = 0; s < m_.shafts.size(); ++s) {
+      if (moves[s] || (s >= m_.free_shafts && m_.node_ratio[at(m_.shafts[s].reference)] == 0)) continue;
+      held += fmt::format("; {} held ({})", m_.node_label(m_.shafts[s].reference),
+                          s < m_.free_shafts ? "friction at rest" : "its speed is prescribed");
+    }
+    for (const auto& [state, words] : {std::pair(LinearDrive::Joint::State::sticks, "sticks"),
+                                       std::pair(LinearDrive::Joint::State::slips, "slips: a damper")})
+      for (std::size_t j = 0; j < drive_.joints.size(); ++j)
+        if (drive_.joints[j].state == state)
+          held += fmt::format("; {} {}", m_.network.joints[at(m_.elastic[j].joint)].component, words);
+    drive_.mode_set =
+        text + held +
+        (drive_.at.speed == 0 ? "" : fmt::format("; all turn {}", drive_.at.speed > 0 ? "forwards" : "backwards")) +
+        (base_.words().empty() ? "" : "; " + base_.words());
+  }
+
+  BaseMotion& base_;
+  const Model& m_;
+  LinearDrive drive_;
+};
+
+}  // namespace
+
+LinearDrive linearise(BaseMotion& base) {
+  refuse_what_cannot_swing(base.model());
+  return Lineariser(base).drive(base.equations().shared_model());
+}
+
+LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point) {
+  refuse_what_cannot_swing(*model);
+  BaseMotion base(std::move(model), point);
+  return linearise(base);
+}
+
+double usual_speed(const Model& model) {
+  const StartSettings& start = model.scene.run.start;
+  if (start.speed != 0) {
+    const int on = start.on.empty() ? model.reduction_node : model.network.ports.at(start.on).in;
+    return start.speed / model.node_ratio[at(on)];
+  }
+  return model.speed_scale;
+}
+
+}  // namespace kurbel

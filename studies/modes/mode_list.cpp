@@ -1,0 +1,166 @@
+// mode_list.cpp — undamped modes, the damped ones that grow out of them, and how far they hold.
+#include "studies/modes/mode_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/model/cycle_of.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int frozen_angles = 24;
+constexpr Eigen::Index most_frozen = 60;  // coordinates
+
+// The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
+std::vector<char> pair_damped(ModesStudy& found) {
+  std::vector<char> used(found.damped.size(), 0);
+  for (Mode& mode : found.modes) {
+    double best = 0;
+    std::size_t which = found.damped.size();
+    for (std::size_t i = 0; i < found.damped.size(); ++i) {
+      const DampedMode& d = found.damped[i];
+      if (used[i] || d.lambda.imag() <= 0) continue;
+      const Eigen::VectorXcd moved = found.drive.inertia.cwiseProduct(mode.shape).cast<Complex>();
+      const double norm = std::sqrt((found.drive.inertia.array() * d.shape.array().abs2()).sum());
+      const double near = 1 - std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
+      const double like = std::abs(moved.dot(d.shape)) / norm * near;
+      if (like > best) best = like, which = i;
+    }
+    mode.ratio = 1;  // until a swing is found that grows out of it
+    if (best < 0.3) continue;
+    used[which] = 1;
+    mode.lambda = found.damped[which].lambda;
+    mode.ratio = found.damped[which].ratio();
+    mode.error = found.damped[which].error;
+  }
+  return used;
+}
+
+// What swings by states of elements, and what springs and states of elements do so differently together that it grows
+// out of no undamped mode.
+void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
+  if (found.drive.own_states() == 0) return;
+  for (std::size_t i = 0; i < found.damped.size(); ++i) {
+    const DampedMode& d = found.damped[i];
+    if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
+    Mode mode;
+    mode.omega = std::abs(d.lambda);
+    mode.lambda = d.lambda;
+    mode.ratio = d.ratio();
+    mode.error = d.error;
+    mode.of_own_states = true;
+    mode.least = mode.greatest = mode.omega;
+    mode.shape = d.shape.real();
+    mode.shape /= std::sqrt(found.drive.inertia.dot(mode.shape.cwiseAbs2()));
+    mode.shares = energy_shares(found.drive, mode.shape);
+    found.modes.push_back(std::move(mode));
+  }
+  std::stable_sort(found.modes.begin(), found.modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.natural() < b.natural(); });
+  if (found.modes.size() > at(count)) found.modes.resize(at(count));
+  for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
+}
+
+}  // namespace
+
+void list_modes(int count, ModesStudy& found) {
+  const ModesWanted wanted{.count = count};
+  found.undamped = undamped_modes(found.drive, wanted);
+  found.damped = damped_modes(found.drive, found.undamped, wanted);
+  const UndampedModes& u = found.undamped;
+  for (Eigen::Index i = u.rigid; i < u.omega.size() && i < u.rigid + count; ++i) {
+    Mode mode;
+    mode.number = static_cast<int>(i) - u.rigid + 1;
+    mode.omega = u.omega[i];
+    mode.shape = u.shapes.col(i);
+    mode.shares = energy_shares(found.drive, mode.shape);
+    mode.error = u.error[i];
+    mode.least = mode.greatest = mode.omega;
+    found.modes.push_back(std::move(mode));
+  }
+  const std::vector<char> used = pair_damped(found);
+  add_swings_of_own_states(count, used, found);
+  for (const DampedMode& d : found.damped)
+    if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
+      found.notes.push_back(
+          fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the "
+                      "torques there feed it more than they damp it (as those of a motor below its breakdown speed)",
+                      d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
+                                          : "the motion as a "
+                                            "whole",
+                      d.lambda.real()));
+      break;
+    }
+}
+
+// Undamped frequencies with the link held at angles all over the cycle.
+void find_frozen_range(int count, ModesStudy& found) {
+  if (found.drive.size() > most_frozen) return;
+  const Model& m = *found.drive.model;
+  const bool variable = std::any_of(m.shafts.begin(), m.shafts.end(), [](const Shaft& s) { return s.variable; });
+  if (!variable) return;
+  const double cycle = cycle_of(m).angle;
+  std::vector<Mode*> springs;
+  for (Mode& mode : found.modes)
+    if (!mode.of_own_states) springs.push_back(&mode);
+  for (int i = 0; i < frozen_angles; ++i) {
+    LinearisationPoint point = found.drive.at;
+    point.angle = cycle * (i + 0.5) / frozen_angles;
+    const UndampedModes held = undamped_modes(linearise(found.drive.model, point), {.count = count});
+    for (std::size_t k = 0; k < springs.size(); ++k) {
+      const Eigen::Index place = held.rigid + static_cast<Eigen::Index>(k);
+      if (place >= held.omega.size()) break;
+      springs[k]->least = std::min(springs[k]->least, held.omega[place]);
+      springs[k]->greatest = std::max(springs[k]->greatest, held.omega[place]);
+    }
+  }
+}
+
+// Joints whose pieces change within the round, with the linear spring that does most nearly the same there.
+void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
+  const Model& m = *found.drive.model;
+
+  LinearDrive alike = found.drive;
+  for (std::size_t j = 0; j < m.elastic.size(); ++j) {
+    const Network::Joint& joint = m.network.joints[at(m.elastic[j].joint)];
+    if (joint.element->is.guards == 0 || !joint.element->is.has_spring()) continue;
+    Rattle rattle;
+    rattle.joint = j;
+    rattle.linear = found.drive.joints[j].stiffness;
+    for (const Event& event : samples.events) rattle.changes += event.component == joint.component;
+    if (rattle.changes == 0) continue;
+    const double twist = samples.mean->mean[m.angle_count() + j], torque = samples.mean->joint_torque[j];
+    double both = 0, square = 0;
+    for (std::size_t k = 0; k < samples.torque[j].size(); ++k) {
+      both += (samples.torque[j][k] - torque) * (samples.twist[j][k] - twist);
+      square += std::pow(samples.twist[j][k] - twist, 2);
+    }
+    rattle.stiffness = square > 0 ? both / square : 0;
+    const double more = rattle.stiffness - rattle.linear;
+    const SparseMatrix row = SparseMatrix(found.drive.twists.row(static_cast<Eigen::Index>(j)));
+    alike.stiffness += more * SparseMatrix(row.transpose()) * row;
+    alike.joints[j].stiffness = rattle.stiffness;
+    found.rattles.push_back(rattle);
+  }
+  if (found.rattles.empty()) return;
+  const UndampedModes modes = undamped_modes(alike, {.count = count});
+  for (Rattle& rattle : found.rattles) {
+    for (Eigen::Index i = modes.rigid; i < modes.omega.size(); ++i) rattle.omega.push_back(modes.omega[i]);
+    found.notes.push_back(
+        fmt::format("\"{}\" rattles: its law changes piece {} times in a round of the steady motion, so that its "
+                    "stiffness hangs on "
+                    "the amplitude. At the mean twist it is {:.5g} N·m/rad, over the round as it is {:.5g} N·m/rad; "
+                    "with that the "
+                    "first mode lies at {:.5g} Hz",
+                    found.joint_names[rattle.joint], rattle.changes, rattle.linear, rattle.stiffness,
+                    rattle.omega.empty() ? 0.0 : rattle.omega.front() / (2 * pi)));
+  }
+}
+
+}  // namespace kurbel

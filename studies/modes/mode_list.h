@@ -1,0 +1,15 @@
+// mode_list.h — the modes of a linearised drive, listed for people: undamped and damped in pairs, and how far they hold.
+#pragma once
+
+#include "studies/modes/modes.h"
+
+namespace kurbel {
+
+// Fills `undamped`, `damped`, `modes` of the study's drive; notes what grows by itself.
+void list_modes(int count, ModesStudy& found);
+// Fills `least` and `greatest` of the modes with the link held at angles all over the cycle.
+void find_frozen_range(int count, ModesStudy& found);
+// Fills `rattles`: joints whose law changes its piece within the round.
+void find_rattles(const CycleSamples& samples, int count, ModesStudy& found);
+
+}  // namespace kurbel
