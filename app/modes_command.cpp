@@ -66,8 +66,10 @@ void set_up(CLI::App& command, int& code) {
       .add_option("--range", arguments->range, "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
       ->expected(2);
   command.add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
-  command.add_option("--barred", arguments->barred,
-                     "bars speeds where a joint without limits swings by more than this times its mean (default: 1)");
+  command.add_option(
+      "--barred", arguments->barred,
+      "bars speeds where a joint without limits swings by more than this times its mean or the rated torque "
+      "(default: 1)");
   command.add_option("--torque", arguments->torque,
                      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
   command.callback([&code, arguments] { code = modes(*arguments); });

@@ -44,9 +44,15 @@ const Fields<CouplingLimits>& coupling_limit_fields() {
   using Limits = CouplingLimits;
   static const auto made =
       Fields<Limits>()
-          .add({.name = "nominal_torque", .unit = "N*m", .domain = positive, .doc = "T_KN, limit for kurbel modes"},
+          .add({.name = "nominal_torque",
+                .unit = "N*m",
+                .domain = positive,
+                .doc = "T_KN, of the mean torque in steady motion, limit for kurbel modes"},
                &Limits::nominal)
-          .add({.name = "maximum_torque", .unit = "N*m", .domain = positive, .doc = "T_Kmax, limit for kurbel modes"},
+          .add({.name = "maximum_torque",
+                .unit = "N*m",
+                .domain = positive,
+                .doc = "T_Kmax, of peaks at starts and in resonances passed, limit for kurbel modes"},
                &Limits::maximum)
           .add({.name = "vibratory_torque",
                 .unit = "N*m",
@@ -55,7 +61,17 @@ const Fields<CouplingLimits>& coupling_limit_fields() {
                &Limits::vibratory)
           .add({.name = "dissipated_power", .unit = "W", .domain = positive, .doc = "P_KW, limit for kurbel modes"},
                &Limits::power)
-          .add(application_factor_key(), &Limits::application_factor);
+          .add(application_factor_key(), &Limits::application_factor)
+          .add({.name = "temperature_factor",
+                .fallback = "1",
+                .domain = {.low = 1},
+                .doc = "S_t by its maker's table, for what its rubber loses at its temperature, in kurbel modes"},
+               &Limits::temperature_factor)
+          .add({.name = "start_factor",
+                .fallback = "1",
+                .domain = {.low = 1},
+                .doc = "S_z by its maker's table, for the number of starts or blows in an hour, in kurbel modes"},
+               &Limits::start_factor);
   return made;
 }
 

@@ -74,8 +74,8 @@ CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolera
   run.from = {map.start_time(), y};
   Sampler sampler(m, out, map.start_time(), count);
   const RunOutcome outcome = integrate(equations, run, {&sampler});
-  if (!outcome.diagnosis.empty()) throw std::runtime_error(outcome.diagnosis);
-  if (!sampler.is_full()) throw std::runtime_error("the round of the steady motion ended before its period");
+  if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
+  if (!sampler.is_full()) throw std::invalid_argument("the round of the steady motion ended before its period");
   out.events = outcome.events;
   mean.mean = sampler.means();
   mean.speed = (equations.angle_with_turns(at(m.reduction_angle), outcome.state) - out.link_angle) / out.time;

@@ -18,7 +18,7 @@ struct CycleSamples {
   std::vector<Event> events;                // that the round goes through
 };
 
-// Of a regime that repeats; `count` samples. Throws std::runtime_error in words where the round breaks down.
+// Of a regime that repeats; `count` samples. Throws std::invalid_argument in words where the round breaks down.
 CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance = 1e-11);
 
 // Of a state in which no speed changes: its own.

@@ -159,6 +159,33 @@ std::vector<Definition> of_modes() {
        .is_not = "a peak torque: the mean is not in it, nor is anything not linear",
        .theory = "12.7",
        .verbs = verb},
+      {.name = "nominal_torque_verdict",
+       .words = "mean torque against T_KN",
+       .unit = "N*m",
+       .is = "K_A S_t times the mean of a joint's torque over a round of the motion that the machine keeps",
+       .formula = "K_A S_t |T_mean| ≤ T_KN",
+       .is_not = "a peak, nor the torque of a start",
+       .theory = "12.9",
+       .verbs = verb},
+      {.name = "maximum_torque_verdict",
+       .words = "largest torque from rest against T_Kmax",
+       .unit = "N*m",
+       .is = "the largest torque of a joint on a simulated way from rest to the motion that the machine keeps, what "
+             "starts add times S_z, all times S_t; without such a way a bound, the largest steady swing below the "
+             "operating speed",
+       .formula = "S_t (T_N + S_z T_S) ≤ T_Kmax",
+       .is_not = "the standard's estimate by shock and resonance factors",
+       .theory = "12.9",
+       .verbs = verb},
+      {.name = "vibratory_torque_verdict",
+       .words = "alternating torque against T_KW",
+       .unit = "N*m",
+       .is = "the largest departure of a joint's torque from its mean over a round of the motion that the machine "
+             "keeps, times S_t and the frequency factor of what swings in it",
+       .formula = "S_t S_f T_W ≤ T_KW",
+       .is_not = "half the range from least to greatest torque; the amplitude of one order",
+       .theory = "12.11",
+       .verbs = verb},
   };
 }
 

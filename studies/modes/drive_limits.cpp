@@ -1,4 +1,4 @@
-// drive_limits.cpp — limits that the scene's components state, where swings exceed them, and DIN 740-2.
+// drive_limits.cpp — responses as loads, and who is asked for verdicts.
 #include "studies/modes/drive_limits.h"
 
 #include <fmt/format.h>
@@ -6,135 +6,93 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
-#include "drivetrain/couplings/coupling_keys.h"
 #include "engine/numerics/index.h"
+#include "studies/limits/limits_findings.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-DriveLimits stated_limits(const Section* s) {
-  if (!s || !s->kind) return {};
-  const CouplingLimits given = coupling_limit_fields().read(*s);
-  DriveLimits limits = {given.nominal, given.maximum, given.vibratory, given.power, given.application_factor};
-  if (s->kind->name == "shaft") {
-    const ShaftKeys shaft = shaft_fields().read(*s);
-    limits.shear_stress = shaft.allowable_shear_stress.value_or(0);
-    if (limits.shear_stress > 0) limits.polar_modulus = 2 * shaft.polar_moment() / *shaft.diameter;
-  }
-  return limits;
+std::vector<JointLoad> loads_of(const SpeedResponse& response) {
+  std::vector<JointLoad> loads;
+  for (const JointResponse& joint : response.joints) loads.push_back(load_of(joint));
+  return loads;
 }
 
-// Excess of a joint's swing over what it may have; > 0: barred.
-struct Bar {
-  double limit = 0, value = 0;
-  std::string reason;
-};
-// `mean_factor`: what bars a joint without limits, times its mean torque.
-Bar bar(const DriveLimits& limits, const JointResponse& joint, bool mean_judges, double mean_factor) {
-  if (limits.vibratory > 0) return {limits.vibratory, joint.peak, "vibratory_torque"};
-  if (limits.maximum > 0)
-    return {limits.maximum, std::max(std::abs(joint.upper), std::abs(joint.lower)), "maximum_torque"};
-  if (limits.shear_stress > 0)
-    return {limits.shear_stress * limits.polar_modulus, std::max(std::abs(joint.upper), std::abs(joint.lower)),
-            "allowable_shear_stress"};
-  return {mean_judges ? mean_factor * std::abs(joint.mean) : HUGE_VAL, joint.peak,
-          fmt::format("{:g} × mean torque", mean_factor)};
-}
-
-// Along the sweep over the speeds.
-void add_barred_ranges(std::size_t j, bool mean_judges, double mean_factor, ModesStudy& found) {
-  std::optional<BarredRange> open;
-  double speed_before = 0, excess_before = 0;
-  for (std::size_t i = 0; i < found.sweep.size(); ++i) {
-    const SpeedResponse& s = found.sweep[i];
-    const Bar b = bar(found.limits[j], s.joints[j], mean_judges, mean_factor);
-    const double excess = b.value - b.limit;
-    const bool barred = excess > 0;
-    // Ends between two points of the sweep: straight between them.
-    const double share = i > 0 && excess != excess_before && std::isfinite(excess) && std::isfinite(excess_before)
-                             ? std::clamp(-excess_before / (excess - excess_before), 0.0, 1.0)
-                             : 1.0;
-    const double edge = i > 0 ? speed_before + share * (s.speed - speed_before) : s.speed;
-    if (barred && !open) open = BarredRange{j, edge, s.speed, b.limit, b.value, b.reason};
-    if (barred) {
-      open->to = s.speed;
-      if (b.value > open->peak) open->peak = b.value, open->limit = b.limit;
-    } else if (open) {
-      open->to = edge;
-      found.barred.push_back(*open);
-      open.reset();
+// Steady swings at the speeds up to the operating one.
+std::vector<Passing> passing_of(const ModesStudy& found) {
+  std::vector<Passing> passing(found.limited.size());
+  for (const SpeedResponse& s : found.sweep)
+    for (std::size_t j = 0; j < passing.size(); ++j) {
+      if (s.speed > std::abs(found.drive.at.speed) * (1 + 1e-9)) continue;
+      const double most = load_of(s.joints[j]).largest().value;
+      if (std::abs(most) > std::abs(passing[j].torque)) passing[j] = {most, s.speed};
     }
-    speed_before = s.speed;
-    excess_before = excess;
-  }
-  if (open) found.barred.push_back(*open);
+  return passing;
 }
 
-// DIN 740-2 at the operating point, and passing through the resonances of the range below it.
-void add_verdicts(std::size_t j, ModesStudy& found) {
-  const DriveLimits& limits = found.limits[j];
-  const JointResponse& here = found.here.joints[j];
-  const std::string& name = found.joint_names[j];
-  double passing = 0, speed = 0;
-  for (const SpeedResponse& s : found.sweep) {
-    const double most = std::max(std::abs(s.joints[j].upper), std::abs(s.joints[j].lower));
-    if (s.speed <= std::abs(found.drive.at.speed) * (1 + 1e-9) && most > passing) passing = most, speed = s.speed;
+// Between two samples the torque rises by no more than an eighth of its second difference, where that stands for it.
+Measured largest_of_samples(const TorqueHistory& h) {
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < h.value.size(); ++k)
+    if (std::abs(h.value[k]) > std::abs(h.value[most])) most = k;
+  if (most == 0 || most + 1 >= h.value.size()) return {std::abs(h.value[most]), 0};
+  return {std::abs(h.value[most]), std::abs(h.value[most - 1] - 2 * h.value[most] + h.value[most + 1]) / 8};
+}
+
+void judge_history(ModesStudy& found) {
+  if (!found.history || found.history->value.empty()) return;
+  for (const LimitedJoint& joint : found.limited) {
+    if (joint.name != found.history->component || !(joint.limits.maximum > 0)) continue;
+    const Measured most = largest_of_samples(*found.history);
+    const double factor = joint.limits.temperature_factor;
+    found.verdicts.push_back({joint.name, "maximum torque of the simulated run: S_t |T| ≤ T_Kmax", factor * most.value,
+                              joint.limits.maximum, "N*m", "of the samples", factor * most.error});
   }
-  double largest = std::max(std::abs(here.upper), std::abs(here.lower));
-  if (limits.nominal > 0)
-    found.verdicts.push_back({name, "nominal torque: K_A |T_mean| ≤ T_KN",
-                              limits.application_factor * std::abs(here.mean), limits.nominal, "N*m",
-                              fmt::format("K_A = {:g}", limits.application_factor)});
-  if (limits.maximum > 0) {
-    found.verdicts.push_back({name, "maximum torque while passing resonances: |T| ≤ T_Kmax", std::max(passing, largest),
-                              limits.maximum, "N*m",
-                              passing > largest ? fmt::format("steady swing at {}; a quick passage stays below it",
-                                                              found.speed_unit.text(speed, 5))
-                                                : "at the operating point"});
-    if (found.history && found.history->component == name)
-      found.verdicts.push_back({name, "maximum torque of the simulated run: |T| ≤ T_Kmax",
-                                std::max(found.history->greatest, -found.history->least), limits.maximum, "N*m",
-                                "of the samples"});
-  }
-  if (limits.vibratory > 0) {
-    // Continuous swing: S_f = √(f/10 Hz) above 10 Hz.
-    const double f = here.dominant_omega / (2 * pi);
-    const double factor = f > 10 ? std::sqrt(f / 10) : 1;
-    found.verdicts.push_back({name, "vibratory torque: S_f T_W ≤ T_KW", factor * here.peak, limits.vibratory, "N*m",
-                              fmt::format("S_f = √(f/10 Hz) = {:.3g} at {:.4g} Hz", factor, f)});
-  }
-  if (limits.power > 0)
-    found.verdicts.push_back({name, "dissipated power: P_W ≤ P_KW", here.power, limits.power, "W", ""});
-  if (limits.shear_stress > 0)
-    found.verdicts.push_back(
-        {name, "shear stress: K_A |T|/W_p ≤ τ_allowable", limits.application_factor * largest / limits.polar_modulus,
-         limits.shear_stress, "Pa",
-         fmt::format("W_p = {:.5g} cm³, K_A = {:g}", 1e6 * limits.polar_modulus, limits.application_factor)});
 }
 
 }  // namespace
 
-void find_barred_ranges(const Model& model, double barred_factor, ModesStudy& found) {
-  std::vector<char> mean_judges;  // per joint: without limits of its own, its mean torque bounds its swing
-  for (const ElasticJoint& e : model.elastic) {
-    const Section* s = model.scene.find(model.network.joints[at(e.joint)].component);
-    // A coupling hammers where its torque changes sign; crankshafts do so by nature, idle ends carry no mean torque.
-    const std::size_t j = found.limits.size();
-    const double rated = model.torque_scale / model.scale_ratio[at(model.network.joints[at(e.joint)].a)];
-    mean_judges.push_back((!s || !s->kind || s->kind->name == "coupling") &&
-                          std::abs(found.here.joints[j].mean) > 0.02 * rated);
-    found.limits.push_back(stated_limits(s));
-  }
-  for (std::size_t j = 0; j < found.joint_names.size(); ++j) add_barred_ranges(j, mean_judges[j], barred_factor, found);
+JointLoad load_of(const JointResponse& response) {
+  JointLoad load;
+  load.mean.value = response.mean, load.upper.value = response.upper, load.lower.value = response.lower;
+  load.swing.value = response.peak, load.power.value = response.power;
+  load.frequency = response.dominant_omega / (2 * std::numbers::pi);
+  load.frequency_factor = frequency_factor(load.frequency);
+  load.weighted.value = load.frequency_factor * response.peak;
+  return load;
 }
 
-void judge_limits(ModesStudy& found) {
-  for (std::size_t j = 0; j < found.limits.size(); ++j)
-    if (found.limits[j].any()) add_verdicts(j, found);
+void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
+                        ModesStudy& found) {
+  found.limited = limited_joints(model);
+  std::vector<SpeedLoads> sweep;
+  for (const SpeedResponse& s : found.sweep) sweep.push_back({s.speed, loads_of(s)});
+  found.barred = barred_ranges(found.limited, sweep, factor, [&at](double speed) { return loads_of(at(speed)); });
+}
+
+void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& regime, bool at_regime, const Watch& watch,
+                  ModesStudy& found) {
+  RunUp run_up;
+  SteadyLoads loads;
+  if (any_limits(found.limited)) {
+    const std::vector<LimitedJoint> joints = joints_of(*machine, found.limited);
+    const SteadyLoads kept = steady_loads(regime, machine, joints);
+    run_up = find_run_up(machine, regime, kept, joints, watch);
+    loads = kept;
+    if (!at_regime || !kept.found) {
+      loads = {.found = true, .words = "the linear response at " + found.speed_unit.text(found.drive.at.speed, 5)};
+      if (at_regime) loads.words += "; " + kept.words;
+      loads.joints = loads_of(found.here);
+    } else {
+      loads.words = fmt::format("the motion that the machine keeps, at {}: {}", found.speed_unit.text(kept.speed, 5),
+                                regime.words);
+    }
+    found.verdicts = judge(found.limited, loads, run_up, passing_of(found), found.speed_unit);
+  }
+  judge_history(found);
+  for (std::string& note : limits_notes(found.verdicts, found.barred, found.limited, loads, run_up))
+    found.notes.push_back(std::move(note));
 }
 
 }  // namespace kurbel

@@ -1,16 +1,24 @@
-// drive_limits.h — what the scene's limits say of a drive's swings: barred ranges of speed, and verdicts on components.
+// drive_limits.h — a drive's linear response against the limits of its joints (studies/limits).
 #pragma once
 
+#include <functional>
+#include <memory>
+
+#include "engine/analysis/regime.h"
 #include "studies/modes/modes.h"
 
 namespace kurbel {
 
-// Fills `limits` and `barred` from the sweep over the speeds. A joint without limits is barred where its swing exceeds
-// `barred_factor` times its mean torque, if that mean is one to go by.
-void find_barred_ranges(const Model& model, double barred_factor, ModesStudy& found);
+// Of a linear response: its errors are not known, and 0.
+JointLoad load_of(const JointResponse& response);
 
-// Fills `verdicts` of all joints with limits: at the operating point, passing the resonances below it, and of the
-// simulated torque, if there is one.
-void judge_limits(ModesStudy& found);
+// Fills `limited` and `barred` from the sweep over the speeds; `at` responds at any speed between.
+void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
+                        ModesStudy& found);
+
+// Fills `verdicts` of all joints with limits, and notes. `machine` with all its effects, `regime` where its own start
+// leads; `at_regime`: the study's operating point is that motion, else loads are those of the linear response `here`.
+void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& regime, bool at_regime, const Watch& watch,
+                  ModesStudy& found);
 
 }  // namespace kurbel

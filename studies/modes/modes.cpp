@@ -56,9 +56,11 @@ class Study {
     find_critical_speeds();
     find_zones();
     sweep();
-    find_barred_ranges(*model_, options_.barred_factor, found_);
+    find_barred_ranges(
+        *model_, options_.barred_factor, [this](double speed) { return respond(drive_at(speed), found_.excitations); },
+        found_);
     if (!options_.torque.empty()) add_history();
-    judge_limits(found_);
+    judge_all_limits();
     return std::move(found_);
   }
 
@@ -97,15 +99,24 @@ class Study {
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
-  void find_regime_cycle() {
+  void look_for_regime() {
     RegimeOptions options;
     options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
     options.budget = scene_.run.budget;
     options.interrupted = options_.watch.interrupted;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
+    regime_.emplace();
     try {
       regime_ = find_regime(model_, options);
-      found_.regime = regime_->words;
+    } catch (const std::invalid_argument& refused) {
+      regime_->words = refused.what();
+    }
+  }
+
+  void find_regime_cycle() {
+    look_for_regime();
+    found_.regime = regime_->words;
+    try {
       if (regime_->repeats() && regime_->point.time > 0) samples_ = sample_cycle(*regime_, cycle_samples);
       if (!samples_ && regime_->kind == Regime::Kind::equilibrium) rest_ = means_of_equilibrium(model_, regime_->state);
     } catch (const std::invalid_argument& refused) {
@@ -272,7 +283,9 @@ class Study {
 
   void sweep() {
     const Excitations& x = found_.excitations;
-    if (x.by_order.empty() || found_.joint_names.empty()) return;
+    const bool limited = any_limits(limited_joints(*model_));
+    // What swings at frequencies of its own bears loads at every speed, too.
+    if (found_.joint_names.empty() || (x.by_order.empty() && x.by_frequency.empty() && !limited)) return;
     const std::vector<double> speeds = sweep_speeds();
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
@@ -305,6 +318,12 @@ class Study {
       }
       c.amplitude = std::abs(nearest->orders[c.joint][c.harmonic]);
     }
+  }
+
+  // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
+  void judge_all_limits() {
+    if (!regime_ && any_limits(found_.limited)) look_for_regime();
+    judge_limits(model_, regime_.value_or(Regime{}), !options_.speed && !options_.angle, options_.watch, found_);
   }
 
   void add_history() {

@@ -18,6 +18,8 @@
 #include "engine/linear/eigen_modes.h"
 #include "engine/scene/scene.h"
 #include "studies/findings/watch.h"
+#include "studies/limits/barred_ranges.h"
+#include "studies/limits/verdicts.h"
 #include "studies/modes/forced_response.h"
 #include "studies/modes/torque_history.h"
 
@@ -30,7 +32,8 @@ struct ModesOptions {
   std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
-  double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its mean
+  double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its
+                                     // mean or rated torque (barred_ranges.h)
   std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
   Watch watch = {};
 };
@@ -78,30 +81,6 @@ struct ParametricZone {
   double half_width = 0;  // relative; 0: damping keeps it closed
 };
 
-struct BarredRange {
-  std::size_t joint = 0;
-  double from = 0, to = 0;  // [rad/s]
-  double limit = 0, peak = 0;
-  std::string reason;  // "vibratory_torque", "1 × mean torque", …
-};
-
-// One requirement on one component.
-struct Verdict {
-  std::string component, requirement;  // "vibratory torque T_KW (DIN 740-2)"
-  double value = 0, limit = 0;
-  std::string unit;
-  std::string note;
-  bool holds() const { return value <= limit; }
-};
-
-// Of a joint, as the scene's component states them; 0: not stated.
-struct DriveLimits {
-  double nominal = 0, maximum = 0, vibratory = 0, power = 0;  // [N·m], [W]
-  double application_factor = 1;
-  double shear_stress = 0, polar_modulus = 0;  // [Pa], W_p [m³]
-  bool any() const { return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0; }
-};
-
 struct ModesStudy {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
@@ -120,8 +99,8 @@ struct ModesStudy {
   double cycle_order = 1;              // of its first harmonic
   std::string regime;                  // what the scene's own start leads to, in words
   std::vector<Rattle> rattles;
-  std::vector<SpeedResponse> sweep;  // over the range
-  std::vector<DriveLimits> limits;   // per joint
+  std::vector<SpeedResponse> sweep;   // over the range
+  std::vector<LimitedJoint> limited;  // per joint: what it may bear
   std::vector<BarredRange> barred;
   std::vector<Verdict> verdicts;
   std::optional<TorqueHistory> history;

@@ -8,6 +8,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
+#include "studies/limits/limits_findings.h"
 #include "studies/modes/modes_plots.h"
 
 namespace kurbel {
@@ -22,14 +23,6 @@ constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_progra
 ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
 ReadAs in_unit(const SpeedUnit& unit, int count = 5) {
   return {.factor = unit.of(1), .digits = count, .otherwise = "unbounded"};
-}
-
-// Worst barred range: the one that exceeds its limit most.
-const BarredRange* worst_of(const ModesStudy& m) {
-  const BarredRange* worst = nullptr;
-  for (const BarredRange& b : m.barred)
-    if (!worst || b.peak / b.limit > worst->peak / worst->limit) worst = &b;
-  return worst;
 }
 
 bool is_forced(const ModesStudy& m) {
@@ -55,14 +48,8 @@ std::string conclusion_of(const ModesStudy& m) {
     if (m.cycle && std::abs(linear - really) > 0.1 * really)
       text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / really - 1));
   }
-  if (const BarredRange* b = worst_of(m))
-    text += fmt::format("; {} barred range{}, worst {:.5g} … {} ({})", m.barred.size(), m.barred.size() == 1 ? "" : "s",
-                        m.speed_unit.of(b->from), m.speed_unit.text(b->to, 5), m.joint_names[b->joint]);
-  std::size_t failed = 0;
-  for (const Verdict& v : m.verdicts) failed += !v.holds();
-  if (!m.verdicts.empty())
-    text += failed ? fmt::format("; {} of {} limits exceeded", failed, m.verdicts.size())
-                   : fmt::format("; all {} limits hold", m.verdicts.size());
+  const std::string limits = limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit);
+  if (!limits.empty()) text += "; " + limits;
   return text + ".";
 }
 
@@ -185,18 +172,6 @@ Rows critical_table(const ModesStudy& m) {
       .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; });
 }
 
-Rows barred_table(const ModesStudy& m) {
-  return table_of("barred", "Barred speed ranges", m.barred)
-      .headed("barred speed ranges")
-      .text_in(2)
-      .column("joint", "joint", [&](const BarredRange& b) { return m.joint_names[b.joint]; })
-      .column("reason", "barred because of", &BarredRange::reason)
-      .column("from", fmt::format("from [{}]", m.speed_unit.name), &BarredRange::from, in_unit(m.speed_unit))
-      .column("to", fmt::format("to [{}]", m.speed_unit.name), &BarredRange::to, in_unit(m.speed_unit))
-      .column("peak", "largest [N·m]", &BarredRange::peak, digits(5))
-      .column("limit", "limit there [N·m]", &BarredRange::limit, digits(5));
-}
-
 Rows zone_table(const ModesStudy& m) {
   return table_of("parametric_zones", "Parametric instability by the varying inertia, first order", m.zones)
       .headed("parametric instability by the varying inertia, first order")
@@ -212,28 +187,6 @@ Rows zone_table(const ModesStudy& m) {
           [](const ParametricZone& z) { return z.centre * z.half_width; }, in_unit(m.speed_unit, 4))
       .column("relative_half_width", "state", &ParametricZone::half_width,
               [](double half_width) { return half_width > 0 ? "unstable inside" : "closed by damping"; });
-}
-
-Rows verdict_table(const ModesStudy& m) {
-  const auto readable = [](double value, const Verdict& v) {
-    const ReadableUnit unit = readable_unit(v.limit, v.unit);
-    return fmt::format("{} {}", read_as(unit.factor * value, digits(5)), unit.unit);
-  };
-  return table_of("verdicts", "What the components may bear", m.verdicts)
-      .headed("limits")
-      .text_in(3)
-      .column("component", "component", &Verdict::component)
-      .column("requirement", "requirement", &Verdict::requirement)
-      .column("note", "note", &Verdict::note)
-      .only_for_programs("value", &Verdict::value)
-      .only_for_programs("limit", &Verdict::limit)
-      .only_for_programs("unit", &Verdict::unit)
-      .only_for_programs("holds", &Verdict::holds)
-      .only_for_people("value", [&](const Verdict& v) { return readable(v.value, v); })
-      .only_for_people("limit", [&](const Verdict& v) { return readable(v.limit, v); })
-      .only_for_people("use", [](const Verdict& v) {
-        return fmt::format("{:.0f} % {}", 100 * v.value / v.limit, v.holds() ? "holds" : "EXCEEDED");
-      });
 }
 
 struct LoadClass {
@@ -457,10 +410,10 @@ Findings findings_of(const ModesStudy& m) {
   f.say(forced, response_table(m));
   if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
   f.say(campbell, critical_table(m));
-  f.say(forced, barred_table(m));
+  f.say(forced, barred_table(m.barred, m.limited, m.speed_unit));
   f.say(campbell, zone_table(m));
   if (!m.zones.empty()) f.show(campbell, half_width(m));
-  f.say(limits, verdict_table(m));
+  f.say(limits, verdict_table(m.verdicts));
   say_history(f, history, m);
   f.note(notes, m.notes);
   f.show_scene(m.scene_file, m.scene_text);

@@ -121,8 +121,9 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
           curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
           dashed(curve("sum of amplitudes", Role::rigid, [](const JointResponse& r) { return r.amplitude_sum; })),
           dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
-  if (m.limits[j].vibratory > 0)
-    plot.series.push_back(dashed(level(m, "allowed", Role::vermillion, m.limits[j].vibratory)));
+  if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0)
+    plot.series.push_back(
+        dashed(level(m, "allowed at 10 Hz", Role::vermillion, limits.vibratory / limits.temperature_factor)));
   for (const BarredRange& b : m.barred) {
     if (b.joint != j) continue;
     plot.marks.push_back({m.speed_unit.of(b.from), "barred from"});

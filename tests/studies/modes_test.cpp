@@ -386,8 +386,9 @@ TEST(Limits, VerdictsAreThoseOfDin740ByHand) {
   ASSERT_EQ(m.verdicts.size(), 4u);
   const JointResponse& joint = m.here.joints[0];
   EXPECT_NEAR(m.verdicts[0].value, 1.5 * std::abs(joint.mean), 1e-12);
-  EXPECT_NEAR(m.verdicts[1].value, joint.mean + joint.peak, 1e-9);
-  EXPECT_NEAR(m.verdicts[2].value, joint.peak, 1e-12);  // below 10 Hz the factor is 1
+  EXPECT_GE(m.verdicts[1].value, joint.mean + joint.peak);  // of a start, not of the steady motion
+  EXPECT_NE(m.verdicts[1].note.find("made for it"), std::string::npos) << m.verdicts[1].note;
+  EXPECT_NEAR(m.verdicts[2].value, joint.peak, 1e-9);  // below 10 Hz the factor is 1
   // P = ½ c (ω θ)², θ = τ/|k + iωc|
   const double w = 2 * pi * 7, twist = joint.peak / std::hypot(2000, 20 * w);
   EXPECT_NEAR(m.verdicts[3].value, 0.5 * 20 * w * w * twist * twist, 1e-9);
@@ -406,7 +407,11 @@ run = { start = { speed = "10 rad/s" } }
   const ModesStudy m = find_modes(scene, scene.effects, {});
   ASSERT_EQ(m.verdicts.size(), 1u);
   const double modulus = pi / 16 * (std::pow(0.04, 4) - std::pow(0.02, 4)) / 0.04;
-  EXPECT_NEAR(m.verdicts[0].value, 300 / modulus, 1e-6 * m.verdicts[0].value);
+  Scene rest = scene;
+  rest.run.start = {};
+  const double peak = std::abs(test::figure(test::run(rest), "peak_torque.shaft"));
+  EXPECT_GT(peak, 301);  // it rings about the 300 N·m of the steady motion
+  EXPECT_NEAR(m.verdicts[0].value, peak / modulus, 1e-6 * m.verdicts[0].value);
   EXPECT_TRUE(m.verdicts[0].holds());
 }
 

@@ -1,0 +1,150 @@
+// barred_ranges.cpp — along the sweep over the speeds, joint by joint: where is a load beyond what it may be?
+#include "studies/limits/barred_ranges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/numerics/roots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double nothing = 1e-6;     // of the rated torque: a swing below it is none
+constexpr double end_within = 1e-6;  // of the limit: where the load is so near to it, a range ends
+
+// A load against what it may be [N·m].
+struct Use {
+  double load = 0, limit = 0;
+  std::string reason;
+  double excess() const { return load - limit; }
+  double share() const { return limit > 0 ? load / limit : load > 0 ? HUGE_VAL : 0; }
+};
+
+// By the limit that is used most. Not by T_KN: at speeds that the machine does not keep its mean torque is what drive and
+// load leave over for accelerating, not what it would be where the speed is held.
+Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
+  const DriveLimits& l = joint.limits;
+  Use most{0, HUGE_VAL, ""};
+  const auto consider = [&](double torque, double limit, const char* reason) {
+    if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
+  };
+  const double largest = std::abs(load.largest().value);
+  consider(l.temperature_factor * load.weighted.value, l.vibratory, "vibratory_torque");
+  consider(l.temperature_factor * largest, l.maximum, "maximum_torque");
+  consider(l.application_factor * largest, l.shear_stress * l.polar_modulus, "allowable_shear_stress");
+  // Heat grows with the square of the swing.
+  if (l.power > 0 && load.power.value > 0)
+    consider(load.swing.value, load.swing.value * std::sqrt(l.power / load.power.value), "dissipated_power");
+  return most;
+}
+
+Use by_rule(const LimitedJoint& joint, const JointLoad& load, double factor) {
+  const double mean = std::abs(load.mean.value);
+  return {load.swing.value, factor * std::max(mean, joint.rated),
+          fmt::format("{:g} × {} torque", factor, mean > joint.rated ? "mean" : "rated")};
+}
+
+Use by_sign(const LimitedJoint& joint, const JointLoad& load) {
+  return {load.swing.value, std::max(std::abs(load.mean.value), nothing * joint.rated), "torque changes sign"};
+}
+
+class Along {
+ public:
+  Along(std::size_t joint, BarredRange::By by, std::function<Use(const std::vector<JointLoad>&)> use,
+        const std::vector<SpeedLoads>& sweep, const std::function<std::vector<JointLoad>(double)>& at,
+        std::vector<BarredRange>& out)
+      : joint_(joint), by_(by), use_(std::move(use)), sweep_(sweep), at_(at), out_(out) {}
+
+  void go() {
+    std::optional<BarredRange> open;
+    Use before;
+    for (std::size_t i = 0; i < sweep_.size(); ++i) {
+      const Use now = use_(sweep_[i].joints);
+      const bool barred = now.excess() > 0;
+      const double edge = i > 0 && barred != open.has_value() ? edge_between(i, before, now) : sweep_[i].speed;
+      if (barred && !open) open = BarredRange{joint_, edge, edge, now.limit, now.load, now.reason, by_};
+      if (barred) {
+        open->to = sweep_[i].speed;
+        if (now.share() > open->peak / open->limit)
+          open->peak = now.load, open->limit = now.limit, open->reason = now.reason;
+      } else if (open) {
+        open->to = edge;
+        close(*open);
+        open.reset();
+      }
+      before = now;
+    }
+    if (open) close(*open);
+  }
+
+ private:
+  void close(BarredRange& range) {
+    range.everywhere = range.from <= sweep_.front().speed && range.to >= sweep_.back().speed;
+    out_.push_back(std::move(range));
+  }
+  // Straight between two points of the sweep, or where the excess vanishes.
+  double edge_between(std::size_t i, const Use& before, const Use& now) const {
+    const double a = sweep_[i - 1].speed, b = sweep_[i].speed, fa = before.excess(), fb = now.excess();
+    if (!std::isfinite(fa) || !std::isfinite(fb)) return std::isfinite(fa) ? a : b;
+    if (fa == 0) return a;
+    if (fb == 0) return b;
+    if (!at_) return a - fa * (b - a) / (fb - fa);
+    return find_root([this](double speed) { return use_(at_(speed)).excess(); }, a, fa, b, fb,
+                     end_within * std::max(before.limit, now.limit));
+  }
+
+  std::size_t joint_;
+  BarredRange::By by_;
+  std::function<Use(const std::vector<JointLoad>&)> use_;
+  const std::vector<SpeedLoads>& sweep_;
+  const std::function<std::vector<JointLoad>(double)>& at_;
+  std::vector<BarredRange>& out_;
+};
+
+}  // namespace
+
+const char* name_of(BarredRange::By by) {
+  switch (by) {
+    case BarredRange::By::limit:
+      return "limit";
+    case BarredRange::By::rule:
+      return "rule";
+    case BarredRange::By::sign:
+      break;
+  }
+  return "sign";
+}
+
+std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
+                                       double factor, const std::function<std::vector<JointLoad>(double)>& at) {
+  std::vector<BarredRange> ranges;
+  if (sweep.empty()) return ranges;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const LimitedJoint& joint = joints[j];
+    const auto along = [&](BarredRange::By by, auto use) {
+      Along(
+          j, by, [&, j, use](const std::vector<JointLoad>& loads) { return use(loads[j]); }, sweep, at, ranges)
+          .go();
+    };
+    if (joint.limits.any())
+      along(BarredRange::By::limit, [&](const JointLoad& load) { return by_limits(joint, load); });
+    else
+      along(BarredRange::By::rule, [&](const JointLoad& load) { return by_rule(joint, load, factor); });
+    if (joint.has_play) along(BarredRange::By::sign, [&](const JointLoad& load) { return by_sign(joint, load); });
+  }
+  return ranges;
+}
+
+const BarredRange* worst_of(const std::vector<BarredRange>& ranges) {
+  const auto worse = [](const BarredRange& a, const BarredRange& b) {
+    if (a.by != b.by) return a.by > b.by;
+    return a.peak / a.limit < b.peak / b.limit;
+  };
+  const auto worst = std::max_element(ranges.begin(), ranges.end(), worse);
+  return worst == ranges.end() ? nullptr : &*worst;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,71 @@
+// drive_limits.cpp — limits read from the scene's sections: whoever has the keys has the limits.
+#include "studies/limits/drive_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "drivetrain/couplings/coupling_keys.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+DriveLimits stated_limits(const Section& s) {
+  const CouplingLimits given = coupling_limit_fields().read(s);
+  DriveLimits limits{given.nominal,
+                     given.maximum,
+                     given.vibratory,
+                     given.power,
+                     given.application_factor,
+                     given.temperature_factor,
+                     given.start_factor};
+  if (s.has("allowable_shear_stress")) {
+    const ShaftKeys shaft = shaft_fields().read(s);
+    limits.shear_stress = *shaft.allowable_shear_stress;
+    limits.polar_modulus = 2 * shaft.polar_moment() / *shaft.diameter;
+  }
+  return limits;
+}
+
+}  // namespace
+
+std::vector<LimitedJoint> limited_joints(const Model& model) {
+  std::map<std::string, int> total, seen;
+  for (const ElasticJoint& e : model.elastic) ++total[model.network.joints[at(e.joint)].component];
+  std::vector<LimitedJoint> joints;
+  for (const ElasticJoint& e : model.elastic) {
+    const Network::Joint& joint = model.network.joints[at(e.joint)];
+    LimitedJoint one{.name = joint.component, .component = joint.component, .joint = e.joint};
+    if (total[joint.component] > 1) one.name += fmt::format(".{}", ++seen[joint.component]);
+    one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
+    one.loss_account = e.loss_account;
+    if (const Section* s = model.scene.find(joint.component)) {
+      one.limits = stated_limits(*s);
+      one.has_play = s->number_or("backlash", 0) > 0 || s->number_or("mesh_backlash", 0) > 0;
+    }
+    joints.push_back(std::move(one));
+  }
+  return joints;
+}
+
+std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints) {
+  const std::vector<LimitedJoint> known = limited_joints(other);
+  std::vector<LimitedJoint> found;
+  for (const LimitedJoint& joint : joints) {
+    const auto same =
+        std::find_if(known.begin(), known.end(), [&](const LimitedJoint& k) { return k.name == joint.name; });
+    if (same == known.end())
+      throw std::logic_error(fmt::format("\"{}\" is elastic with some effects, and with others not", joint.name));
+    found.push_back(*same);
+  }
+  return found;
+}
+
+bool any_limits(const std::vector<LimitedJoint>& joints) {
+  return std::any_of(joints.begin(), joints.end(), [](const LimitedJoint& j) { return j.limits.any(); });
+}
+
+}  // namespace kurbel

@@ -1,0 +1,36 @@
+// drive_limits.h — what the joints of a drive may bear, as the scene's components state it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/model.h"
+
+namespace kurbel {
+
+// Of one joint, after DIN 740-2 (theory 12.10); 0: not stated.
+struct DriveLimits {
+  double nominal = 0, maximum = 0, vibratory = 0, power = 0;  // T_KN, T_Kmax, T_KW [N·m], P_KW [W]
+  double application_factor = 1;                              // K_A, ≥ 1
+  double temperature_factor = 1, start_factor = 1;            // S_t, S_z, ≥ 1
+  double shear_stress = 0, polar_modulus = 0;                 // [Pa], W_p [m³]
+  bool any() const { return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0; }
+};
+
+struct LimitedJoint {
+  std::string name;  // of its component; numbered where that has several: "shaft.2"
+  std::string component;
+  int joint = 0;          // in the network
+  double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
+  bool has_play = false;  // backlash is stated: where its torque changes sign, it hammers
+  int loss_account = -1;  // of what its damping takes; −1: none
+  DriveLimits limits = {};
+};
+
+// Of all elastic joints of a model, in its order.
+std::vector<LimitedJoint> limited_joints(const Model& model);
+// The same joints in a model of the same scene with other effects, whose network may be numbered otherwise.
+std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints);
+bool any_limits(const std::vector<LimitedJoint>& joints);
+
+}  // namespace kurbel

@@ -1,0 +1,221 @@
+// joint_loads.cpp — a round of the steady motion is run once more; integrals by Gauss's rule within every step.
+#include "studies/limits/joint_loads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "engine/numerics/index.h"
+#include "engine/run/recorders.h"
+
+namespace kurbel {
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+constexpr double fine = 1e-11, loose = 1e-9;  // tolerances of the two rounds
+constexpr double rounding = 1e-10;            // of the rated torque
+constexpr std::size_t harmonics = 96;         // of a round; what is above counts with the next one's frequency
+constexpr double neutral_within = 1e-6;
+
+// Gauss–Legendre, 6 points on [−1, 1].
+constexpr std::array<double, 6> nodes = {-0.932469514203152, -0.661209386466265, -0.238619186083197,
+                                         0.238619186083197,  0.661209386466265,  0.932469514203152};
+constexpr std::array<double, 6> weights = {0.171324492379170, 0.360761573048139, 0.467913934572691,
+                                           0.467913934572691, 0.360761573048139, 0.171324492379170};
+
+double link_speed(const Model& m, const Snapshot& s) {
+  const TrackedAngle& link = m.angles[at(m.reduction_angle)];
+  return link.gain * s.now.speed[link.shaft];
+}
+
+// ∫τ dt, ∫τ² dt and ∫τ e^{−inωt} dt of joints, and the link's speed.
+class Integrals final : public Observer {
+ public:
+  Integrals(const Model& m, const std::vector<LimitedJoint>& joints, double begin, double round)
+      : m_(m), joints_(joints), begin_(begin), round_(round), sums_(joints.size()) {}
+
+  struct Sums {
+    double first = 0, square = 0;
+    std::array<Complex, harmonics + 1> swing = {};
+  };
+  const std::vector<Sums>& sums() const { return sums_; }
+  double turned() const { return turned_; }
+  double slowest() const { return slowest_; }
+
+  // Pieces so short that the highest harmonic makes no more than half a turn in one.
+  void step(StepView& view) override {
+    const double a = view.t_previous(), h = view.t() - a;
+    const int pieces = 1 + static_cast<int>(2 * harmonics * h / round_);
+    const double half = 0.5 * h / pieces;
+    for (int p = 0; p < pieces; ++p)
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double t = a + half * (2 * p + 1 + nodes[k]);
+        add(t, view.snapshot(t), half * weights[k]);
+      }
+  }
+
+ private:
+  void add(double t, const Snapshot& s, double weight) {
+    const double omega = link_speed(m_, s);
+    turned_ += weight * omega;
+    slowest_ = std::min(slowest_, std::abs(omega));
+    const Complex turn = std::polar(1.0, -2 * pi * (t - begin_) / round_);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const double torque = s.joint_torque[joints_[i].joint];
+      Sums& sum = sums_[i];
+      sum.first += weight * torque;
+      sum.square += weight * torque * torque;
+      Complex phase = turn;
+      for (std::size_t n = 1; n <= harmonics; ++n, phase *= turn) sum.swing[n] += weight * torque * phase;
+    }
+  }
+
+  const Model& m_;
+  const std::vector<LimitedJoint>& joints_;
+  double begin_, round_;
+  std::vector<Sums> sums_;
+  double turned_ = 0, slowest_ = HUGE_VAL;
+};
+
+// S_f and the strongest frequency of a swing; what lies above the harmonics, by Parseval, counts as just above them.
+void add_frequencies(const Integrals::Sums& sums, double time, double noise, JointLoad& load) {
+  const double mean = sums.first / time, rounded = 1e-12 * mean * mean;
+  const double all = std::max(0.0, 2 * (sums.square / time - mean * mean));
+  double known = 0, weighted = 0, strongest = 0;
+  for (std::size_t n = 1; n <= harmonics; ++n) {
+    const double f = static_cast<double>(n) / time, square = std::norm(2.0 * sums.swing[n] / time);
+    known += square;
+    weighted += square * std::max(1.0, f / 10);
+    if (square > strongest) strongest = square, load.frequency = f;
+  }
+  const double rest = all - known > rounded ? all - known : 0;
+  weighted += rest * std::max(1.0, (harmonics + 1) / time / 10);
+  const double sum = known + rest;
+  load.frequency_factor = sum > noise * noise ? std::sqrt(weighted / sum) : 1;
+  if (!(sum > noise * noise)) load.frequency = 0;  // it does not swing
+}
+
+// Once round from a fixed point.
+SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::vector<LimitedJoint>& joints,
+                   double tolerance) {
+  const Model& m = map.model();
+  Equations equations(map.shared_model(), true);
+  std::vector<double> y = map.place(equations, point.z);
+  y.resize(equations.size(), 0.0);
+  RunOptions run{.tolerance = tolerance,
+                 .method = "auto",
+                 .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
+                 .budget = 60,
+                 .interrupted = nullptr,
+                 .progress = {}};
+  run.stop = map.round_end(equations, y);
+  run.from = {map.start_time(), y};
+  std::vector<ExtremeOf> wanted;
+  for (const LimitedJoint& joint : joints)
+    for (const auto which : {ExtremeOf::Which::maximum, ExtremeOf::Which::minimum})
+      wanted.push_back(torque_extreme(m, joint, which));
+  ExtremeRecorder extremes(std::move(wanted));
+  Integrals integrals(m, joints, map.start_time(), point.time);
+  const RunOutcome outcome = integrate(equations, run, {&extremes, &integrals});
+  if (!outcome.diagnosis.empty()) return {.words = outcome.diagnosis};
+  SteadyLoads loads{.found = true};
+  const double time = loads.round = outcome.t - map.start_time();
+  loads.speed = integrals.turned() / time, loads.slowest = integrals.slowest();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    JointLoad load;
+    load.mean.value = integrals.sums()[i].first / time;
+    load.upper.value = std::max(extremes.found()[2 * i].value, load.mean.value);
+    load.lower.value = std::min(extremes.found()[2 * i + 1].value, load.mean.value);
+    load.swing.value = std::max(load.upper.value - load.mean.value, load.mean.value - load.lower.value);
+    add_frequencies(integrals.sums()[i], time, 1e-8 * joints[i].rated, load);
+    load.weighted.value = load.frequency_factor * load.swing.value;
+    if (joints[i].loss_account >= 0)
+      load.power.value = -outcome.state[equations.work_index(at(joints[i].loss_account))] / time;
+    loads.joints.push_back(load);
+  }
+  return loads;
+}
+
+// The same with tolerances 100 × looser, the fixed point found anew where it is one by itself.
+SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>& joints) {
+  const bool neutral = std::abs(regime.point.largest() - 1) < neutral_within;
+  if (!regime.polished || neutral) return follow(*regime.map, regime.point, joints, loose);
+  ReturnMapOptions options;
+  options.tolerance = loose;
+  ReturnMap map(regime.map->shared_model(), options);
+  map.follow(*regime.map);
+  const SteadyPoint point = find_steady(map, regime.point.z, 10 * loose);
+  return point.found ? follow(map, point, joints, loose) : SteadyLoads{};
+}
+
+constexpr std::array<Measured JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
+                                                           &JointLoad::swing, &JointLoad::weighted, &JointLoad::power};
+
+void add_errors(const SteadyLoads& other, double still_changes, const std::vector<LimitedJoint>& joints,
+                SteadyLoads& loads) {
+  for (std::size_t i = 0; i < loads.joints.size(); ++i)
+    for (const auto what : measured) {
+      Measured& value = loads.joints[i].*what;
+      const double scale = what == &JointLoad::power ? std::abs(value.value) : joints[i].rated;
+      value.error = (rounding + still_changes) * std::max(scale, std::abs(value.value));
+      // Without a second one the figure is only known as far as the search was asked to go.
+      value.error += other.found ? std::abs(value.value - (other.joints[i].*what).value) : 1e-4 * std::abs(value.value);
+    }
+}
+
+// All speeds keep, and nothing comes round: the torques of that moment.
+SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+                           const std::vector<LimitedJoint>& joints) {
+  Equations equations(machine, false);
+  equations.bind(regime.state.modes);
+  const Snapshot& s = equations.snapshot(regime.state.t, regime.state.y);
+  SteadyLoads loads{.found = true};
+  loads.speed = link_speed(*machine, s), loads.slowest = std::abs(loads.speed);
+  for (const LimitedJoint& joint : joints) {
+    JointLoad load;
+    load.mean.value = load.upper.value = load.lower.value = s.joint_torque[joint.joint];
+    loads.joints.push_back(load);
+  }
+  return loads;
+}
+
+}  // namespace
+
+ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, ExtremeOf::Which which) {
+  const int j = joint.joint;
+  ExtremeOf extreme{.name = Name::make(QuantityKind::peak_torque, joint.name),
+                    .unit = "N*m",
+                    .scale = joint.rated,
+                    .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
+                    .rate = {}};
+  for (const TorqueJoint& known : machine.torque_joints)
+    if (known.joint == j)
+      for (ExtremeOf& e : extremes_of(machine))
+        if (e.name == Name::make(QuantityKind::peak_torque, known.component)) extreme = std::move(e);
+  extreme.which = which;
+  return extreme;
+}
+
+SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+                         const std::vector<LimitedJoint>& joints) {
+  if (regime.repeats()) {
+    SteadyLoads loads = follow(*regime.map, regime.point, joints, fine);
+    if (!loads.found) return loads;
+    add_errors(follow_loosely(regime, joints), regime.polished ? 0 : regime.still_changes, joints, loads);
+    return loads;
+  }
+  // What comes to rest does its work before: that is no lasting load.
+  if (regime.kind != Regime::Kind::equilibrium) return {.words = regime.words};
+  SteadyLoads loads = constant_loads(regime, machine, joints);
+  add_errors(loads, 1e-9, joints, loads);
+  return loads;
+}
+
+}  // namespace kurbel

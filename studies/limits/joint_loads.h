@@ -1,0 +1,53 @@
+// joint_loads.h — what joints bear in steady motion: mean, extremes, alternating part with its frequencies, heat.
+//
+//     T_mean = (1/T) ∫ T dt,   T_W = max |T − T_mean|,   P_W = (1/T) ∫ loss dt        over a round
+//     S_f² = Σ max(1, f_i/10 Hz) T_i²/Σ T_i²                                          (theory 12.11)
+// T_i: amplitudes at the frequencies f_i; of a single one S_f = √(f/10 Hz) above 10 Hz, as DIN 740-2 has it.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/analysis/regime.h"
+#include "engine/run/recorders.h"
+#include "studies/limits/drive_limits.h"
+
+namespace kurbel {
+
+struct Measured {
+  double value = 0, error = 0;
+};
+
+// Of one joint; torques in N·m.
+struct JointLoad {
+  Measured mean, upper, lower;  // lower ≤ mean ≤ upper
+  Measured swing;               // T_W
+  Measured weighted;            // S_f T_W
+  Measured power;               // P_W [W]
+  double frequency = 0;         // that swings most [Hz]
+  double frequency_factor = 1;  // S_f
+  const Measured& largest() const { return std::abs(lower.value) > std::abs(upper.value) ? lower : upper; }
+};
+
+// S_f of a single frequency [Hz].
+inline double frequency_factor(double hertz) { return hertz > 10 ? std::sqrt(hertz / 10) : 1; }
+
+struct SteadyLoads {
+  bool found = false;
+  std::string words = {};         // where they come from, or why there are none
+  double speed = 0, slowest = 0;  // of the reduction link: mean over a round; its least magnitude within [rad/s]
+  double round = 0;               // time of a round [s]; 0: nothing varies
+  std::vector<JointLoad> joints = {};
+};
+
+// Of the motion that the machine keeps; none of one that comes to rest. Errors: against one found and followed with tolerances 100 × looser; of one
+// that is only as near as the run came, what still changes besides.
+SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+                         const std::vector<LimitedJoint>& joints);
+
+// What tells a joint's torque and its extremes while a machine runs: `which` of them is looked for.
+ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, ExtremeOf::Which which);
+
+}  // namespace kurbel

@@ -1,0 +1,135 @@
+// limits_findings.cpp — tables and sentences of limits.
+#include "studies/limits/limits_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kurbel {
+namespace {
+
+std::string use_of(const Verdict& v) {
+  const std::string share = std::isfinite(v.value) ? fmt::format("{:.0f} %", 100 * v.value / v.limit) : "unbounded";
+  switch (v.state()) {
+    case Compliance::holds:
+      return share + " holds";
+    case Compliance::exceeded:
+      return share + " EXCEEDED";
+    case Compliance::undecided:
+      break;
+  }
+  return share + " UNDECIDED";
+}
+
+// With its error where that shows.
+std::string readable(const Verdict& v) {
+  const ReadableUnit unit = readable_unit(v.limit, v.unit);
+  const std::string value = read_as(unit.factor * v.value, {.digits = 5, .otherwise = "unbounded"});
+  if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
+  if (!(v.error > 1e-4 * std::abs(v.value))) return fmt::format("{} {}", value, unit.unit);
+  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error, {.digits = 2}), unit.unit);
+}
+
+std::size_t count(const std::vector<Verdict>& verdicts, Compliance state) {
+  return static_cast<std::size_t>(
+      std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; }));
+}
+
+// A rule that bars all speeds tells no range to keep away from; it stands in the notes.
+bool is_told_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
+
+std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
+  return fmt::format("{:.5g} … {}", unit.of(b.from), unit.text(b.to, 5));
+}
+
+}  // namespace
+
+Rows verdict_table(const std::vector<Verdict>& verdicts) {
+  return table_of("verdicts", "What the components may bear", verdicts)
+      .headed("limits")
+      .text_in(3)
+      .column("component", "component", &Verdict::component)
+      .column("requirement", "requirement", &Verdict::requirement)
+      .column("note", "note", &Verdict::note)
+      .only_for_programs("value", &Verdict::value)
+      .only_for_programs("error", &Verdict::error)
+      .only_for_programs("bound", &Verdict::bound)
+      .only_for_programs("limit", &Verdict::limit)
+      .only_for_programs("unit", &Verdict::unit)
+      .only_for_programs("holds", &Verdict::holds)
+      .only_for_programs("verdict", [](const Verdict& v) { return std::string(name_of(v.state())); })
+      .only_for_people("value", readable)
+      .only_for_people("limit",
+                       [](const Verdict& v) {
+                         const ReadableUnit unit = readable_unit(v.limit, v.unit);
+                         return fmt::format("{} {}", read_as(unit.factor * v.limit, {.digits = 5}), unit.unit);
+                       })
+      .only_for_people("use", use_of);
+}
+
+Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
+                  const SpeedUnit& unit) {
+  const ReadAs speed{.factor = unit.of(1), .digits = 5}, torque{.digits = 5, .otherwise = "unbounded"};
+  return table_of("barred", "Barred speed ranges", ranges)
+      .headed("barred speed ranges")
+      .text_in(2)
+      .column("joint", "joint", [&joints](const BarredRange& b) { return joints[b.joint].name; })
+      .column("reason", "barred because of", &BarredRange::reason)
+      .only_for_programs("by", [](const BarredRange& b) { return std::string(name_of(b.by)); })
+      .only_for_programs("everywhere", &BarredRange::everywhere)
+      .column("from", fmt::format("from [{}]", unit.name), &BarredRange::from, speed)
+      .column("to", fmt::format("to [{}]", unit.name), &BarredRange::to, speed)
+      .column("peak", "largest [N·m]", &BarredRange::peak, torque)
+      .column("limit", "limit there [N·m]", &BarredRange::limit, torque);
+}
+
+std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,
+                            const std::vector<LimitedJoint>& joints, const SpeedUnit& unit) {
+  std::vector<BarredRange> told;
+  std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(told), is_told_first);
+  std::string text;
+  if (const BarredRange* b = worst_of(told))
+    text = b->everywhere ? fmt::format("{} at every speed of {} ({})",
+                                       b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
+                                       range_text(*b, unit), joints[b->joint].name)
+                         : fmt::format("{} barred range{}, worst {} ({})", told.size(), told.size() == 1 ? "" : "s",
+                                       range_text(*b, unit), joints[b->joint].name);
+  if (verdicts.empty()) return text;
+  if (!text.empty()) text += "; ";
+  const std::size_t exceeded = count(verdicts, Compliance::exceeded), open = count(verdicts, Compliance::undecided);
+  if (exceeded > 0) text += fmt::format("{} of {} limits exceeded", exceeded, verdicts.size());
+  if (open > 0)
+    text += exceeded > 0 ? fmt::format(", {} undecided", open)
+                         : fmt::format("{} of {} limits undecided", open, verdicts.size());
+  if (exceeded + open == 0) text += fmt::format("all {} limits hold", verdicts.size());
+  return text;
+}
+
+std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,
+                                      const std::vector<LimitedJoint>& joints, const SteadyLoads& loads,
+                                      const RunUp& run_up) {
+  std::vector<std::string> notes;
+  for (const BarredRange& b : ranges) {
+    if (!b.everywhere) continue;
+    const std::string& name = joints[b.joint].name;
+    if (b.by == BarredRange::By::limit)
+      notes.push_back(
+          fmt::format("\"{}\" is beyond its {} at every speed looked at, by up to {:.3g} times: no range "
+                      "of speed is free of it",
+                      name, b.reason, b.peak / b.limit));
+    else if (b.by == BarredRange::By::rule)
+      notes.push_back(
+          fmt::format("\"{}\" swings by more than {} at every speed looked at, by up to {:.3g} times: that "
+                      "rule tells no range to keep away from; give the limits of \"{}\"",
+                      name, b.reason, b.peak / b.limit, name));
+    else
+      notes.push_back(
+          fmt::format("the torque of \"{}\", which has play, changes sign at every speed looked at: it hammers", name));
+  }
+  if (!verdicts.empty())
+    notes.push_back(fmt::format("limits: steady loads of {}; peaks {}", loads.words,
+                                run_up.found ? "of " + run_up.words : "without a run-up: " + run_up.words));
+  return notes;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,146 @@
+// verdicts.cpp — every limit against what the steady motion and the run-up bring.
+#include "studies/limits/verdicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+Measured times(double factor, const Measured& m) { return {factor * std::abs(m.value), factor * m.error}; }
+
+class Judge {
+ public:
+  Judge(const LimitedJoint& joint, const JointLoad& load, const RunUp& run_up, const RunUp::Peak* peak,
+        const Passing* passing, const SpeedUnit& unit, std::vector<Verdict>& out)
+      : joint_(joint),
+        limits_(joint.limits),
+        load_(load),
+        run_up_(run_up),
+        peak_(peak),
+        passing_(passing),
+        unit_(unit),
+        out_(out) {}
+
+  void all() {
+    if (limits_.nominal > 0)
+      add("nominal torque: K_A S_t |T_mean| ≤ T_KN",
+          times(limits_.application_factor * limits_.temperature_factor, load_.mean), limits_.nominal, "N*m",
+          fmt::format("K_A = {:g}, S_t = {:g}", limits_.application_factor, limits_.temperature_factor));
+    if (limits_.maximum > 0) maximum();
+    if (limits_.vibratory > 0)
+      add("vibratory torque: S_t S_f T_W ≤ T_KW", times(limits_.temperature_factor, load_.weighted), limits_.vibratory,
+          "N*m",
+          load_.frequency > 0 ? fmt::format("S_t = {:g}, S_f = {:.3g}, strongest at {:.4g} Hz",
+                                            limits_.temperature_factor, load_.frequency_factor, load_.frequency)
+                              : "it does not swing");
+    if (limits_.power > 0) add("dissipated power: P_W ≤ P_KW", times(1, load_.power), limits_.power, "W", "");
+    if (limits_.shear_stress > 0) shear();
+  }
+
+ private:
+  Verdict& add(std::string requirement, const Measured& value, double limit, std::string unit, std::string note) {
+    out_.push_back(
+        {joint_.name, std::move(requirement), value.value, limit, std::move(unit), std::move(note), value.error});
+    return out_.back();
+  }
+
+  // The largest of the way there: simulated, else a bound. What of the steady motion is larger, stands apart.
+  struct Largest {
+    Measured start = {}, steady = {};
+    bool bound = false;
+    std::string note = {};
+  };
+  Largest largest() const {
+    Largest found{.steady = load_.largest()};
+    if (peak_) {
+      found.start = peak_->torque;
+      found.note = fmt::format("at {:.4g} s of {}", peak_->time, run_up_.words);
+    } else if (passing_ && std::abs(passing_->torque) > std::abs(found.steady.value)) {
+      found.start = {passing_->torque, 0};
+      found.bound = true;
+      found.note = fmt::format("a bound only: steady swing at {}, which a quick passage stays below; no run-up: {}",
+                               unit_.text(passing_->speed, 5), run_up_.words);
+    } else {
+      found.note = fmt::format("in steady motion; no run-up: {}", run_up_.words);
+    }
+    return found;
+  }
+
+  void maximum() {
+    const Largest l = largest();
+    const Measured steady = times(limits_.temperature_factor, l.steady),
+                   start = start_torque(limits_, l.start, load_.mean);
+    const bool starts = start.value > steady.value;
+    std::string note = starts ? l.note : "in steady motion" + (peak_ ? std::string() : "; no run-up: " + run_up_.words);
+    if (limits_.temperature_factor > 1 || limits_.start_factor > 1)
+      note += fmt::format("; S_t = {:g}, S_z = {:g}", limits_.temperature_factor, limits_.start_factor);
+    add("maximum torque: S_t (T_N + S_z T_S) ≤ T_Kmax", starts ? start : steady, limits_.maximum, "N*m", note).bound =
+        starts && l.bound;
+  }
+
+  void shear() {
+    const Largest l = largest();
+    const double modulus = limits_.polar_modulus;
+    const Measured steady = times(limits_.application_factor / modulus, l.steady), start = times(1 / modulus, l.start);
+    const bool starts = start.value > steady.value;
+    add("shear stress: K_A |T|/W_p ≤ τ_allowable", starts ? start : steady, limits_.shear_stress, "Pa",
+        starts
+            ? fmt::format("W_p = {:.5g} cm³, without K_A: {}", 1e6 * modulus, l.note)
+            : fmt::format("W_p = {:.5g} cm³, K_A = {:g}, in steady motion", 1e6 * modulus, limits_.application_factor))
+        .bound = starts && l.bound;
+  }
+
+  const LimitedJoint& joint_;
+  const DriveLimits& limits_;
+  const JointLoad& load_;
+  const RunUp& run_up_;
+  const RunUp::Peak* peak_;
+  const Passing* passing_;
+  const SpeedUnit& unit_;
+  std::vector<Verdict>& out_;
+};
+
+}  // namespace
+
+const char* name_of(Compliance compliance) {
+  switch (compliance) {
+    case Compliance::holds:
+      return "holds";
+    case Compliance::exceeded:
+      return "exceeded";
+    case Compliance::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+Compliance Verdict::state() const {
+  if (std::isnan(value) || std::isnan(error)) return Compliance::undecided;
+  if (value + error <= limit) return Compliance::holds;
+  return bound || value - error <= limit ? Compliance::undecided : Compliance::exceeded;
+}
+
+Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean) {
+  const double whole = std::abs(peak.value);
+  if (!std::isfinite(whole)) return {whole, 0};
+  const double steady = std::clamp(std::copysign(1.0, peak.value) * mean.value, 0.0, whole);
+  const double most = limits.start_factor * whole, least = steady + limits.start_factor * (whole - steady);
+  const double factor = limits.temperature_factor;
+  return {factor * 0.5 * (most + least), factor * (0.5 * (most - least) + limits.start_factor * peak.error)};
+}
+
+std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const SteadyLoads& loads, const RunUp& run_up,
+                           const std::vector<Passing>& passing, const SpeedUnit& speed_unit) {
+  std::vector<Verdict> verdicts;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (joints[i].limits.any())
+      Judge(joints[i], loads.joints[i], run_up, run_up.found ? &run_up.peaks[i] : nullptr,
+            i < passing.size() ? &passing[i] : nullptr, speed_unit, verdicts)
+          .all();
+  return verdicts;
+}
+
+}  // namespace kurbel

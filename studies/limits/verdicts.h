@@ -1,0 +1,46 @@
+// verdicts.h — do the joints hold what they bear? DIN 740-2, and the shear stress of shafts.
+//
+//     K_A S_t |T_mean| ≤ T_KN                      mean of the steady motion
+//     S_t (T_N + S_z T_S) ≤ T_Kmax                 T_N + T_S: largest torque from rest to the steady motion
+//     S_t S_f T_W ≤ T_KW,   P_W ≤ P_KW             alternating part of the steady motion
+//     K_A |T|/W_p ≤ τ_allowable                    largest torque of the steady motion; without K_A of the run-up
+//                                                                                              (theory 12.9, 12.10)
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/speed_unit.h"
+#include "studies/limits/run_up.h"
+
+namespace kurbel {
+
+enum class Compliance { holds, exceeded, undecided };
+const char* name_of(Compliance compliance);
+
+// One requirement on one component.
+struct Verdict {
+  std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
+  double value = 0, limit = 0;
+  std::string unit;
+  std::string note;
+  double error = 0;    // of the value
+  bool bound = false;  // the value is only known to be no more than this
+  Compliance state() const;
+  bool holds() const { return state() == Compliance::holds; }
+};
+
+// Largest steady swing at the speeds below the operating one: what a quick passage stays below.
+struct Passing {
+  double torque = 0, speed = 0;  // with its sign [N·m], of the link [rad/s]
+};
+
+// Of all joints that have limits. Loads and peaks are of `joints`, in this order; passing is asked where there is no
+// run-up, and may be empty.
+std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const SteadyLoads& loads, const RunUp& run_up,
+                           const std::vector<Passing>& passing, const SpeedUnit& speed_unit);
+
+// S_t (T_N + S_z T_S): T_N may act in full or not yet when the peak comes; the error covers both.
+Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean);
+
+}  // namespace kurbel
