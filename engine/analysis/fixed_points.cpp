@@ -1,10 +1,32 @@
 // fixed_points.cpp — fixed points of the return map by Newton's method, and their Floquet multipliers.
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "engine/analysis/return_map.h"
 
 namespace kurbel {
+
+namespace {
+
+constexpr double slowest_shrinking = 0.999;  // from round to round; nearer to 1 it tells nothing
+constexpr double floor_of_rounds = 1e-10;    // of the rated values: below that rounds are noise
+constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a round
+constexpr int rounds_looked_at = 6;
+
+// How much the largest eigenvalue moves with an entry of the matrix.
+double condition_of_largest(const Eigen::MatrixXd& derivative) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(derivative);
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  Eigen::Index largest = 0;
+  solver.eigenvalues().cwiseAbs().maxCoeff(&largest);
+  const Eigen::VectorXcd left = vectors.fullPivLu().inverse().row(largest).transpose();
+  const double condition = left.lpNorm<1>() * vectors.col(largest).lpNorm<1>();
+  return std::isfinite(condition) ? condition : 1 / floor_of_rounds;
+}
+
+}  // namespace
 
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
   if (derivative.rows() == 0) return {};
@@ -71,8 +93,58 @@ void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image)
   z = at;
   derivative = image.derivative;
   multipliers = multipliers_of(derivative);
+  if (derivative.size() > 0) multiplier_error = condition_of_largest(derivative) * image.uncertain;
   time = image.time;
   grazed = image.grazed;
+}
+
+// Rounds z, P(z), P(P(z)) … come nearer by a ratio q: behind the last one lie r q/(1 − q).
+SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
+  SteadyPoint out;
+  const double cost_before = map.cost();
+  out.z = guess;
+  std::vector<double> changes;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(guess.size());
+  for (int i = 0; i < rounds_looked_at; ++i) {
+    const ReturnMap::Image round = map.image(out.z, false);
+    ++out.rounds;
+    out.cost = map.cost() - cost_before;
+    out.end = round.end;
+    out.why = round.why;
+    if (round.end != ReturnMap::End::returned) return out;
+    const Eigen::VectorXd along = map.along_the_motion(out.z);
+    change = round.z - out.z;
+    if (along.squaredNorm() > 0) change -= along * along.dot(change) / along.squaredNorm();
+    out.residual = change.size() > 0 ? change.cwiseAbs().maxCoeff() : 0;
+    out.time = round.time;
+    out.z = round.z;
+    if (out.first.size() == 0) out.first = round.z;
+    changes.push_back(out.residual);
+    if (out.residual > enough || out.residual <= floor_of_rounds) break;
+  }
+  if (out.residual > enough) {
+    out.why = "rounds still change";
+    return out;
+  }
+  double shrinking = 0;
+  for (std::size_t i = 0; i + 1 < changes.size(); ++i) shrinking = std::max(shrinking, changes[i + 1] / changes[i]);
+  shrinking = std::max(out.residual <= floor_of_rounds ? 0.5 : 0, std::min(shrinking, slowest_shrinking));
+  out.to_come = change * shrinking / (1 - shrinking);
+  out.found = true;
+  return out;
+}
+
+SteadyPoint find_looser(ReturnMap& loose, const SteadyPoint& point, double enough) {
+  SteadyPoint other = point;
+  if (point.to_come.size() > 0) other.z += point.to_come;
+  if (point.to_come.size() > 0 || point.grazed || point.neutral()) return other;
+  other = find_steady(loose, point.z, enough);
+  if (!other.found) return other;
+  const double apart = point.z.size() > 0 ? (other.z - point.z).cwiseAbs().maxCoeff() : 0;
+  if (apart <= same_motion && std::abs(other.time - point.time) <= same_motion * point.time) return other;
+  other.found = false;
+  other.why = "with looser tolerances the search comes to another motion";
+  return other;
 }
 
 }  // namespace kurbel

@@ -1,11 +1,15 @@
 // poincare_section.cpp — the coordinates of a section: independent angles and twists, speeds, own states.
 #include "engine/analysis/poincare_section.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
+#include "engine/model/cycle_of.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -44,22 +48,29 @@ Eigen::MatrixXd motions(const Eigen::MatrixXd& rows, Index shafts) {
   return lu.kernel();
 }
 
-// The period of what reads an angle, as an angle of its own shaft; 0: nothing reads it.
+// The common period of all that reads an angle, as an angle of its own shaft; 0: nothing reads it.
 double period_of(const Model& m, std::size_t tracked) {
-  double period = 0;
+  std::vector<double> periods;
   const TrackedAngle& angle = m.angles[tracked];
   const auto same = [&](int node) {
     return m.shaft_of_node[at(node)] == angle.shaft && m.gain_of_node[at(node)] == angle.gain;
   };
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->is.uses_angle && same(e.node)) period = std::max(period, e.element->angle_period);
+    if (e.element->is.uses_angle && e.element->angle_period > 0 && same(e.node))
+      periods.push_back(e.element->angle_period);
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
-    if (joint.element->is.uses_angle && same(joint.a)) period = std::max(period, two_pi);
+    if (joint.element->is.uses_angle && same(joint.a)) periods.push_back(two_pi);
   }
   for (const int trigger : m.trigger_angle)
-    if (trigger == static_cast<int>(tracked)) period = std::max(period, two_pi);
-  return period;
+    if (trigger == static_cast<int>(tracked)) periods.push_back(two_pi);
+  if (periods.empty()) return 0;
+  const CommonPeriod common = common_period(periods);
+  if (common.value > 0) return common.value;
+  throw std::invalid_argument(
+      fmt::format("what repeats after {:.9g} rad and after {:.9g} rad of \"{}\" never meets within 1000 periods: there "
+                  "is no steady cycle. Make the ratio of the two a fraction, or simulate a long time with kurbel run",
+                  periods.front(), periods[common.odd], m.node_label(angle.node)));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class Search {
       end(Regime::Kind::failed, error.what());
     }
     if (!done_) drift();
-    out_.cost += static_cast<double>(out_.rounds) + map_->cost();
+    out_.cost += map_->cost();
     if (out_.state.y.empty()) out_.state = state_;
     return std::move(out_);
   }
@@ -125,6 +125,12 @@ class Search {
   double round_angle() const { return period_.angle * options_.cycles; }
   double round_time() const { return period_.time * options_.cycles; }
 
+  // Of what came to no whole round, by the way of the link, or by time where that alone tells a cycle.
+  double cycles_of(double time, double begin) const {
+    if (period_.by_time) return time / period_.time;
+    return std::abs(equations_.angle_with_turns(at(m_.reduction_angle), state_.y) - begin) / period_.angle;
+  }
+
   // The link once round, or the common period of time; where the link stands or creeps, some time.
   void go_on() {
     equations_.bind(state_.modes);
@@ -155,9 +161,10 @@ class Search {
       const bool stopped = options_.interrupted && options_.interrupted->load();
       return end(stopped ? Regime::Kind::interrupted : Regime::Kind::failed, outcome.diagnosis);
     }
+    const bool round = outcome.stopped || by_time;
+    out_.cost += round && !aligning ? options_.cycles : cycles_of(state_.t - before.t, begin);
     const Pace now = pace();
     if (now.speed > far_beyond) return run_away(now.speed);
-    const bool round = outcome.stopped || by_time;
     aligned_ = aligned_ || by_time;
     events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
     if (std::ssize(events_) > most_remembered) events_.erase(events_.begin(), events_.end() - most_remembered);
@@ -220,14 +227,8 @@ class Search {
   void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
-    SteadyPoint point;
-    point.z = way.z;
-    const ReturnMap::Image round = map->image(point.z, false);
-    point.residual = round.z.size() > 0 ? round.z.cwiseAbs().maxCoeff() : 0;
-    point.time = round.time;
-    point.rounds = 1;
-    if (round.end != ReturnMap::End::returned || point.residual > 10 * enough_by_run) return spend(*map);
-    point.found = true;
+    const SteadyPoint point = find_by_rounds(*map, way.z, 10 * enough_by_run);
+    if (!point.found) return spend(*map);
     spend(*map);
     accept(map, point);
     out_.polished = out_.stable = false;
@@ -310,10 +311,10 @@ class Search {
 
   // From z = 0, where the run was, a round leads as far towards the point as the derivative says.
   bool was_on_its_way(const SteadyPoint& point) {
-    constexpr double off = 0.3, near_by = 1e-4, neutral = 1e-6;
+    constexpr double off = 0.3, near_by = 1e-4;
     if (point.z.size() == 0) return true;
     const double distance = point.z.cwiseAbs().maxCoeff();
-    if (point.largest() > 1 + neutral && !point.grazed) {
+    if (point.unstable() && !point.grazed) {
       found_unstable_ = true;
       why_not_ = fmt::format("the motion that Newton's method finds is unstable (multiplier {:.3g})", point.largest());
       return false;

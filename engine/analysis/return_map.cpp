@@ -19,6 +19,8 @@ constexpr std::size_t most_unknowns = 400;  // the derivative is full
 constexpr double overlap = 0.02;            // of a round, by which the first run goes on
 constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
 constexpr double difference_step = 2e-5;    // of unknowns of order one
+constexpr double safely = 20;               // times a tolerance: what a round is good for
+constexpr double loose_directions = 100;    // times the tolerance of the motion: that of variational equations
 constexpr double grazes = 0.05;             // that differences to either side differ, of the greatest of them
 
 Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
@@ -59,6 +61,13 @@ double quiet_angle(std::vector<double> angles, double cycle, double without_even
   return place_within(0.5 * (angles[widest] + angles[widest + 1]), cycle);
 }
 
+// Where no acceleration satisfies the friction in the joints, at a place that no integration looks at.
+ReturnMap::Image broken(const Jam& jam) {
+  ReturnMap::Image image;
+  image.why = jam.what();
+  return image;
+}
+
 }  // namespace
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
@@ -67,7 +76,7 @@ ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions option
 }
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options, double own_period)
-    : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
+    : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false), own_period_(true) {
   Periodicity own;
   own.by_time = own.angle_matters = true;
   own.angle = 2 * std::numbers::pi;
@@ -104,6 +113,7 @@ void ReturnMap::go_through(State state, std::vector<char> sticks_throughout, dou
 
 void ReturnMap::follow(const ReturnMap& other) {
   periodicity_ = other.periodicity_;  // which may be one of its own motion
+  own_period_ = other.own_period_;
   section_ = other.section_;
   section_angle_ = other.section_angle_;
   sense_ = other.sense_;
@@ -171,10 +181,19 @@ RunOptions ReturnMap::run_options(double from, double until) const {
 
 ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative,
                                   const std::vector<Observer*>& observers) {
+  try {
+    return round_of(z, with_derivative, observers);
+  } catch (const Jam& jam) {
+    return broken(jam);
+  }
+}
+
+ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivative,
+                                     const std::vector<Observer*>& observers) {
   const std::vector<double> y = place(equations_, z);
   const double begin = equations_.angle_with_turns(at(shared_->reduction_angle), y), from = start_time();
   const bool variational = with_derivative && variational_;
-  Sensitivities sensitivities(equations_, variational ? size() : 0);
+  Sensitivities sensitivities(equations_, variational ? size() : 0, loose_directions);
   RunOptions run = run_options(from, from + (periodicity_.by_time ? periodicity_.time * options_.cycles : time_limit_));
   run.stop = round_end(equations_, y);
   run.from->y = variational ? sensitivities.start(y, section_->directions()) : y;
@@ -190,6 +209,7 @@ ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative
   std::vector<double> rate(equations_.size());
   equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);
   image.derivative = section_->read_at_end(sensitivities.matrix(outcome.state), rate, image.slowing);
+  image.uncertain = safely * loose_directions * options_.tolerance;
   image.grazed = sensitivities.grazed();
   return image;
 }
@@ -214,6 +234,7 @@ void ReturnMap::differentiate(const Eigen::VectorXd& z, Image& image) {
     image.slowing[j] = (above.time - below.time) / (2 * difference_step);
     bend = std::max(bend, (above.z - 2 * here + below.z).cwiseAbs().maxCoeff() / difference_step);
   }
+  image.uncertain = safely * options_.tolerance / difference_step + bend * difference_step;
   image.grazed = bend > grazes * std::max(1.0, image.derivative.cwiseAbs().maxCoeff());
 }
 
@@ -243,6 +264,22 @@ ReturnMap::Image ReturnMap::approach_as_given(double from) {
 }
 
 ReturnMap::Image ReturnMap::approach_from(State state) {
+  try {
+    return round_from(std::move(state));
+  } catch (const Jam& jam) {
+    return broken(jam);
+  }
+}
+
+Eigen::VectorXd ReturnMap::along_the_motion(const Eigen::VectorXd& z) {
+  if (!own_period_) return Eigen::VectorXd::Zero(z.size());
+  const std::vector<double> y = place(equations_, z);
+  std::vector<double> rate(equations_.size());
+  equations_.flow(start_time(), y, rate);
+  return section_->read_directions(Eigen::Map<const Eigen::VectorXd>(rate.data(), section_->directions().rows()));
+}
+
+ReturnMap::Image ReturnMap::round_from(State state) {
   const Model& m = *shared_;
   equations_.bind(state.modes);
   const auto link_speed = [&](double t, std::span<const double> y) {

@@ -58,9 +58,10 @@ class ReturnMap {
     double link_angle = 0;       // where it ended [rad]
     Eigen::MatrixXd derivative;  // ∂P/∂z, if asked for
     Eigen::RowVectorXd slowing;  // ∂(time)/∂z [s], if asked for
+    double uncertain = 0;        // of an entry of the derivative, by the tolerances of the round
     bool grazed = false;         // an event was only just touched: the derivative is uncertain
   };
-  // Observers see the round.
+  // Observers see the round. Where joints jam, at its begin or its end too, it fails in words.
   Image image(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers = {});
 
   // Runs the machine through one cycle from a quasi-static state with the link at this speed [rad/s], puts the section
@@ -85,11 +86,16 @@ class ReturnMap {
   double derivative_cost() const { return (variational_ ? 1.0 : 2.0) * static_cast<double>(size()) + 1; }
   double time_limit() const { return time_limit_; }
   const ReturnMapOptions& options() const { return options_; }
+  // The direction, scaled, in which z moves with time alone: along it a machine with a period of its own is at home
+  // everywhere. Zero for any other.
+  Eigen::VectorXd along_the_motion(const Eigen::VectorXd& z);
   // Derivatives come from variational equations with their jumps; else from differences.
   bool variational() const { return variational_; }
 
  private:
   Image approach_as_given(double from);
+  Image round_from(State state);
+  Image round_of(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers);
   RunOptions run_options(double from, double until) const;
   void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);
@@ -100,6 +106,7 @@ class ReturnMap {
   ReturnMapOptions options_;
   Equations equations_;
   Periodicity periodicity_;
+  bool own_period_ = false;
   bool variational_ = true;  // the derivative comes from variational equations, else from differences
   std::optional<PoincareSection> section_;
   double section_angle_ = 0, sense_ = 1, time_limit_ = 0, cost_ = 0;
@@ -113,17 +120,33 @@ struct SteadyPoint {
   Eigen::VectorXd z, first;  // the point, and the image of the guess
   Eigen::MatrixXd derivative;
   std::vector<std::complex<double>> multipliers;  // largest first
-  double time = 0;                                // of one round [s]
-  double residual = 0;                            // largest of |P(z) − z|, scaled
-  int rounds = 0, derivatives = 0;                // of the map, and how many of them with derivative
-  double cost = 0;                                // [cycles]
+  double multiplier_error = 0;                    // of the largest, by what the derivative is good for
+  // Found by running alone: what further rounds would still add to z. Empty: found by Newton's method.
+  Eigen::VectorXd to_come;
+  double time = 0;                  // of one round [s]
+  double residual = 0;              // largest of |P(z) − z|, scaled
+  int rounds = 0, derivatives = 0;  // of the map, and how many of them with derivative
+  double cost = 0;                  // [cycles]
   bool grazed = false;
   double largest() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }
+  // One of a family: the multiplier is not to be told from 1. A machine that is merely slow is not.
+  bool neutral() const { return !multipliers.empty() && std::abs(largest() - 1) <= multiplier_error; }
+  bool unstable() const { return largest() > 1 + multiplier_error; }
+  double still_to_come() const { return to_come.size() > 0 ? to_come.cwiseAbs().maxCoeff() : 0; }
   void take(const Eigen::VectorXd& at, const ReturnMap::Image& image);
 };
 
 // By Newton from a guess. `enough`: residual at which it ends.
 SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double enough = 1e-10);
+
+// Where the run itself goes: a few rounds, and by how much they shrink from one to the next. Not found where a round
+// changes more than `enough`, or where nothing tells that rounds shrink.
+SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough);
+
+// The same motion by a looser map that follows the one of the point: what differs is the point's error. What the run alone
+// came to, is moved by what is still to come; a member of a family, and what an event only just touches, is kept as it is.
+// Not found where the looser search comes to another motion.
+SteadyPoint find_looser(ReturnMap& loose, const SteadyPoint& point, double enough);
 
 // Eigenvalues, largest magnitude first.
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative);

@@ -16,7 +16,7 @@ class Sensitivities final : public RunExtension {
  public:
   // The equations carry no audit. columns: number of directions that are followed, this much more loosely than the
   // motion: in Newton's steps their errors do not enter the result.
-  Sensitivities(Equations& equations, std::size_t columns, double looser = 100);
+  Sensitivities(Equations& equations, std::size_t columns, double looser);
 
   // [ y | Y row by row ]; Y₀ = ∂y₀/∂z, states × columns.
   std::vector<double> start(std::span<const double> y, const Eigen::MatrixXd& first) const;

@@ -15,7 +15,6 @@ namespace kurbel {
 namespace {
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
-constexpr double neutral_within = 1e-6;    // of a multiplier of 1: a member of a family is kept as it is
 constexpr double sampled_within = 300;     // times the tolerance: what the solution between steps is good for
 constexpr double shortest = 1e-11;         // way of a step that is worth a piece [rad]
 constexpr double slowest_of_rated = 1e-6;  // below that the link stands
@@ -167,10 +166,10 @@ RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
   std::vector<double> y = map.place(equations, point.z);
   y.resize(equations.size(), 0.0);
   RunOptions run{.tolerance = tolerance,
-                 .method = "auto",
+                 .method = map.options().method,
                  .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
-                 .budget = 60,
-                 .interrupted = nullptr,
+                 .budget = map.options().budget,
+                 .interrupted = map.options().interrupted,
                  .progress = {}};
   run.stop = map.round_end(equations, y);
   run.from = {map.start_time(), y};
@@ -202,13 +201,11 @@ RegimeCycle regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
 
 std::optional<RegimeCycle> looser_regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
   try {
-    const bool neutral = std::abs(regime.point.largest() - 1) < neutral_within;
-    if (!regime.polished || neutral) return follow(*regime.map, regime.point, nodes, looser_tolerance);
-    ReturnMapOptions options;
+    ReturnMapOptions options = regime.map->options();
     options.tolerance = looser_tolerance;
     ReturnMap loose(regime.map->shared_model(), options);
     loose.follow(*regime.map);
-    const SteadyPoint point = find_steady(loose, regime.point.z, looser_tolerance * 10);
+    const SteadyPoint point = find_looser(loose, regime.point, looser_tolerance * 10);
     if (!point.found) return {};
     return follow(loose, point, nodes, looser_tolerance);
   } catch (const std::invalid_argument&) {

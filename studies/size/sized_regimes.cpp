@@ -94,7 +94,7 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
     fill(r, regime_cycle(regime, {motor}), model->node_ratio[kurbel::at(motor)]);
     if (!with_error) return r;
     if (const auto looser = looser_regime_cycle(regime, {motor})) {
-      const double left = regime.polished ? 0 : regime.point.residual;  // what the run has still to settle
+      const double left = regime.point.still_to_come();  // what the run has still to settle
       r.crank_error = std::abs(looser->delta() - r.crank) + least_error * r.crank + left;
       r.motor_error = std::abs(delta_of(looser->others.front()) - r.motor) + least_error * r.motor + left;
     }

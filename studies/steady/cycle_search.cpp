@@ -22,7 +22,6 @@ namespace {
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
 constexpr double enough = 1e-11;  // residual of the map, over the rated values
 constexpr double rounding_of_multipliers = 1e-12;
-constexpr double neutral_within = 1e-6;   // of 1
 constexpr double regime_cost_limit = 40;  // cycles
 
 // A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
@@ -263,12 +262,12 @@ class Search {
     out_.unknowns = map_->size();
     out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
-    out_.stability = !out_.uncertain ? stability_text(out_.point.multipliers, &out_.halving)
-                     : out_.point.grazed
-                         ? "of uncertain stability, for an event is only just touched; the run comes here "
-                           "and stays"
-                         : "without multipliers, but the run comes here and stays";
-    out_.neutral = std::abs(out_.point.largest() - 1) < neutral_within;
+    out_.stability =
+        !out_.uncertain     ? stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error)
+        : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here "
+                              "and stays"
+                            : "without multipliers, but the run comes here and stays";
+    out_.neutral = out_.point.neutral();
     Round fine = go_round(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {
       out_.found = false;
@@ -283,14 +282,11 @@ class Search {
     if (options_.traces) follow();
   }
 
-  // The same search with looser tolerances; what it finds otherwise is the error. What the run alone came to, and a
-  // member of a family, is kept as it
-  // is: there the looser search would settle beside it.
+  // The same search with looser tolerances; what it finds otherwise is the error.
   void measure_errors(Round& fine) {
     ReturnMap loose(out_.model, map_options(looser_tolerance));
     loose.follow(*map_);
-    SteadyPoint point = out_.point;
-    if (!out_.neutral && !out_.uncertain && !options_.mid_speed) point = find_steady(loose, out_.point.z, enough * 100);
+    const SteadyPoint point = options_.mid_speed ? out_.point : find_looser(loose, out_.point, enough * 100);
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
@@ -343,12 +339,13 @@ SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const Stead
   return Search(scene, effects, study, options).run();
 }
 
-std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving) {
+std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
+                           double error) {
   if (halving) halving->reset();
   const std::complex<double> slowest = multipliers.empty() ? 0 : multipliers.front();
   const double size = std::abs(slowest);
   const char* swinging = std::abs(slowest.imag()) > 1e-9 * size || slowest.real() < -1e-9 ? ", swinging" : "";
-  if (std::abs(size - 1) < neutral_within)
+  if (!multipliers.empty() && std::abs(size - 1) <= error)
     return "neutral: a deviation neither fades nor grows (multiplier 1), the cycle is one of a family";
   if (size > 1)
     return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", std::log(2.0) / std::log(size), swinging);

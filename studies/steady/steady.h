@@ -100,7 +100,8 @@ struct SteadyStudy {
 // that never meet, a mean speed of a machine that time drives.
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options);
 
-// "stable: the slowest deviation halves in 3.2 cycles"
-std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving);
+// "stable: the slowest deviation halves in 3.2 cycles"; what differs from 1 by no more than the error is neutral.
+std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
+                           double error);
 
 }  // namespace kurbel

@@ -157,5 +157,50 @@ TEST(Regime, OwnStatesAreAmongTheUnknowns) {
   EXPECT_LT(((above - below) / 2 - regime.point.derivative * step).cwiseAbs().maxCoeff(), 3e-5 * h);
 }
 
+// A load that comes and goes by a repeated sequence: the run alone comes to it, each round by a ratio nearer. What it has
+// still to go is told.
+TEST(Regime, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
+  const Regime regime = regime_of(
+      "line = [\"motor\", \"clutch\", \"load\"]\n"
+      "motor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", inertia = \"6 "
+      "kg*m2\" }\nclutch = { kind = \"clutch\", torque = \"30 N*m\" }\n"
+      "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n[sequence]\nrepeat = true\nsteps = [{ "
+      "after = \"0.5 s\", set = \"clutch\", to = 0 }, { after = \"0.5 s\", set = \"clutch\", to = 1 }]\n");
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_FALSE(regime.polished);
+  ASSERT_EQ(regime.point.to_come.size(), regime.point.z.size());
+  Eigen::VectorXd z = regime.point.z;
+  for (int i = 0; i < 200; ++i) z = regime.map->image(z, false).z;
+  const double off = (z - regime.point.z).cwiseAbs().maxCoeff();
+  EXPECT_GT(off, 2 * regime.point.residual);  // a round's change is not the error
+  EXPECT_LT(off, 1.2 * regime.point.still_to_come() + 1e-11);
+  EXPECT_LT((z - regime.point.z - regime.point.to_come).cwiseAbs().maxCoeff(), 0.2 * off + 1e-11);
+}
+
+// A flywheel so heavy that a turn takes off 1e-7 of a deviation: that is slow, not a family of motions.
+TEST(Regime, AMachineThatIsMerelySlowIsNoFamily) {
+  const Regime regime = regime_of(
+      "line = [\"motor\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
+      "\"40 rad/s\", inertia = \"4e6 kg*m2\" }\nload = { kind = \"load\", damping = \"0.5 N*m*s/rad\" }\n"
+      "[run]\nstart = { speed = \"30.01 rad/s\" }\n");
+  ASSERT_TRUE(regime.repeats()) << regime.words;
+  const double steady = 30, fades = (60 / 40.0 + 0.5) / 4e6 * 2 * pi / steady;  // κ T
+  EXPECT_LT(fades, 1.1e-7);
+  EXPECT_FALSE(regime.point.neutral());
+  EXPECT_NEAR(1 - regime.point.largest(), fades, 0.05 * fades);
+  EXPECT_NEAR(regime.point.time, 2 * pi / steady, 1e-5);
+}
+
+// While the link waits for a speed to be reached, no cycles are run through.
+TEST(Regime, WaitingIsNoCycle) {
+  const Regime regime = regime_of(
+      "line = [\"motor\", \"brake\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", "
+      "no_load_speed = \"40 rad/s\", inertia = \"0.5 kg*m2\" }\nbrake = { kind = \"brake\", torque = \"100 N*m\" }\n"
+      "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\", stop = \"200 s\" }\n");
+  EXPECT_EQ(regime.kind, Regime::Kind::at_rest) << regime.words;
+  EXPECT_GT(regime.rounds, 1);
+  EXPECT_LT(regime.cost, 1);
+}
+
 }  // namespace
 }  // namespace kurbel::test

@@ -321,5 +321,58 @@ TEST(ReturnMap, MachineThatStopsUnderItsLoadIsToldWithTheAngle) {
   EXPECT_NE(image.why.find("115.61"), std::string::npos) << image.why;
 }
 
+// The guide's friction jams from φ = 239° on: a section that lies there has no image, and says why.
+TEST(ReturnMap, ASectionWhereJointsJamHasNoImage) {
+  const auto model = model_of(R"(
+line = ["wheel", "crank"]
+wheel = { kind = "flywheel", inertia = "0.4 kg*m2" }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "110 mm", crank_inertia = "0.1 kg*m2", slider_mass = "1 kg", guide = { friction = 0.8 }, load = { kind = "constant", force = "-100 N" } }
+effects = { joint_friction = true }
+run = { start = { angle = "250 deg", speed = "20 rad/s" }, until = "0.3 s", accuracy = 1e-4 }
+)");
+  ReturnMap map(model, {});
+  State state;
+  Equations equations(model, false);
+  StartSettings start;
+  start.angle = 185 * pi / 180, start.speed = 20;
+  state.y = equations.start(0, start);
+  state.modes = equations.modes();
+  state.y[static_cast<std::size_t>(model->reduction_angle)] = 255 * pi / 180;
+  ReturnMap::Image image;
+  EXPECT_NO_THROW(image = map.approach_from(state));
+  EXPECT_NE(image.end, ReturnMap::End::returned);
+  EXPECT_FALSE(image.why.empty());
+}
+
+// Two laws on one shaft, one of a third of a turn and one of half a turn: together they repeat after a turn.
+TEST(ReturnMap, LawsOfOneShaftRepeatAfterTheirCommonPeriod) {
+  const auto model = model_of(
+      "line = [\"drive\", \"c\", \"a\"]\n"
+      "drive = { kind = \"torque source\", torque = \"40 N*m\", amplitude = \"4 N*m\", frequency = \"3 Hz\", inertia = "
+      "\"0.2 kg*m2\" }\n"
+      "c = { kind = \"coupling\", stiffness = \"150 N*m/rad\", damping = \"0.3 N*m*s/rad\" }\n"
+      "a = { kind = \"load\", damping = \"2 N*m*s/rad\", inertia = \"0.4 kg*m2\" }\n"
+      "b = { on = \"a\", kind = \"load\", table = { over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 1], "
+      "[60, 3], "
+      "[120, 1]], period = \"120 deg\" } }\n"
+      "d = { on = \"a\", kind = \"load\", table = { over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 1], "
+      "[90, 2], "
+      "[180, 1]], period = \"180 deg\" } }\n"
+      "effects = { elasticity = true }\n");
+  Equations equations(model, false);
+  State state;
+  state.y = equations.start(0);
+  state.modes = equations.modes();
+  const PoincareSection section(equations, state, SectionOptions{false, {}});
+  std::size_t angle = section.size();
+  for (std::size_t j = 0; j < section.size(); ++j)
+    if (section.is_angle(j)) angle = j;
+  ASSERT_LT(angle, section.size());
+  // Half a turn on, the law of a third of a turn is not where it was.
+  std::vector<double> y = section.place(equations, pi * Eigen::VectorXd::Unit(static_cast<Eigen::Index>(section.size()),
+                                                                              static_cast<Eigen::Index>(angle)));
+  EXPECT_NEAR(std::abs(section.read(equations.modes(), y)[static_cast<Eigen::Index>(angle)]), pi, 1e-9);
+}
+
 }  // namespace
 }  // namespace kurbel::test

@@ -126,7 +126,7 @@ run = { until = "1.4 s", start = { speed = "6 rad/s" } }
     if (!out.events.empty()) broke = out.events[0].t;
     return out.state;
   };
-  Sensitivities sensitivities(equations, 1);
+  Sensitivities sensitivities(equations, 1, 100);
   Eigen::MatrixXd direction = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(equations.size()), 1);
   direction(static_cast<Eigen::Index>(first), 0) = direction(static_cast<Eigen::Index>(first) + 1, 0) = 1;
   const std::vector<double> extended = sensitivities.start(equations.start(0), direction);

@@ -102,11 +102,11 @@ TEST(Steady, RmsOfAMotorUnderConstantLoadIsTheLoadAndItsThermalUseTheRatio) {
 
 TEST(Steady, StabilityIsToldInCyclesOfHalving) {
   std::optional<double> halving;
-  EXPECT_TRUE(has(stability_text({{0.5, 0}}, &halving), "stable: the slowest deviation halves in 1 cycles"));
+  EXPECT_TRUE(has(stability_text({{0.5, 0}}, &halving, 1e-9), "stable: the slowest deviation halves in 1 cycles"));
   EXPECT_NEAR(*halving, 1, 1e-12);
-  EXPECT_TRUE(has(stability_text({{2, 0}}, nullptr), "unstable: a deviation doubles in 1 cycles"));
-  EXPECT_TRUE(has(stability_text({{1, 0}, {0.2, 0}}, nullptr), "neutral"));
-  EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr), "swinging"));
+  EXPECT_TRUE(has(stability_text({{2, 0}}, nullptr, 1e-9), "unstable: a deviation doubles in 1 cycles"));
+  EXPECT_TRUE(has(stability_text({{1, 0}, {0.2, 0}}, nullptr, 1e-9), "neutral"));
+  EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr, 1e-9), "swinging"));
 }
 
 // --- families ---
