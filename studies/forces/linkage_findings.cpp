@@ -50,9 +50,11 @@ std::string conclusion_of(const LinkageStudy& f) {
   text += is_nothing(c.torque.peak) ? std::string(", no balancing torque is needed")
                                     : fmt::format(", the balancing torque peaks at {} (at {})",
                                                   in_words(c.torque.peak, "N*m"), at_angle(c.torque.peak));
-  return text + (is_nothing(c.shaking_force.peak)
-                     ? std::string(", nothing shakes the frame.")
-                     : fmt::format(", the shaking force peaks at {}.", in_words(c.shaking_force.peak, "N")));
+  if (!is_nothing(c.shaking_force.peak))
+    return text + fmt::format(", the shaking force peaks at {}.", in_words(c.shaking_force.peak, "N"));
+  return text + (is_nothing(c.shaking_moment.peak) ? std::string(", nothing shakes the frame.")
+                                                   : fmt::format(", no force but a moment shakes the frame, up to {}.",
+                                                                 in_words(c.shaking_moment.peak, "N*m")));
 }
 
 std::string signs_of(const LinkageStudy& f) {
