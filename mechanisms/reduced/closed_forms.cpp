@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-// Theory 2.1 and 2.2 over the links.
+// Over the links by theory 2.1 and theory 2.2.
 ClosedForm sum_of(const PlanarLinkage& linkage) {
   const long double elevation = linkage.elevation, gravity = linkage.gravity;
   const Path up = {Taylor(std::sin(elevation)), Taylor(std::cos(elevation))};
