@@ -1,4 +1,4 @@
-// forces_command.cpp — kurbel forces: kinetostatics of a scene's slider-crank.
+// forces_command.cpp — kurbel forces: kinetostatics of a scene's mechanism.
 #include <fmt/format.h>
 
 #include <memory>
@@ -31,8 +31,9 @@ int forces(const ForcesArguments& arguments) {
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
   options.watch = watch_of(arguments.study, progress);
-  const Forces found = find_forces(scene, options);
-  return present(output_of(found), arguments.study);
+  if (chosen_mechanism(scene, options.mechanism).kind->name != "slider-crank")
+    return present(output_of(find_linkage_forces(scene, options)), arguments.study);
+  return present(output_of(find_forces(scene, options)), arguments.study);
 }
 
 void set_up(CLI::App& command, int& code) {
@@ -41,7 +42,8 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
   command.add_option("--speed", arguments->speed,
                      "speed of the crank in the first problem, e.g. \"300 rpm\" (default: the scene's start speed)");
-  command.add_option("--mechanism", arguments->mechanism, "which slider-crank (default: the first)");
+  command.add_option("--mechanism", arguments->mechanism,
+                     "which slider-crank, four-bar, quick-return or knuckle press (default: the first)");
   command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
   command.callback([&code, arguments] { code = forces(*arguments); });
 }
@@ -50,10 +52,11 @@ const Verb verb{
     {.place = 50,
      .name = "forces",
      .arguments = "scene.toml",
-     .help =
-         "reactions in every joint, balancing torque, friction, shaking forces and counterweights of a slider-crank",
-     .does = "kinetostatics of the slider-crank: reactions in every joint with their friction, balancing "
-             "torque, shaking forces, counterweights (`--speed`, `--positions`)",
+     .help = "reactions in every joint of a mechanism, balancing torque, friction, shaking forces, inertia forces of "
+             "its links",
+     .does = "kinetostatics of any mechanism: reactions in every joint, balancing torque, shaking forces, motion and "
+             "inertia forces of every link, its share in I_r; a slider-crank's joint friction and counterweights "
+             "(`--speed`, `--positions`, `--mechanism`)",
      .set_up = set_up}};
 
 }  // namespace

@@ -41,7 +41,7 @@ LinkageDrawing drawing_of(const FourBarData& d) {
   return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3, true};
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& d) {
+std::unique_ptr<PlanarSystem> planar_system(const FourBarData& d) {
   throw_if_any("four-bar", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("four-bar");
   SimTK::MobilizedBody::Pin crank(m->matter.Ground(), Transform(), pivoted_link(d.crank_body), Transform());
@@ -66,7 +66,9 @@ std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& d) {
   m->add_joint(coupler, Vec3(0));
   m->add_joint(coupler, Vec3(d.coupler, 0, 0));
   m->add_joint(rocker, Vec3(0));
-  return sampled(std::move(m));
+  return m;
 }
+
+std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

@@ -111,7 +111,7 @@ LinkageDrawing drawing_of(const KnucklePressData& d) {
           false};
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) {
+std::unique_ptr<PlanarSystem> planar_system(const KnucklePressData& d) {
   throw_if_any("knuckle press", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("knuckle press");
   const Vec3 bearing(d.bearing_x, d.bearing_y, 0), ram(d.lower, 0, 0);
@@ -146,7 +146,9 @@ std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) {
   m->add_joint(lower, Vec3(0));
   m->add_joint(upper, Vec3(0));
   m->add_joint(lower, ram);
-  return sampled(std::move(m));
+  return m;
 }
+
+std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

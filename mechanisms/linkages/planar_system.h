@@ -62,6 +62,11 @@ struct PlanarSystem {
   std::size_t track(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
 };
 
+// Each beside its mechanism's data. Throw std::invalid_argument with the first fault.
+std::unique_ptr<PlanarSystem> planar_system(const struct FourBarData& data);
+std::unique_ptr<PlanarSystem> planar_system(const struct QuickReturnData& data);
+std::unique_ptr<PlanarSystem> planar_system(const struct KnucklePressData& data);
+
 // Samples any system that a mechanism has filled.
 std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar);
 

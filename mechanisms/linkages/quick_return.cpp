@@ -86,7 +86,7 @@ LinkageDrawing drawing_of(const QuickReturnData& d) {
           false};
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& d) {
+std::unique_ptr<PlanarSystem> planar_system(const QuickReturnData& d) {
   throw_if_any("quick-return", faults_of(d));
   auto m = std::make_unique<PlanarSystem>("quick-return");
   const Vec3 lever_end(d.lever * std::cos(d.lever_angle), d.lever * std::sin(d.lever_angle), 0), ram(d.link, 0, 0);
@@ -123,7 +123,9 @@ std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& d) {
   m->add_joint(lever, Vec3(0));
   m->add_joint(link, Vec3(0));
   m->add_joint(link, ram);
-  return sampled(std::move(m));
+  return m;
 }
+
+std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

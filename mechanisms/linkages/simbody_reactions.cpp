@@ -1,13 +1,18 @@
-// simbody_reactions.cpp — the slider-crank with a slider body of its own, realised by Simbody (C++17 island).
+// simbody_reactions.cpp — the slider-crank with a slider body of its own, and the others, realised by Simbody (C++17
+// island).
 #include "mechanisms/linkages/simbody_reactions.h"
 
 #include <Simbody.h>
 #include <fmt/core.h>
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "mechanisms/linkages/four_bar.h"
+#include "mechanisms/linkages/knuckle_press.h"
 #include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/linkages/quick_return.h"
 
 namespace kurbel {
 
@@ -109,6 +114,47 @@ SimbodyReactions simbody_reactions(const SliderCrankData& d, double phi, double 
   out.guide_moment = guide[0][2];
   out.torque = -motion[0];  // findMotionForces gives minus what is to be applied
   return out;
+}
+
+namespace {
+
+MechanismReactions reactions_in(std::unique_ptr<PlanarSystem> planar, double phi, double omega, double alpha,
+                                double load) {
+  const Vec3 down = -planar->gravity * planar->up();
+  const SimTK::Force::UniformGravity weight(planar->forces, planar->matter, down);
+  if (const int q = planar->output_coordinate; q >= 0) {
+    SimTK::Force::ConstantTorque(planar->forces, planar->matter.updMobilizedBody(SimTK::MobilizedBodyIndex(q + 1)),
+                                 Vec3(0, 0, load));
+  } else {
+    const TrackedPoint& output = planar->points[planar->output_point];
+    SimTK::Force::ConstantForce(planar->forces, planar->matter.updMobilizedBody(output.body), output.station,
+                                Vec3(load, 0, 0));
+  }
+  SimTK::State state = planar->realize_topology();
+  state.updU() = omega * planar->reduce_at(state, within_a_turn(phi)).q1;
+  planar->matter.getMobilizedBody(SimTK::MobilizedBodyIndex(1)).lockAt(state, alpha, SimTK::Motion::Acceleration);
+  planar->system.realize(state, SimTK::Stage::Acceleration);
+  Vector_<SpatialVec> joint;
+  Vector motion;
+  planar->matter.calcMobilizerReactionForces(state, joint);
+  planar->matter.findMotionForces(state, motion);
+  MechanismReactions out;
+  for (SimTK::MobilizedBodyIndex k(1); k < planar->matter.getNumBodies(); ++k)
+    out.on.push_back({joint[k][1][0], joint[k][1][1], joint[k][0][2]});
+  out.torque = -motion[0];
+  return out;
+}
+
+}  // namespace
+
+MechanismReactions simbody_reactions(const FourBarData& d, double phi, double omega, double alpha, double load) {
+  return reactions_in(planar_system(d), phi, omega, alpha, load);
+}
+MechanismReactions simbody_reactions(const QuickReturnData& d, double phi, double omega, double alpha, double load) {
+  return reactions_in(planar_system(d), phi, omega, alpha, load);
+}
+MechanismReactions simbody_reactions(const KnucklePressData& d, double phi, double omega, double alpha, double load) {
+  return reactions_in(planar_system(d), phi, omega, alpha, load);
 }
 
 }  // namespace kurbel

@@ -1,5 +1,7 @@
-// simbody_reactions.h — the joint reactions of the slider-crank as Simbody computes them: the check of d'Alembert's.
+// simbody_reactions.h — the joint reactions of the mechanisms as Simbody computes them: the check of d'Alembert's.
 #pragma once
+
+#include <vector>
 
 #include "mechanisms/linkages/slider_crank_geometry.h"
 
@@ -20,5 +22,23 @@ struct SimbodyReactions {
 // a rod or slider without mass, for which Simbody's equations are singular; std::runtime_error if the loop is open.
 SimbodyReactions simbody_reactions(const SliderCrankData& data, double phi, double omega, double alpha,
                                    double slider_force);
+
+// What its mobilizer does to each body, in the order of make_bodies' bodies: at the body's joint, in the frame's axes.
+struct MobilizerReaction {
+  double x, y, moment;  // [N], [N·m]
+};
+struct MechanismReactions {
+  std::vector<MobilizerReaction> on;
+  double torque = 0;  // that the motion needs, on the crank [N·m]
+};
+// The crank's acceleration is prescribed; the load is a force along +x at the ram's pin or a torque on the rocker.
+// Every link must have mass: Simbody's stand-in for a massless crank would weigh. Throw as make_bodies and
+// MechanismBodies do.
+MechanismReactions simbody_reactions(const struct FourBarData& data, double phi, double omega, double alpha,
+                                     double load);
+MechanismReactions simbody_reactions(const struct QuickReturnData& data, double phi, double omega, double alpha,
+                                     double load);
+MechanismReactions simbody_reactions(const struct KnucklePressData& data, double phi, double omega, double alpha,
+                                     double load);
 
 }  // namespace kurbel

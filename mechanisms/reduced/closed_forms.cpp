@@ -9,53 +9,51 @@
 namespace kurbel {
 namespace {
 
-// Gathers theory 2.1 and 2.2 over the links.
-class LinkSum {
- public:
-  LinkSum(double gravity, double elevation)
-      : gravity_(gravity),
-        up_{Taylor(std::sin(static_cast<long double>(elevation))),
-            Taylor(std::cos(static_cast<long double>(elevation)))} {}
+// Over the links by theory 2.1 and theory 2.2.
+ClosedForm sum_of(const PlanarLinkage& linkage) {
+  const long double elevation = linkage.elevation, gravity = linkage.gravity;
+  const Path up = {Taylor(std::sin(elevation)), Taylor(std::cos(elevation))};
+  Taylor inertia, moment;  // moment: of mass over height
+  long double scale = 0;
+  for (int i = 0; i < linkage.body_count; ++i) {
+    const PlanarLinkage::Body& body = linkage.bodies[i];
+    const Taylor vx = body.com.x.derivative(), vy = body.com.y.derivative();
+    inertia = inertia + Taylor(body.mass) * (vx * vx + vy * vy);
+    moment = moment + Taylor(body.mass) * (up.x * body.com.x + up.y * body.com.y);
+    scale += gravity * body.mass * std::hypot(vx.value(), vy.value());
+    const Taylor rate = body.direction.rate();
+    inertia = inertia + Taylor(body.inertia) * rate * rate;
+  }
+  return {inertia.value(),
+          inertia.slope(),
+          inertia.curvature(),
+          linkage.output[0],
+          linkage.output[1],
+          linkage.output[2],
+          -gravity * moment.slope(),
+          -gravity * moment.curvature(),
+          scale,
+          gravity * moment.value()};
+}
 
-  void turning(const LinkBody& link, const Path& bearing, const Direction& direction) {  // inertia about its bearing
-    point(link.mass, bearing + along(direction, Taylor(link.com)));
-    const long double central = link.inertia - static_cast<long double>(link.mass) * link.com * link.com;
-    turn(central > 0 ? central : 0, direction);
-  }
-  void floating(const LinkBody& link, const Path& joint, const Direction& direction) {  // central inertia
-    point(link.mass, joint + along(direction, Taylor(link.com)));
-    turn(link.inertia, direction);
-  }
-  void point(double mass, const Path& p) {
-    const Taylor vx = p.x.derivative(), vy = p.y.derivative();
-    inertia_ = inertia_ + Taylor(mass) * (vx * vx + vy * vy);
-    moment_ = moment_ + Taylor(mass) * (up_.x * p.x + up_.y * p.y);
-    scale_ += gravity_ * mass * std::hypot(vx.value(), vy.value());
-  }
-  ClosedForm with_output(long double x, long double x1, long double x2) const {
-    return {inertia_.value(),
-            inertia_.slope(),
-            inertia_.curvature(),
-            x,
-            x1,
-            x2,
-            -gravity_ * moment_.slope(),
-            -gravity_ * moment_.curvature(),
-            scale_,
-            gravity_ * moment_.value()};
-  }
-  ClosedForm with_output(const Taylor& x) const { return with_output(x.value(), x.slope(), x.curvature()); }
+using Body = PlanarLinkage::Body;
 
- private:
-  void turn(long double inertia, const Direction& direction) {
-    const Taylor rate = direction.rate();
-    inertia_ = inertia_ + Taylor(inertia) * rate * rate;
-  }
-
-  long double gravity_, scale_ = 0;
-  Path up_;
-  Taylor inertia_, moment_;  // of mass over height
-};
+Body pivoted(const char* name, const LinkBody& link, const Path& bearing, const Direction& direction) {
+  const long double central = link.inertia - static_cast<long double>(link.mass) * link.com * link.com;
+  return {name, link.mass, central > 0 ? central : 0, bearing + along(direction, Taylor(link.com)), direction};
+}
+Body floating(const char* name, const LinkBody& link, const Path& joint, const Direction& direction) {
+  return {name, link.mass, link.inertia, joint + along(direction, Taylor(link.com)), direction};
+}
+// What slides along x in the frame: its weight and its load stand in its pin.
+void add_slider(PlanarLinkage& to, const char* name, double mass, const char* pin, const Path& at) {
+  const int link = to.body_count - 1;
+  to.add(Body{name, mass, 0, at, Direction::constant(0)});
+  to.join({pin, link, link + 1, at});
+  to.join({"guide", PlanarLinkage::frame, link + 1, at, true, Direction::constant(0)});
+  to.load_at = at;
+  to.output[0] = at.x.value(), to.output[1] = at.x.slope(), to.output[2] = at.x.curvature();
+}
 
 // 1 + cos α = 2 cos²(α/2) and 1 − cos α = 2 sin²(α/2), which cos α itself would lose near π and 0.
 struct CosineSums {
@@ -116,18 +114,40 @@ ClosedForm closed_form(const SliderCrankData& d, long double phi) {
           x.curvature,   weight.value,  weight.slope,      scale,   geometry.potential_energy(phi)};
 }
 
-ClosedForm closed_form(const FourBarData& m, long double phi) {
+PlanarLinkage linkage_of(const SliderCrankData& d, long double phi) {
   const Direction crank = Direction::of_variable(phi);
-  const Meeting meeting = meet(m.crank, m.coupler, m.rocker, m.ground, phi, !m.crossed);
-  LinkSum sum(m.gravity, m.ground_angle);
-  sum.turning(m.crank_body, {}, crank);
-  sum.floating(m.coupler_body, along(crank, Taylor(m.crank)), meeting.coupler);
-  sum.turning(m.rocker_body, {Taylor(m.ground), Taylor()}, meeting.follower);
-  const Taylor rate = meeting.follower.rate();
-  return sum.with_output(meeting.follower.angle(), rate.value(), rate.slope());
+  const Path pin = along(crank, Taylor(d.radius));
+  const Direction rod = to_line(pin, d.offset, d.rod_length, false);
+  PlanarLinkage l;
+  l.gravity = d.gravity, l.elevation = d.stroke_angle;
+  l.add(pivoted("crank", {d.crank_mass, d.crank_com, d.crank_inertia}, {}, crank));
+  l.add(floating("rod", {d.rod_mass, d.rod_com, d.rod_inertia}, pin, rod));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  add_slider(l, "slider", d.slider_mass, "slider pin", pin + along(rod, Taylor(d.rod_length)));
+  return l;
 }
 
-ClosedForm closed_form(const QuickReturnData& m, long double phi) {
+PlanarLinkage linkage_of(const FourBarData& m, long double phi) {
+  const Direction crank = Direction::of_variable(phi);
+  const Meeting meeting = meet(m.crank, m.coupler, m.rocker, m.ground, phi, !m.crossed);
+  const Path pin = along(crank, Taylor(m.crank)), bearing = {Taylor(m.ground), Taylor()};
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.ground_angle, l.rocks = true;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("coupler", m.coupler_body, pin, meeting.coupler));
+  l.add(pivoted("rocker", m.rocker_body, bearing, meeting.follower));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"coupler pin", 1, 2, bearing + along(meeting.follower, Taylor(m.rocker))});
+  l.join({"rocker bearing", PlanarLinkage::frame, 2, bearing});
+  l.load_at = bearing;
+  const Taylor rate = meeting.follower.rate();
+  l.output[0] = meeting.follower.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
+  return l;
+}
+
+PlanarLinkage linkage_of(const QuickReturnData& m, long double phi) {
   const Direction crank = Direction::of_variable(phi);
   const Path pin = along(crank, Taylor(m.radius)), pivot = {Taylor(), Taylor(-m.pivot_distance)};
   const Path to_pin = pin - pivot;
@@ -135,33 +155,48 @@ ClosedForm closed_form(const QuickReturnData& m, long double phi) {
   const Direction slot = {to_pin.x / distance, to_pin.y / distance};
   const Path end = pivot + along(slot + Direction::constant(m.lever_angle), Taylor(m.lever));
   const Direction link = to_line(end, static_cast<long double>(m.guide_height) - m.pivot_distance, m.link, m.backward);
-  const Path ram = end + along(link, Taylor(m.link));
-  LinkSum sum(m.gravity, m.stroke_angle);
-  sum.turning(m.crank_body, {}, crank);
-  sum.turning(m.lever_body, pivot, slot);
-  sum.floating({m.block_mass, 0, m.block_inertia}, pin, slot);
-  sum.floating(m.link_body, end, link);
-  sum.point(m.ram_mass, ram);
-  return sum.with_output(ram.x);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.stroke_angle;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(pivoted("lever", m.lever_body, pivot, slot));
+  l.add(floating("block", {m.block_mass, 0, m.block_inertia}, pin, slot));
+  l.add(floating("link", m.link_body, end, link));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 2, pin});
+  l.join({"slot", 2, 1, pin, true, slot});
+  l.join({"lever bearing", PlanarLinkage::frame, 1, pivot});
+  l.join({"lever pin", 1, 3, end});
+  add_slider(l, "ram", m.ram_mass, "ram pin", end + along(link, Taylor(m.link)));
+  return l;
 }
 
 // The loop crank – rod – upper link is a four-bar in axes turned towards the bearing.
-ClosedForm closed_form(const KnucklePressData& m, long double phi) {
+PlanarLinkage linkage_of(const KnucklePressData& m, long double phi) {
   const long double x = m.bearing_x, y = m.bearing_y, ground = std::hypot(x, y), tilt = std::atan2(y, x);
   const Meeting meeting = meet(m.radius, m.rod, m.upper, ground, phi - tilt, !m.knee_right);
   const Direction back = Direction::constant(tilt), crank = Direction::of_variable(phi);
-  const Direction upper = meeting.follower + back;
-  const Path bearing = {Taylor(x), Taylor(y)}, knee = bearing + along(upper, Taylor(m.upper));
+  const Direction upper = meeting.follower + back, rod = meeting.coupler + back;
+  const Path pin = along(crank, Taylor(m.radius)), bearing = {Taylor(x), Taylor(y)};
+  const Path knee = bearing + along(upper, Taylor(m.upper));
   const Direction lower = to_line(knee, m.guide, m.lower, false);
-  const Path ram = knee + along(lower, Taylor(m.lower));
-  LinkSum sum(m.gravity, m.stroke_angle);
-  sum.turning(m.crank_body, {}, crank);
-  sum.floating(m.rod_body, along(crank, Taylor(m.radius)), meeting.coupler + back);
-  sum.turning(m.upper_body, bearing, upper);
-  sum.floating(m.lower_body, knee, lower);
-  sum.point(m.ram_mass, ram);
-  return sum.with_output(ram.x);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.stroke_angle;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("rod", m.rod_body, pin, rod));
+  l.add(pivoted("upper link", m.upper_body, bearing, upper));
+  l.add(floating("lower link", m.lower_body, knee, lower));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"knee, rod", 1, 2, knee});
+  l.join({"knee, lower link", 2, 3, knee});
+  l.join({"upper bearing", PlanarLinkage::frame, 2, bearing});
+  add_slider(l, "ram", m.ram_mass, "ram pin", knee + along(lower, Taylor(m.lower)));
+  return l;
 }
+
+ClosedForm closed_form(const FourBarData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const QuickReturnData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const KnucklePressData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
 
 ReducedSample closed_sample(const MechanismData& data, double phi) {
   const ClosedForm f = data.closed_form(phi);

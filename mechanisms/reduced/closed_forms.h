@@ -10,8 +10,47 @@
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/linkages/quick_return.h"
 #include "mechanisms/linkages/slider_crank_simbody.h"
+#include "mechanisms/reduced/taylor.h"
 
 namespace kurbel {
+
+// A mechanism at φ as bodies and the joints between them, every length and angle a series in φ. Axes of the mechanism,
+// origin on the crank's axis.
+struct PlanarLinkage {
+  static constexpr int frame = -1, most_bodies = 5, most_joints = 7;
+  struct Body {
+    const char* name;     // "crank"
+    double mass;          // [kg]
+    long double inertia;  // central [kg·m²]
+    Path com;             // [m]
+    Direction direction;  // of the link; a slider's that of its guide
+  };
+  // A reaction is what body `from` does to body `on`: a pin's two forces, or a slide's normal force and moment about
+  // `at`.
+  struct Joint {
+    const char* name;  // "crank pin"
+    int from, on;      // indices of bodies, or frame
+    Path at;
+    bool slides = false;
+    Direction along = {};  // of the slide
+  };
+  Body bodies[most_bodies];  // the crank first, the one that the load acts on last
+  Joint joints[most_joints];
+  int body_count = 0, joint_count = 0;
+  bool rocks = false;                 // the load is a torque on the last body; else a force along +x on …
+  Path load_at;                       // … this point of it
+  double gravity = 0, elevation = 0;  // [m/s²]; of +x above the horizontal [rad]
+  long double output[3] = {0, 0, 0};  // position and its derivatives by φ: [m] or [rad]
+
+  void add(const Body& body) { bodies[body_count++] = body; }
+  void join(const Joint& joint) { joints[joint_count++] = joint; }
+};
+
+// For data without faults.
+PlanarLinkage linkage_of(const SliderCrankData& data, long double phi);
+PlanarLinkage linkage_of(const FourBarData& data, long double phi);
+PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
+PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
 
 // As a ReducedSample, which says what is what.
 struct ClosedForm {

@@ -5,6 +5,7 @@
 //     std::vector<double> values_of(const D&);                  all of them: who is equal has the same tables
 //     std::unique_ptr<MechanismBodies> make_bodies(const D&);   its Simbody model; throws std::invalid_argument
 //     ClosedForm closed_form(const D&, long double phi);        its loops in closed form (closed_forms.h)
+//     PlanarLinkage linkage_of(const D&, long double phi);      its bodies and joints, with their series in φ
 //     LinkageDrawing drawing_of(const D&);                      how it is drawn, and whether its output rocks
 //     double D::gravity                                         [m/s²]
 #pragma once
@@ -33,6 +34,7 @@ class MechanismData {
   std::vector<double> values() const { return held_->values(); }
   std::unique_ptr<MechanismBodies> make_bodies() const { return held_->bodies(); }
   ClosedForm closed_form(long double phi) const { return held_->closed(phi); }
+  PlanarLinkage linkage(long double phi) const { return held_->linkage(phi); }
   LinkageDrawing drawing() const { return held_->drawing(); }
   bool rocks() const { return rocks_; }  // the output is an angle
   double gravity() const { return held_->gravity(); }
@@ -44,6 +46,7 @@ class MechanismData {
     virtual std::vector<double> values() const = 0;
     virtual std::unique_ptr<MechanismBodies> bodies() const = 0;
     virtual ClosedForm closed(long double phi) const = 0;
+    virtual PlanarLinkage linkage(long double phi) const = 0;
     virtual LinkageDrawing drawing() const = 0;
     virtual double gravity() const = 0;
   };
@@ -55,6 +58,7 @@ class MechanismData {
     std::vector<double> values() const override { return values_of(data); }
     std::unique_ptr<MechanismBodies> bodies() const override { return kurbel::make_bodies(data); }
     ClosedForm closed(long double phi) const override { return kurbel::closed_form(data, phi); }
+    PlanarLinkage linkage(long double phi) const override { return linkage_of(data, phi); }
     LinkageDrawing drawing() const override { return drawing_of(data); }
     double gravity() const override { return data.gravity; }
   };

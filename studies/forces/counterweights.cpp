@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "engine/numerics/roots.h"
 #include "studies/forces/force_cycle.h"
@@ -37,6 +39,16 @@ std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turn
   return orders;
 }
 
+std::vector<ForceHarmonic> measured_harmonics(const std::vector<double>& values, int turns, double scale) {
+  std::vector<ForceHarmonic> orders = harmonics(values, turns);
+  std::vector<double> half;
+  for (std::size_t i = 0; i < values.size(); i += 2) half.push_back(values[i]);
+  const std::vector<ForceHarmonic> other = harmonics(half, turns);
+  for (std::size_t k = 0; k < orders.size(); ++k)
+    orders[k].error = std::abs(orders[k].amplitude - other[k].amplitude) + rounding_of_forces * scale;
+  return orders;
+}
+
 // None; rotating masses; half of the reciprocating first order besides; and what makes the largest shaking force least
 // (convex in the counterweight, as the largest of norms of affine functions is; by the golden section).
 std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& statics, const CycleBuilder& turn_of_crank,
@@ -61,7 +73,11 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
   const auto peak = [&](auto&& value) {
     std::vector<double> values;
     for (const CyclePosition& p : turn_of_crank.samples()) values.push_back(value(p));
-    return peak_of(phi, values, [&](double x) { return value(turn_of_crank.at(x)); }).value;
+    double largest = 0;
+    for (const double v : values) largest = std::max(largest, v);
+    const Peak found = measured_peak_of(
+        phi, values, [&](double x) { return value(turn_of_crank.at(x)); }, largest);
+    return std::pair{found.value, found.error.value_or(0)};
   };
   std::vector<Counterweight> proposals;
   const auto propose = [&](const std::string& name, double moment) {
@@ -75,13 +91,15 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
       x.push_back(c.shaking.back().x);
       y.push_back(c.shaking.back().y);
     }
-    c.peak_force = peak([&](const CyclePosition& p) { return shaking(moment, p); });
+    std::tie(c.peak_force, c.peak_force_error) = peak([&](const CyclePosition& p) { return shaking(moment, p); });
     // The bearing carries it: the frame's force on the crank is less by the counterweight's inertia force.
-    c.peak_bearing =
+    std::tie(c.peak_bearing, c.peak_bearing_error) =
         peak([&](const CyclePosition& p) { return (p.forces.main_bearing - added(moment, p)).magnitude(); });
     const int turns = static_cast<int>(std::lround((positions.back().state.phi - positions.front().state.phi) / turn));
-    c.first_x = harmonics(x, turns).front().amplitude;
-    c.first_y = harmonics(y, turns).front().amplitude;
+    const ForceHarmonic first_x = measured_harmonics(x, turns, c.peak_force).front(),
+                        first_y = measured_harmonics(y, turns, c.peak_force).front();
+    c.first_x = first_x.amplitude, c.first_x_error = first_x.error;
+    c.first_y = first_y.amplitude, c.first_y_error = first_y.error;
     proposals.push_back(std::move(c));
   };
   propose("as it is", 0);

@@ -18,121 +18,11 @@ namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr int grid_of_turn = 720;  // peaks are sought on this grid, work is integrated between its points
-constexpr double beside = 1e-9;    // rad: either side of an edge
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component) {
-  const Network whole = build_network(scene);
-  Network network;
-  const int node = network.add_node(component, "", 1);  // kg·m²; forces do not see it
-  network.ports[component] = {node, node};
-  network.components = {component};
-  network.put(node, component, slider_crank_element(whole, component).element, {}, 0);
-  Scene bare;
-  bare.file = scene.file;
-  return compile_network(std::move(network), bare, rigid_effects());
-}
-
 }  // namespace
-
-// --- loads ---
-
-const Network::ShaftElement& slider_crank_element(const Network& network, const std::string& component) {
-  for (const Network::ShaftElement& e : network.elements)
-    if (e.component == component && e.element->cycle > 0) return e;
-  throw std::logic_error("slider-crank without an element");
-}
-
-SliderLoads::SliderLoads(const Scene& scene, const std::string& component) : SliderLoads(alone(scene, component)) {
-  for (std::size_t k = 0; k < model().pool_channels.size(); ++k)
-    if (model().pool_channels[k].name.what == QuantityKind::force && model().pool_channels[k].name.of == component)
-      channel_ = static_cast<int>(k);
-}
-
-double SliderLoads::force(double phi, double omega) {
-  if (channel_ < 0) return 0;
-  const std::vector<double> y = equations_.modes_from_scratch(0, phi, omega);
-  return model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
-}
-
-std::span<const double> SliderLoads::shares(double phi, double omega) {
-  machine_.set_modes(phi, omega);
-  return machine_.at(phi, omega, true).share;
-}
-
-// --- where the cycle is looked at ---
-
-std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int rows_of_turn) {
-  const int turns = static_cast<int>(std::lround(cycle / turn)), cells = grid_of_turn * turns;
-  std::vector<double> knots;
-  for (int i = 0; i <= cells; ++i) knots.push_back(cycle * i / cells);
-  knots.insert(knots.end(), edges.begin(), edges.end());
-  std::sort(knots.begin(), knots.end());
-  std::vector<Abscissa> all;
-  for (int i = 0; i <= cells; ++i) all.push_back({.phi = cycle * i / cells, .grid = true});
-  const int rows = rows_of_turn * turns;
-  for (int i = 0; i <= rows; ++i) {
-    if (i * cells % rows == 0)
-      all[index(i * cells / rows)].row = true;
-    else
-      all.push_back({.phi = cycle * i / rows, .row = true});
-  }
-  const double node = std::sqrt(0.6);
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const double half = 0.5 * (knots[i + 1] - knots[i]), middle = 0.5 * (knots[i + 1] + knots[i]);
-    if (half <= 1e-12) continue;
-    all.push_back({.phi = middle - node * half, .weight = half * 5 / 9});
-    all.push_back({.phi = middle, .weight = half * 8 / 9});
-    all.push_back({.phi = middle + node * half, .weight = half * 5 / 9});
-  }
-  for (const double edge : edges)
-    for (const double phi : {edge - beside, edge + beside}) {
-      const double within = phi < 0 ? phi + cycle : phi > cycle ? phi - cycle : phi;
-      if (within > 0 && within < cycle) all.push_back({.phi = within});
-    }
-  std::stable_sort(all.begin(), all.end(), [](const Abscissa& a, const Abscissa& b) { return a.phi < b.phi; });
-  return all;
-}
-
-// --- peaks ---
-
-Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
-             const std::function<double(double)>& value) {
-  constexpr double same_peak = 1e-9;  // of its value
-  constexpr double may_grow = 1e-3;   // of its value: by more no peak between samples so close rises above them
-  double largest = 0;
-  for (const double v : values) largest = std::max(largest, std::abs(v));
-  Peak peak{values.front(), phi.front(), {}};
-  if (largest == 0) return peak;
-  const auto consider = [&](double v, double where) {
-    if (std::abs(v) > (1 + same_peak) * std::abs(peak.value)) peak = {v, where, {}};
-  };
-  constexpr int most_refined = 16;  // a force that stays the same has a peak of rounding at every other sample
-  int refined = 0;
-  const std::size_t n = values.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double here = std::abs(values[i]);
-    if (here < (1 - may_grow) * largest) continue;
-    if ((i > 0 && std::abs(values[i - 1]) > here) || (i + 1 < n && std::abs(values[i + 1]) > here)) continue;
-    Peak local{values[i], phi[i], {}};
-    const double sense = values[i] < 0 ? -1 : 1;
-    const bool refine = ++refined <= most_refined;
-    for (const std::size_t k : {i, i + 1}) {  // the pieces before and after it
-      if (!refine) break;
-      if (k == 0 || k >= n || !(phi[k] > phi[k - 1])) continue;
-      const auto [where, found] = find_maximum([&](double x) { return sense * value(x); }, phi[k - 1], phi[k], 40);
-      if (found > sense * local.value) local = {sense * found, where, {}};
-    }
-    consider(local.value, local.phi);
-  }
-  return peak;
-}
 
 // --- one problem ---
 
-CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, SliderLoads& loads, ForceCycle& cycle)
+CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads, ForceCycle& cycle)
     : statics_(statics), geometry_(statics.data()), loads_(loads), cycle_(cycle) {
   for (const WorkAccount& account : loads.model().accounts)
     cycle_.work.push_back({account.name, name_of(account.kind), 0, 0, 0});
@@ -183,6 +73,7 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
 
 void CycleBuilder::finish() {
   cycle_.mean_speed = std::copysign(cycle_.cycle / time_, cycle_.positions.front().state.omega);
+  cycle_.mean_speed_error = rounding_of_forces * std::abs(cycle_.mean_speed);
   // Speeds at both ends in the order of time.
   cycle_.first_speed = cycle_.positions.front().state.omega;
   cycle_.last_speed = cycle_.positions.back().state.omega;
@@ -194,46 +85,13 @@ void CycleBuilder::finish() {
   for (const CyclePosition& p : cycle_.positions) cycle_.kinetic_most = std::max(cycle_.kinetic_most, kinetic(p));
   const auto by_angle = [](const CyclePosition& a, const CyclePosition& b) { return a.state.phi < b.state.phi; };
   for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
+  for (const CyclePosition& p : samples_) motion_.push_back({p.state.phi, {p.state.omega, p.state.alpha}});
   find_extremes();
   collect_curves();
   find_harmonics();
   balance_powers();
+  find_errors_of_works();
   judge_works(cycle_);
-}
-
-// Motion between the samples: z = ω²/2 by Hermite's interpolation, its slope being ε, through the samples on either
-// side and, where no load edge lies between, the next ones: of degree 3 … 7, which leaves rounding.
-CrankMotion CycleBuilder::motion_at(double phi) const {
-  const auto after = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, phi,
-                                      [](double x, const CyclePosition& p) { return x < p.state.phi; });
-  const auto i = static_cast<std::size_t>(after - samples_.begin());
-  const auto smooth = [&](std::size_t k) {  // the piece that ends there
-    return samples_[k].state.phi - samples_[k - 1].state.phi > 2.5 * beside;
-  };
-  std::size_t from = i - 1, to = i;
-  const double begin = samples_[from].state.phi, h = samples_[to].state.phi - begin;
-  if (!(h > 0)) return {samples_[from].state.omega, samples_[from].state.alpha};
-  if (smooth(i) && from > 0 && smooth(from)) --from;
-  if (smooth(i) && to + 1 < samples_.size() && smooth(to + 1)) ++to;
-  // Divided differences over doubled nodes, the angle counted in h.
-  constexpr std::size_t most = 8;
-  std::array<double, most> x{}, c{};
-  std::size_t n = 0;
-  for (std::size_t k = from; k <= to; ++k)
-    for (int twice = 0; twice < 2; ++twice) {
-      x[n] = (samples_[k].state.phi - begin) / h;
-      c[n++] = 0.5 * samples_[k].state.omega * samples_[k].state.omega;
-    }
-  for (std::size_t order = 1; order < n; ++order)
-    for (std::size_t k = n - 1; k >= order; --k)
-      c[k] = order == 1 && k % 2 ? h * samples_[from + k / 2].state.alpha : (c[k] - c[k - 1]) / (x[k] - x[k - order]);
-  const double u = (phi - begin) / h;
-  double z = c[n - 1], slope = 0;
-  for (std::size_t k = n - 1; k-- > 0;) {
-    slope = slope * (u - x[k]) + z;
-    z = z * (u - x[k]) + c[k];
-  }
-  return {std::copysign(std::sqrt(2 * std::max(0.0, z)), samples_[i].state.omega), slope / h};
 }
 
 void CycleBuilder::find_extremes() {
@@ -242,7 +100,8 @@ void CycleBuilder::find_extremes() {
   const auto largest = [&](auto&& value) {
     std::vector<double> values;
     for (const CyclePosition& p : samples_) values.push_back(value(p));
-    return peak_of(phi, values, [&](double x) { return value(at(x)); });
+    return measured_peak_of(
+        phi, values, [&](double x) { return value(at(x)); }, 0);
   };
   cycle_.reaction[0] = largest([](const CyclePosition& p) { return p.forces.main_bearing.magnitude(); });
   cycle_.reaction[1] = largest([](const CyclePosition& p) { return p.forces.crank_pin.magnitude(); });
@@ -265,12 +124,13 @@ void CycleBuilder::find_extremes() {
 
 // A balancing torque that none is needed of, a shaking force that is balanced.
 void CycleBuilder::call_rounding_zero() {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = rounding_of_forces;
   double force = std::abs(cycle_.shaking_force.value);
   for (const Peak& p : cycle_.reaction) force = std::max(force, std::abs(p.value));
   const double torque = force * (statics_.data().radius + statics_.data().rod_length);
   const auto clean = [](Peak& p, double scale) {
     if (std::abs(p.value) <= rounding * scale) p = {};
+    p.error = p.error.value_or(0) + rounding * scale;
   };
   for (Peak& p : cycle_.reaction) clean(p, force);
   clean(cycle_.shaking_force, force);
@@ -296,7 +156,17 @@ void CycleBuilder::find_harmonics() {
   const auto orders_of = [&](auto&& value, double* mean = nullptr) {
     std::vector<double> values;
     for (const CyclePosition& p : cycle_.positions) values.push_back(value(p));
-    return harmonics(values, static_cast<int>(std::lround(cycle_.cycle / turn)), mean);
+    const int turns = static_cast<int>(std::lround(cycle_.cycle / turn));
+    if (mean) {
+      std::vector<double> half;
+      for (std::size_t k = 0; k < values.size(); k += 2) half.push_back(values[k]);
+      double other = 0;
+      harmonics(values, turns, mean), harmonics(half, turns, &other);
+      cycle_.torque_mean_error = std::abs(*mean - other) + rounding_of_forces * std::abs(cycle_.torque.value);
+    }
+    double largest = 0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    return measured_harmonics(values, turns, largest);
   };
   cycle_.shaking_x = orders_of([](const CyclePosition& p) { return p.forces.shaking_force.x; });
   cycle_.shaking_y = orders_of([](const CyclePosition& p) { return p.forces.shaking_force.y; });
@@ -317,6 +187,13 @@ void CycleBuilder::balance_powers() {
       p.power.nothing = nothing * scale;
       cycle_.power_residual = std::max(cycle_.power_residual, std::abs(p.power.residual));
     }
+}
+
+// The works of a cycle make its change of kinetic energy: what is left over is every work's error.
+void CycleBuilder::find_errors_of_works() {
+  double left = -cycle_.kinetic_change;
+  for (const CycleWork& w : cycle_.work) left += w.work;
+  for (CycleWork& w : cycle_.work) w.error = std::abs(left) + rounding_of_forces * w.turnover;
 }
 
 // --- works ---

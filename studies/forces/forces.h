@@ -7,6 +7,7 @@
 #include <atomic>
 #include <complex>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ struct CyclePosition {
 struct ForceHarmonic {
   int order = 0;
   double amplitude = 0, phase = 0;
+  double error = 0;  // of the amplitude
 };
 inline constexpr int highest_order = 8;
 
@@ -58,7 +60,7 @@ inline constexpr int highest_order = 8;
 struct Peak {
   double value = 0;
   double phi = 0;               // [rad]
-  std::optional<double> error;  // of the second problem: difference to a run with 30 × looser tolerance
+  std::optional<double> error;  // theory 9.13
 };
 
 struct CycleWork {
@@ -66,7 +68,7 @@ struct CycleWork {
   std::string kind;     // driving, useful, harmful, weight
   double work = 0;      // done on the mechanism [J]
   double turnover = 0;  // ∫|dA|: what goes to and fro [J]
-  double error = 0;     // of the second problem: difference to a run with 30 × looser tolerance [J]
+  double error = 0;     // [J]
 };
 
 // One of the two problems over one cycle.
@@ -86,18 +88,21 @@ struct ForceCycle {
   CyclePosition at_torque_peak;
   int both_edges = 0;  // positions where both edges bear
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
-  double torque_mean = 0;
-  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
-  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
-  double kinetic_error = 0;                     // of the change, as that of a work [J]
-  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
-  double spent = 0;                             // input less what the motion stores [J]
-  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
-  std::string no_efficiency;                    // else why
-  double power_residual = 0;                    // largest
-  double friction_residual = 0;                 // largest, of the friction laws
+  double torque_mean = 0, torque_mean_error = 0;  // [N·m]
+  double mean_speed_error = 0;                    // [rad/s]
+  std::vector<CycleWork> work;                    // by account: crank, loads, weight, friction of each joint
+  double kinetic_change = 0, kinetic_most = 0;    // of the mechanism over the cycle, greatest [J]
+  double kinetic_error = 0;                       // of the change, as that of a work [J]
+  double input = 0, useful = 0, harmful = 0;      // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                               // input less what the motion stores [J]
+  std::optional<double> efficiency;               // useful/spent, where works beyond their errors make one: 0 … 1
+  std::string no_efficiency;                      // else why
+  double power_residual = 0;                      // largest
+  double friction_residual = 0;                   // largest, of the friction laws
   int most_iterations = 0;
 };
+
+struct LinkageCycle;  // linkage_cycle.h
 
 struct Counterweight {
   std::string name;
@@ -106,7 +111,8 @@ struct Counterweight {
   double peak_force = 0;            // of the shaking force that remains [N]
   double first_x = 0, first_y = 0;  // its first order along and across the stroke [N]
   double peak_bearing = 0;          // reaction of the main bearing [N]
-  std::vector<Force2> shaking;      // over the turn, as the positions of the first problem
+  double peak_force_error = 0, first_x_error = 0, first_y_error = 0, peak_bearing_error = 0;
+  std::vector<Force2> shaking;  // over the turn, as the positions of the first problem
 };
 
 struct Forces {
@@ -117,17 +123,21 @@ struct Forces {
   double rotating_moment = 0;     // of crank and the rod's share in the crank pin, towards the pin [kg·m]
   double reciprocating_mass = 0;  // of slider and the rod's share in the slider pin [kg]
   std::optional<ForceCycle> prescribed, simulated;
+  std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
   std::vector<Counterweight> counterweights;  // the first: as it is
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
 };
 
-// Throws SceneError where the scene makes no machine; std::invalid_argument where it has no slider-crank or options
-// are senseless; std::runtime_error with the position where the joints jam.
+// Throws SceneError where the scene makes no machine; std::invalid_argument where it has no mechanism or options
+// are senseless, or the mechanism is of another kind; std::runtime_error with the position where the joints jam.
 Forces find_forces(const Scene& scene, const ForcesOptions& options);
 
 // Orders 0 … highest of values given evenly over `turns` turns, both ends (trapezium rule, exact for smooth functions).
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);
+// The same with what half of the values make otherwise, and rounding of `scale`, as their error. An even number of
+// cells.
+std::vector<ForceHarmonic> measured_harmonics(const std::vector<double>& values, int turns, double scale);
 
 }  // namespace kurbel

@@ -114,26 +114,38 @@ Rows work_table(const Forces& f) {
   table.only_for_people("work of a cycle", [&](std::size_t i) { return f.prescribed->work[i].name; })
       .only_for_people("line", [&](std::size_t i) { return front_of(f).work[i].kind; });
   for (const ForceCycle* c : problems_of(f))
-    table.only_for_people(c->label, [&](std::size_t i) { return c->work[i].work; });
+    table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, c->work[i].error, ""); });
   return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
 }
 
 Rows counterweight_table(const Forces& f) {
+  using C = Counterweight;
+  const auto measured = [](double C::*value, double C::*error) {
+    return [=](const C& c) { return with_error(c.*value, c.*error, ""); };
+  };
   return table_of("counterweights", "Counterweights beyond what the crank has: what they leave", f.counterweights)
       .headed("counterweights opposite to the crank pin, beyond what the crank has (at constant speed)")
       .always()
       .column("name", "counterweight", &Counterweight::name)
       .column("moment", "m·r [kg·m]", &Counterweight::moment, {.digits = 5})
       .column("reciprocating_share", "share of reciprocating", &Counterweight::reciprocating_share, {.digits = 3})
-      .column("peak_shaking_force", "peak of shaking force [N]", &Counterweight::peak_force)
-      .column("first_order_along", "order 1 along [N]", &Counterweight::first_x)
-      .column("first_order_across", "order 1 across [N]", &Counterweight::first_y)
-      .column("peak_main_bearing", "peak of main bearing [N]", &Counterweight::peak_bearing);
+      .only_for_programs("peak_shaking_force", &Counterweight::peak_force)
+      .only_for_programs("peak_shaking_force_error", &Counterweight::peak_force_error)
+      .only_for_people("peak of shaking force [N]", measured(&C::peak_force, &C::peak_force_error))
+      .only_for_programs("first_order_along", &Counterweight::first_x)
+      .only_for_programs("first_order_along_error", &Counterweight::first_x_error)
+      .only_for_people("order 1 along [N]", measured(&C::first_x, &C::first_x_error))
+      .only_for_programs("first_order_across", &Counterweight::first_y)
+      .only_for_programs("first_order_across_error", &Counterweight::first_y_error)
+      .only_for_people("order 1 across [N]", measured(&C::first_y, &C::first_y_error))
+      .only_for_programs("peak_main_bearing", &Counterweight::peak_bearing)
+      .only_for_programs("peak_main_bearing_error", &Counterweight::peak_bearing_error)
+      .only_for_people("peak of main bearing [N]", measured(&C::peak_bearing, &C::peak_bearing_error));
 }
 
 Rows harmonic_table(const Forces& f, const ForceCycle& c) {
   const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
-    return [&](std::size_t k) { return orders[k].amplitude; };
+    return [&](std::size_t k) { return with_error(orders[k].amplitude, orders[k].error, ""); };
   };
   auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
                    .headed(fmt::format("harmonics, {} motion", c.label))
@@ -196,12 +208,6 @@ Record position_record(const CyclePosition& p) {
           {"power_residual", p.power.residual}};
 }
 
-List order_list(const std::vector<ForceHarmonic>& orders) {
-  return each(orders, [](const ForceHarmonic& h) {
-    return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}};
-  });
-}
-
 Record work_record(const CycleWork& w) {
   Record r = {{"name", w.name}, {"line", w.kind}, {"work", w.work}};
   if (w.error > 0) r.push_back({"error", w.error});
@@ -209,9 +215,13 @@ Record work_record(const CycleWork& w) {
 }
 
 Record cycle_record(const ForceCycle& c) {
-  Record r = {{"description", c.description},       {"cycle", c.cycle},
-              {"mean_speed", c.mean_speed},         {"least_speed", c.least_speed},
-              {"greatest_speed", c.greatest_speed}, {"closure", c.closure}};
+  Record r = {{"description", c.description},
+              {"cycle", c.cycle},
+              {"mean_speed", c.mean_speed},
+              {"least_speed", c.least_speed},
+              {"greatest_speed", c.greatest_speed},
+              {"closure", c.closure},
+              {"mean_speed_error", c.mean_speed_error}};
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   tell("peaks", each(peaks_of(c), [](const NamedPeak& p) {
          return Record{{"name", p.name},
@@ -234,7 +244,8 @@ Record cycle_record(const ForceCycle& c) {
                            {"shaking_force_across", order_list(c.shaking_y)},
                            {"shaking_moment", order_list(c.shaking_couple)},
                            {"balancing_torque", order_list(c.torque_orders)},
-                           {"balancing_torque_mean", c.torque_mean}});
+                           {"balancing_torque_mean", c.torque_mean},
+                           {"balancing_torque_mean_error", c.torque_mean_error}});
   tell("positions", each(c.rows, position_record));
   return r;
 }
@@ -245,23 +256,23 @@ std::string csv_of(const ForceCycle& c) {
   csv.column("phi [rad]", [](P p) { return p.state.phi; })
       .column("omega [rad/s]", [](P p) { return p.state.omega; })
       .column("alpha [rad/s2]", [](P p) { return p.state.alpha; })
-      .column("position [m]", &CyclePosition::position)
+      .column("position_along_x [m]", &CyclePosition::position)
       .column("velocity [m/s]", &CyclePosition::velocity)
-      .column("slider_force [N]", [](P p) { return p.state.slider_force; })
-      .column("torque [N*m]", [](P p) { return p.forces.torque; });
+      .column("slider_force_along_x [N]", [](P p) { return p.state.slider_force; })
+      .column("torque_of_shaft_on_crank [N*m]", [](P p) { return p.forces.torque; });
   const auto force = [&](const std::string& name, Force2 SliderCrankForces::*of) {
     csv.column(name + "_x [N]", [of](P p) { return (p.forces.*of).x; });
     csv.column(name + "_y [N]", [of](P p) { return (p.forces.*of).y; });
   };
-  force("main", &SliderCrankForces::main_bearing);
-  force("crank_pin", &SliderCrankForces::crank_pin);
-  force("slider_pin", &SliderCrankForces::slider_pin);
-  csv.column("guide [N]", [](P p) { return p.forces.guide; })
-      .column("guide_point [m]", [](P p) { return p.forces.guide_point; })
-      .column("guide_friction [N]", [](P p) { return p.forces.guide_friction; })
+  force("main_bearing_of_frame_on_crank", &SliderCrankForces::main_bearing);
+  force("crank_pin_of_crank_on_rod", &SliderCrankForces::crank_pin);
+  force("slider_pin_of_rod_on_slider", &SliderCrankForces::slider_pin);
+  csv.column("guide_of_frame_on_slider_y [N]", [](P p) { return p.forces.guide; })
+      .column("guide_point_from_pin_x [m]", [](P p) { return p.forces.guide_point; })
+      .column("guide_friction_on_slider_x [N]", [](P p) { return p.forces.guide_friction; })
       .column("both_edges", [](P p) { return static_cast<int>(p.forces.both_edges); });
-  force("shaking", &SliderCrankForces::shaking_force);
-  csv.column("shaking_moment [N*m]", [](P p) { return p.forces.shaking_moment; });
+  force("shaking_on_frame", &SliderCrankForces::shaking_force);
+  csv.column("shaking_on_frame_moment_about_crank_axis [N*m]", [](P p) { return p.forces.shaking_moment; });
   for (std::size_t k = 0; k < joint_count; ++k) {
     const char* const joints[] = {"main", "crank_pin", "slider_pin", "guide"};
     csv.column(fmt::format("friction_{} [W]", joints[k]), [k](P p) { return p.forces.friction_power[k]; });
@@ -332,6 +343,13 @@ void show_friction_circle(Findings& to, Chapter in, const char* name, const Revo
 
 // --- all of it ---
 
+constexpr const char* signs =
+    "Axes of the mechanism: origin on the crank's axis, +x along the stroke towards the extended end, +y 90° ahead of "
+    "it; angles, torques and moments counter-clockwise. Main bearing: frame on crank. Crank pin: crank on rod. Slider "
+    "pin: rod on slider. Guide: frame on slider, along +y. Each body does the opposite to the first. The balancing "
+    "torque is the shaft's on the crank. Shaking force and moment are those of all inertia forces −m a and couples "
+    "−I ε on the frame, moments about the crank's axis; loads and weights are not in them.";
+
 void say_positions(Findings& to, Chapter in, const Forces& f) {
   to.say(in, peak_table(f));
   for (const ForceCycle* c : problems_of(f)) {
@@ -384,8 +402,9 @@ Findings findings_of(const Forces& f) {
               .footer = report_footer()};
   for (const NamedPeak& p : peaks_of(front_of(f)))
     to.figures.push_back({"largest " + p.name, p.peak->value, p.unit, p.peak->error,
-                          fmt::format("at φ = {}", at_angle(*p.peak)), p.peak->error ? 0 : 6, p.means});
+                          fmt::format("at φ = {}", at_angle(*p.peak)), 0, p.means});
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
+                links = to.chapter("Links: motion, inertia forces, shares"),
                 polar = to.chapter("Polar diagrams of the bearings' loads"),
                 shaking = to.chapter("Shaking force and moment; balancing"),
                 friction = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
@@ -393,7 +412,9 @@ Findings findings_of(const Forces& f) {
   to.tell("mechanism", f.mechanism);
   to.draw(torque, [&f] { return torque_plot(f); });
   to.show(torque, torque_formula(f));
+  to.tell("signs", signs);
   to.draw(reactions, [&f] { return reaction_plots(f); });
+  to.show(reactions, Text{.title = "Signs and axes", .body = signs});
   to.show(polar, Text{.title = "",
                       .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are "
                               "pressed; turning with the pin, where the pin is: that is where an oil hole must not "
@@ -402,10 +423,13 @@ Findings findings_of(const Forces& f) {
   say_positions(to, positions, f);
   say_friction(to, friction, f);
   say_shaking(to, shaking, f);
+  say_links(to, links, *f.links);
+  to.tell("links", links_list(*f.links));
   to.note(notes, f.notes);
   to.show_scene(f.scene_file, f.scene_text);
   for (const ForceCycle* c : problems_of(f))
     to.csv.push_back({fmt::format("forces_{}.csv", c->label), [c] { return csv_of(*c); }});
+  to.csv.push_back({fmt::format("links_{}.csv", front_of(f).label), [&f] { return csv_of_links(*f.links); }});
   return to;
 }
 

@@ -1,12 +1,20 @@
-// forces_findings.h — what is said of the forces of a slider-crank.
+// forces_findings.h — what is said of the forces of a mechanism.
 #pragma once
 
 #include "studies/findings/output.h"
 #include "studies/forces/forces.h"
+#include "studies/forces/linkage_cycle.h"
 
 namespace kurbel {
 
-// Files: forces_prescribed.csv, forces_simulated.csv. The forces must outlive the findings.
+// Files: forces_prescribed.csv, forces_simulated.csv, links_….csv. The forces must outlive the findings.
 Findings findings_of(const Forces& forces);
+Findings findings_of(const LinkageStudy& study);
+
+// Motion, inertia forces and shares of the links; the cycle must outlive the findings.
+void say_links(Findings& to, Chapter in, const LinkageCycle& cycle);
+List links_list(const LinkageCycle& cycle);
+List order_list(const std::vector<ForceHarmonic>& orders);
+std::string csv_of_links(const LinkageCycle& cycle);
 
 }  // namespace kurbel

@@ -152,7 +152,7 @@ TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
   } bad[] = {{{"--speed", "60 mm"}, "--speed \"60 mm\": must be a speed with its unit, e.g. \"300 rpm\""},
              {{"--speed", "0 rpm"}, "must be a speed ≠ 0"},
              {{"--positions", "2"}, "--positions 2: must be 4 … 3600 of a turn"},
-             {{"--mechanism", "pres"}, "--mechanism pres: no slider-crank of that name; allowed: \"press\""}};
+             {{"--mechanism", "pres"}, "--mechanism pres: no mechanism of that name; allowed: \"press\""}};
   for (const auto& request : bad) {
     std::vector<std::string> arguments = {"forces", press, "--no-run"};
     arguments.insert(arguments.end(), request.arguments.begin(), request.arguments.end());

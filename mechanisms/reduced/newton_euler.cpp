@@ -1,0 +1,194 @@
+// newton_euler.cpp — the equations of all links at once, and what follows from their solution.
+#include "mechanisms/reduced/newton_euler.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace kurbel {
+namespace {
+
+using Real = long double;
+constexpr int most = 3 * PlanarLinkage::most_bodies;
+enum Case : int { speed_case, acceleration_case, weight_case, load_case, cases };
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, 0, most, cases>;
+using Column = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
+
+struct Vector {
+  Real x, y;
+};
+Vector at(const Path& p) { return {p.x.value(), p.y.value()}; }
+Real cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+Force2 rounded(Vector v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
+double rounded(Real v) { return static_cast<double>(v); }
+
+const char* name_in(const PlanarLinkage& l, int body) {
+  return body == PlanarLinkage::frame ? "frame" : l.bodies[body].name;
+}
+
+// The two unknowns of a joint act along these; a slide's second is a moment.
+Vector first_direction(const PlanarLinkage::Joint& j) {
+  return j.slides ? Vector{-j.along.sin.value(), j.along.cos.value()} : Vector{1, 0};
+}
+
+class Equations {
+ public:
+  explicit Equations(const PlanarLinkage& l)
+      : l_(l),
+        n_(3 * l.body_count),
+        length_(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value())),
+        matrix_(Matrix::Zero(n_, n_)),
+        right_(Columns::Zero(n_, cases)) {
+    for (int k = 0; k < l.joint_count; ++k) put(k);
+    matrix_(2, n_ - 1) = 1;  // the balancing torque, on the crank
+    for (int i = 0; i < l.body_count; ++i) load(i);
+  }
+  // Forces [N] and moments over length() [N].
+  Columns solve() const {
+    const Eigen::PartialPivLU<Matrix> factors(matrix_);
+    Columns x = factors.solve(right_);
+    x += factors.solve(right_ - matrix_ * x);
+    return x;
+  }
+  // Of the equations for one mixture of the cases, relative to their largest term.
+  double residual(const Column& solution, const Eigen::Matrix<Real, cases, 1>& mixture) const {
+    Real largest = 0, most_left = 0;
+    for (int i = 0; i < n_; ++i) {
+      Real left = 0;
+      const auto add = [&](Real term) { left += term, largest = std::max(largest, std::fabs(term)); };
+      for (int k = 0; k < n_; ++k) add(matrix_(i, k) * solution(k));
+      for (int k = 0; k < cases; ++k) add(-right_(i, k) * mixture(k));
+      most_left = std::max(most_left, std::fabs(left));
+    }
+    return largest > 0 ? rounded(most_left / largest) : 0.0;
+  }
+  Real length() const { return length_; }  // the crank's: of moments' rows and unknowns
+
+ private:
+  void act(int body, int column, Vector place, Vector along, Real sense) {
+    if (body == PlanarLinkage::frame) return;
+    const Vector com = at(l_.bodies[body].com);
+    matrix_(3 * body, column) += sense * along.x;
+    matrix_(3 * body + 1, column) += sense * along.y;
+    matrix_(3 * body + 2, column) += sense * cross({place.x - com.x, place.y - com.y}, along) / length_;
+  }
+  void put(int k) {
+    const PlanarLinkage::Joint& j = l_.joints[k];
+    for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}}) {
+      act(body, 2 * k, at(j.at), first_direction(j), sense);
+      if (!j.slides)
+        act(body, 2 * k + 1, at(j.at), {0, 1}, sense);
+      else if (body != PlanarLinkage::frame)
+        matrix_(3 * body + 2, 2 * k + 1) += sense;
+    }
+  }
+  // Reactions = m a − W − F.
+  void load(int i) {
+    const PlanarLinkage::Body& b = l_.bodies[i];
+    const Taylor rate = b.direction.rate();
+    const Real m = b.mass, down = -m * l_.gravity, elevation = l_.elevation;
+    const auto row = [&](int k, Real velocity, Real acceleration, Real weight) {
+      right_(3 * i + k, speed_case) = velocity;
+      right_(3 * i + k, acceleration_case) = acceleration;
+      right_(3 * i + k, weight_case) = -weight;
+    };
+    row(0, m * b.com.x.curvature(), m * b.com.x.slope(), down * std::sin(elevation));
+    row(1, m * b.com.y.curvature(), m * b.com.y.slope(), down * std::cos(elevation));
+    row(2, b.inertia * rate.slope() / length_, b.inertia * rate.value() / length_, 0);
+    if (i + 1 < l_.body_count) return;
+    if (l_.rocks) {
+      right_(3 * i + 2, load_case) = -1 / length_;
+    } else {
+      const Vector place = at(l_.load_at), com = at(b.com);
+      right_(3 * i, load_case) = -1;
+      right_(3 * i + 2, load_case) = (place.y - com.y) / length_;
+    }
+  }
+
+  const PlanarLinkage& l_;
+  int n_;
+  Real length_;
+  Matrix matrix_;
+  Columns right_;
+};
+
+void add_link(const PlanarLinkage::Body& b, LinkageForces& f) {
+  const Real w = f.state.omega, a = f.state.alpha, m = b.mass;
+  const Taylor rate = b.direction.rate();
+  const Vector acceleration = {b.com.x.curvature() * w * w + b.com.x.slope() * a,
+                               b.com.y.curvature() * w * w + b.com.y.slope() * a};
+  const Real turning = rate.slope() * w * w + rate.value() * a;
+  const Vector force = {-m * acceleration.x, -m * acceleration.y};
+  const Real couple = -b.inertia * turning, vx = b.com.x.slope(), vy = b.com.y.slope();
+  const Real inertia = m * (vx * vx + vy * vy) + b.inertia * rate.value() * rate.value();
+  const Real slope =
+      2 * (m * (vx * b.com.x.curvature() + vy * b.com.y.curvature()) + b.inertia * rate.value() * rate.slope());
+  f.links.push_back({.name = b.name,
+                     .com = rounded(at(b.com)),
+                     .acceleration = rounded(acceleration),
+                     .omega = rounded(rate.value() * w),
+                     .alpha = rounded(turning),
+                     .inertia_force = rounded(force),
+                     .inertia_couple = rounded(couple),
+                     .reduced_inertia = rounded(inertia),
+                     .reduced_inertia_rate = rounded(slope),
+                     .kinetic_energy = rounded(inertia * w * w / 2)});
+  f.shaking_force = f.shaking_force + rounded(force);
+  f.shaking_moment += rounded(cross(at(b.com), force) + couple);
+  f.reduced_inertia += rounded(inertia);
+  f.kinetic_energy += rounded(inertia * w * w / 2);
+  f.kinetic_rate += rounded((inertia * a + slope * w * w / 2) * w);
+}
+
+}  // namespace
+
+LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
+  if (2 * l.joint_count + 1 != 3 * l.body_count) throw std::logic_error("newton_euler: not one degree of freedom");
+  const Equations equations(l);
+  const Columns unit = equations.solve();
+  const Real w = state.omega;
+  const Eigen::Matrix<Real, cases, 1> mixture(w * w, Real(state.alpha), Real(1), Real(state.load));
+  const Column x = unit * mixture;
+  if (!x.allFinite())
+    throw std::runtime_error(
+        fmt::format("no finite reactions at phi = {:.17g} rad: the crank cannot move the mechanism there", state.phi));
+  LinkageForces f;
+  f.state = state;
+  f.output = rounded(l.output[0]);
+  f.output_velocity = rounded(l.output[1] * w);
+  f.output_acceleration = rounded(l.output[2] * w * w + l.output[1] * state.alpha);
+  for (int i = 0; i < l.body_count; ++i) add_link(l.bodies[i], f);
+  for (int k = 0; k < l.joint_count; ++k) {
+    const PlanarLinkage::Joint& j = l.joints[k];
+    JointForces out;
+    out.name = j.name;
+    out.from = name_in(l, j.from), out.on = name_in(l, j.on);
+    out.slides = j.slides;
+    out.at = rounded(at(j.at));
+    const Vector first = first_direction(j);
+    if (j.slides) {
+      out.along = rounded(j.along.angle());
+      out.normal = rounded(x(2 * k));
+      out.force = rounded(Vector{first.x * x(2 * k), first.y * x(2 * k)});
+      out.moment = rounded(x(2 * k + 1) * equations.length());
+    } else {
+      out.force = rounded(Vector{x(2 * k), x(2 * k + 1)});
+    }
+    f.joints.push_back(std::move(out));
+  }
+  f.torque = rounded(x(3 * l.body_count - 1) * equations.length());
+  const Real elevation = l.elevation, up_x = std::sin(elevation), up_y = std::cos(elevation);
+  for (int i = 0; i < l.body_count; ++i) {
+    const PlanarLinkage::Body& b = l.bodies[i];
+    f.weight_power -= rounded(b.mass * l.gravity * w * (up_x * b.com.x.slope() + up_y * b.com.y.slope()));
+  }
+  f.load_power = state.load * f.output_velocity;
+  f.residual = equations.residual(x, mixture);
+  return f;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,65 @@
+// newton_euler.h — reactions, balancing torque and inertia forces of any mechanism with ideal joints: every link in
+// equilibrium under its inertia force −m a and couple −I ε (d'Alembert; theory 9.6).
+//
+// Axes of the mechanism: origin on the crank's axis, +x along stroke or ground, +y 90° ahead of it; moments and angles
+// counter-clockwise. A reaction is what the body `from` does to the body `on`. For each link i, forces and moments
+// about its centre of mass S:
+//     Σ R + W + F = m a_S,     Σ (P − S) × R + Σ M = I ε_i
+// 3 equations a link in as many unknowns: two of each joint (a pin's R_x, R_y; a slide's N across it and its moment)
+// and the balancing torque on the crank. Solved at once, in long double, for four unit cases: ω² = 1, ε = 1, weights,
+// unit load; every reaction is linear in these.
+#pragma once
+
+#include <vector>
+
+#include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
+
+namespace kurbel {
+
+// The crank's angle and motion, and the load on the output: a force along +x at its pin [N], or a torque [N·m].
+struct LinkageState {
+  double phi = 0, omega = 0, alpha = 0, load = 0;
+};
+
+struct LinkForces {
+  const char* name = "";
+  Force2 com;                       // centre of mass [m]
+  Force2 acceleration;              // of it [m/s²]
+  double omega = 0, alpha = 0;      // of the link [rad/s], [rad/s²]
+  Force2 inertia_force;             // −m a [N]
+  double inertia_couple = 0;        // −I ε, about its centre of mass [N·m]
+  double reduced_inertia = 0;       // its part of I_r [kg·m²]
+  double reduced_inertia_rate = 0;  // of I_r′ [kg·m²]
+  double kinetic_energy = 0;        // ½ (its part of I_r) ω² [J]
+};
+
+struct JointForces {
+  const char* name = "";
+  const char *from = "frame", *on = "frame";  // "frame", "crank": which body acts on which
+  bool slides = false;
+  Force2 at;          // where it stands [m]
+  double along = 0;   // direction of a slide [rad]
+  Force2 force;       // of `from` on `on` [N]
+  double normal = 0;  // of a slide: positive 90° ahead of its direction [N]
+  double moment = 0;  // of a slide on `on`, about `at` [N·m]
+};
+
+struct LinkageForces {
+  LinkageState state;
+  double output = 0, output_velocity = 0, output_acceleration = 0;  // [m] or [rad]
+  std::vector<LinkForces> links;                                    // the crank first, the output last
+  std::vector<JointForces> joints;
+  double torque = 0;          // of the shaft on the crank, positive when it drives counter-clockwise [N·m]
+  Force2 shaking_force;       // of all inertia forces, on the frame [N]
+  double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
+  double reduced_inertia = 0, kinetic_energy = 0;             // I_r [kg·m²]; T [J]
+  double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]
+  double residual = 0;                                        // of the equations, relative to their largest terms
+};
+
+// Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
+// cannot be moved by its crank.
+LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);
+
+}  // namespace kurbel

@@ -1,0 +1,335 @@
+// linkage_cycle.cpp — every position of a cycle by the links' equilibrium; peaks, means, orders and works with errors.
+#include "studies/forces/linkage_cycle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/model/model.h"
+#include "engine/numerics/deadline.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+using Quantity = std::function<double(const LinkagePosition&)>;
+
+class Builder {
+ public:
+  Builder(const MechanismData& data, OutputLoads& loads, const MotionAlong& along, LinkageCycle& cycle)
+      : data_(data), loads_(loads), along_(along), cycle_(cycle) {}
+
+  void build() {
+    for (std::size_t i = 0; i < along_.where.size(); ++i) add(along_.where[i], along_.motion[i]);
+    const auto by_angle = [](const LinkagePosition& a, const LinkagePosition& b) {
+      return a.forces.state.phi < b.forces.state.phi;
+    };
+    const auto kinetic = [](const LinkagePosition& p) { return p.forces.kinetic_energy; };
+    cycle_.kinetic_change = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
+    for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
+    for (const LinkagePosition& p : samples_) {
+      phi_.push_back(p.forces.state.phi);
+      motion_.push_back({p.forces.state.phi, {p.forces.state.omega, p.forces.state.alpha}});
+    }
+    find_speeds();
+    find_scales();
+    find_peaks();
+    find_links();
+    find_orders();
+    balance();
+    collect_curve();
+  }
+
+ private:
+  LinkagePosition at(double phi, CrankMotion motion) {
+    LinkagePosition p;
+    p.forces = forces_in(data_.linkage(phi), {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)});
+    p.power = {.crank = p.forces.torque * motion.omega,
+               .load = p.forces.load_power,
+               .weight = p.forces.weight_power,
+               .kinetic_rate = p.forces.kinetic_rate};
+    return p;
+  }
+  void add(const Abscissa& where, CrankMotion motion);
+  void find_speeds();
+  void find_scales();
+  void find_peaks();
+  void find_links();
+  void find_orders();
+  void balance();
+  void collect_curve();
+
+  Peak peak(const Quantity& value, double scale) {
+    std::vector<double> values;
+    for (const LinkagePosition& p : samples_) values.push_back(value(p));
+    Peak found = measured_peak_of(
+        phi_, values, [&](double x) { return value(at(x, motion_between(motion_, x))); }, scale);
+    if (std::abs(found.value) <= rounding_of_forces * scale) found = {0, 0, rounding_of_forces * scale};
+    return found;
+  }
+  // Of positions that are even over the cycle: all of them, and every other one.
+  MeanFigure mean(const Quantity& value, const Quantity& weight) const {
+    const auto with_step = [&](std::size_t step) {
+      double sum = 0, weights = 0;
+      for (std::size_t i = 0; i + 1 < cycle_.positions.size(); i += step) {
+        const LinkagePosition& p = cycle_.positions[i];
+        const double w = weight ? weight(p) : 1;
+        sum += w * value(p), weights += w;
+      }
+      return sum / weights;
+    };
+    const double fine = with_step(1);
+    return {fine, std::abs(fine - with_step(2)) + rounding_of_forces * std::abs(fine)};
+  }
+
+  const MechanismData& data_;
+  OutputLoads& loads_;
+  const MotionAlong& along_;
+  LinkageCycle& cycle_;
+  std::vector<LinkagePosition> samples_;  // every abscissa but rows alone
+  std::vector<double> phi_;
+  std::vector<MotionSample> motion_;
+  std::vector<CycleWork> shares_;
+  double force_ = 0, moment_ = 0;  // the largest: rounding is measured by them
+};
+
+void Builder::add(const Abscissa& where, CrankMotion motion) {
+  Deadline::check();
+  const LinkagePosition p = at(where.phi, motion);
+  if (where.row) cycle_.rows.push_back(p);
+  if (where.grid) cycle_.positions.push_back(p);
+  if (where.row && !where.grid) return;
+  samples_.push_back(p);
+  if (where.weight == 0) return;
+  if (cycle_.work.empty()) {
+    for (const WorkAccount& account : loads_.model().accounts)
+      cycle_.work.push_back({account.name, name_of(account.kind), 0, 0, 0});
+    cycle_.work.push_back({"balancing torque", "driving", 0, 0, 0});
+  }
+  const double dt = where.weight / std::abs(motion.omega);
+  std::size_t k = 0;
+  const auto account = [&](double power) {
+    cycle_.work[k].work += power * dt;
+    cycle_.work[k++].turnover += std::abs(power) * dt;
+  };
+  for (const double torque : loads_.shares(where.phi, motion.omega)) account(torque * motion.omega);
+  account(p.power.crank);
+}
+
+void Builder::find_speeds() {
+  cycle_.mean_speed = {along_.mean_speed(), rounding_of_forces * std::abs(along_.mean_speed())};
+  cycle_.closure = (along_.motion.back().omega - along_.motion.front().omega) / cycle_.mean_speed.value;
+  cycle_.least_speed = cycle_.greatest_speed = along_.motion.front().omega;
+  for (const LinkagePosition& p : samples_) {
+    cycle_.least_speed = std::min(cycle_.least_speed, p.forces.state.omega);
+    cycle_.greatest_speed = std::max(cycle_.greatest_speed, p.forces.state.omega);
+  }
+}
+
+void Builder::find_scales() {
+  double arm = 0;
+  for (const LinkagePosition& p : cycle_.positions) {
+    for (const JointForces& j : p.forces.joints) {
+      force_ = std::max(force_, j.force.magnitude());
+      arm = std::max(arm, j.at.magnitude());
+    }
+    for (const LinkForces& l : p.forces.links) {
+      force_ = std::max(force_, l.inertia_force.magnitude());
+      moment_ = std::max(moment_, std::abs(l.inertia_couple));
+    }
+    moment_ = std::max(moment_, std::abs(p.forces.torque));
+  }
+  moment_ = std::max(moment_, force_ * arm);
+}
+
+void Builder::find_peaks() {
+  const LinkageForces& first = samples_.front().forces;
+  for (std::size_t k = 0; k < first.joints.size(); ++k) {
+    const JointForces& j = first.joints[k];
+    const std::string name = fmt::format("{}: {} on {}", j.name, j.from, j.on);
+    const Quantity force = [k](const LinkagePosition& p) {
+      const JointForces& here = p.forces.joints[k];
+      return here.slides ? here.normal : here.force.magnitude();
+    };
+    cycle_.reactions.push_back({name, "N", "reaction", peak(force, force_)});
+    if (j.slides)
+      cycle_.reactions.push_back({name + ", moment", "N*m", "reaction_moment",
+                                  peak([k](const LinkagePosition& p) { return p.forces.joints[k].moment; }, moment_)});
+  }
+  cycle_.torque = {"balancing torque", "N*m", "balancing_torque",
+                   peak([](const LinkagePosition& p) { return p.forces.torque; }, moment_)};
+  cycle_.shaking_force = {"shaking force", "N", "shaking_force",
+                          peak([](const LinkagePosition& p) { return p.forces.shaking_force.magnitude(); }, force_)};
+  cycle_.shaking_moment = {"shaking moment", "N*m", "shaking_moment",
+                           peak([](const LinkagePosition& p) { return p.forces.shaking_moment; }, moment_)};
+}
+
+void Builder::find_links() {
+  const Quantity time = [](const LinkagePosition& p) { return 1 / std::abs(p.forces.state.omega); };
+  const MeanFigure inertia = mean([](const LinkagePosition& p) { return p.forces.reduced_inertia; }, {});
+  const MeanFigure energy = mean([](const LinkagePosition& p) { return p.forces.kinetic_energy; }, time);
+  const auto share = [](const MeanFigure& part, const MeanFigure& whole) -> MeanFigure {
+    if (!(whole.value > 0)) return {0, 0.0};
+    return {part.value / whole.value, (*part.error + part.value / whole.value * *whole.error) / whole.value};
+  };
+  for (std::size_t k = 0; k < samples_.front().forces.links.size(); ++k) {
+    using P = const LinkagePosition&;
+    const auto link = [k](P p) -> const LinkForces& { return p.forces.links[k]; };
+    const auto largest = [&](auto&& of) {
+      double most = 0;
+      for (P p : cycle_.positions) most = std::max(most, std::abs(of(link(p))));
+      return most;
+    };
+    const auto peak_of_link = [&](auto&& of, double scale) { return peak([&](P p) { return of(link(p)); }, scale); };
+    LinkOfCycle out;
+    out.name = link(samples_.front()).name;
+    const auto omega = [](const LinkForces& l) { return l.omega; };
+    const auto alpha = [](const LinkForces& l) { return l.alpha; };
+    const double speed = std::max(std::abs(cycle_.least_speed), std::abs(cycle_.greatest_speed));
+    out.omega = peak_of_link(omega, std::max(speed, largest(omega)));
+    out.alpha = peak_of_link(alpha, std::max(speed * speed, largest(alpha)));
+    out.inertia_force = peak_of_link([](const LinkForces& l) { return l.inertia_force.magnitude(); }, force_);
+    out.inertia_couple = peak_of_link([](const LinkForces& l) { return l.inertia_couple; }, moment_);
+    out.reduced_inertia = mean([&](P p) { return link(p).reduced_inertia; }, {});
+    out.inertia_share = share(out.reduced_inertia, inertia);
+    out.energy = mean([&](P p) { return link(p).kinetic_energy; }, time);
+    out.energy_share = share(out.energy, energy);
+    out.least_share = 1;
+    for (P p : cycle_.positions) {
+      const double here = p.forces.reduced_inertia > 0 ? link(p).reduced_inertia / p.forces.reduced_inertia : 0;
+      out.least_share = std::min(out.least_share, here);
+      out.greatest_share = std::max(out.greatest_share, here);
+    }
+    cycle_.links.push_back(std::move(out));
+  }
+}
+
+void Builder::find_orders() {
+  const int turns = static_cast<int>(std::lround(along_.cycle / turn));
+  const auto orders_of = [&](const Quantity& value, double scale) {
+    return measured_harmonics(
+        [&] {
+          std::vector<double> values;
+          for (const LinkagePosition& p : cycle_.positions) values.push_back(value(p));
+          return values;
+        }(),
+        turns, scale);
+  };
+  cycle_.shaking_x = orders_of([](const LinkagePosition& p) { return p.forces.shaking_force.x; }, force_);
+  cycle_.shaking_y = orders_of([](const LinkagePosition& p) { return p.forces.shaking_force.y; }, force_);
+  cycle_.shaking_couple = orders_of([](const LinkagePosition& p) { return p.forces.shaking_moment; }, moment_);
+  const Quantity torque = [](const LinkagePosition& p) { return p.forces.torque; };
+  cycle_.torque_orders = orders_of(torque, moment_);
+  cycle_.torque_mean = mean(torque, {});
+  *cycle_.torque_mean.error += rounding_of_forces * moment_;
+}
+
+// The works of a cycle make its change of kinetic energy: what is left over is every work's error.
+void Builder::balance() {
+  double scale = 0, left = -cycle_.kinetic_change;
+  for (const LinkagePosition& p : samples_)
+    for (const double power : {p.power.crank, p.power.load, p.power.weight, p.power.kinetic_rate})
+      scale = std::max(scale, std::abs(power));
+  for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows})
+    for (LinkagePosition& p : *list) {
+      const double open = p.power.crank + p.power.load + p.power.weight - p.power.kinetic_rate;
+      p.power.residual = scale > 0 ? open / scale : 0;
+      cycle_.power_residual = std::max(cycle_.power_residual, std::abs(p.power.residual));
+      cycle_.equation_residual = std::max(cycle_.equation_residual, p.forces.residual);
+    }
+  for (const CycleWork& w : cycle_.work) left += w.work;
+  for (CycleWork& w : cycle_.work) {
+    w.error = std::abs(left) + rounding_of_forces * w.turnover;
+    if (std::abs(w.work) <= rounding_of_forces * w.turnover) w.work = 0;
+    if (w.name == "balancing torque" && w.work < 0) w.kind = "useful";
+  }
+}
+
+void Builder::collect_curve() {
+  cycle_.curve = cycle_.positions;
+  for (std::size_t i = 1; i < samples_.size(); ++i) {
+    if (phi_[i] - phi_[i - 1] > 2.5 * beside) continue;
+    cycle_.curve.push_back(samples_[i - 1]);
+    cycle_.curve.push_back(samples_[i]);
+  }
+  const auto add_peak = [&](const Peak& p) { cycle_.curve.push_back(at(p.phi, motion_between(motion_, p.phi))); };
+  for (const LinkageFigure& figure : cycle_.reactions) add_peak(figure.peak);
+  for (const LinkageFigure* f : {&cycle_.torque, &cycle_.shaking_force, &cycle_.shaking_moment}) add_peak(f->peak);
+  std::stable_sort(cycle_.curve.begin(), cycle_.curve.end(), [](const LinkagePosition& a, const LinkagePosition& b) {
+    return a.forces.state.phi < b.forces.state.phi;
+  });
+}
+
+template <class Figure>
+void add_difference(const Figure& loose, Figure& tight) {
+  tight.error = tight.error.value_or(0) + std::abs(std::abs(loose.value) - std::abs(tight.value));
+}
+
+}  // namespace
+
+LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion) {
+  LinkageCycle cycle;
+  cycle.cycle = motion.cycle;
+  Builder(data, loads, motion, cycle).build();
+  return cycle;
+}
+
+void add_errors(const LinkageCycle& loose, LinkageCycle& tight) {
+  for (std::size_t k = 0; k < tight.reactions.size(); ++k)
+    add_difference(loose.reactions[k].peak, tight.reactions[k].peak);
+  for (auto figure : {&LinkageCycle::torque, &LinkageCycle::shaking_force, &LinkageCycle::shaking_moment})
+    add_difference((loose.*figure).peak, (tight.*figure).peak);
+  for (std::size_t k = 0; k < tight.links.size(); ++k) {
+    for (auto peak :
+         {&LinkOfCycle::omega, &LinkOfCycle::alpha, &LinkOfCycle::inertia_force, &LinkOfCycle::inertia_couple})
+      add_difference(loose.links[k].*peak, tight.links[k].*peak);
+    for (auto figure :
+         {&LinkOfCycle::reduced_inertia, &LinkOfCycle::inertia_share, &LinkOfCycle::energy, &LinkOfCycle::energy_share})
+      add_difference(loose.links[k].*figure, tight.links[k].*figure);
+  }
+  for (auto orders : {&LinkageCycle::shaking_x, &LinkageCycle::shaking_y, &LinkageCycle::shaking_couple,
+                      &LinkageCycle::torque_orders})
+    for (std::size_t k = 0; k < (tight.*orders).size(); ++k)
+      (tight.*orders)[k].error += std::abs((tight.*orders)[k].amplitude - (loose.*orders)[k].amplitude);
+  add_difference(loose.mean_speed, tight.mean_speed);
+  add_difference(loose.torque_mean, tight.torque_mean);
+  for (std::size_t k = 0; k < tight.work.size(); ++k)
+    tight.work[k].error += std::abs(loose.work[k].work - tight.work[k].work);
+}
+
+LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options) {
+  check(options);
+  const Deadline deadline(scene.run.budget);
+  const Section& section = chosen_mechanism(scene, options.mechanism);
+  LinkageStudy out;
+  out.title = scene.heading();
+  out.speed_unit = scene.speed_unit;
+  out.scene_file = scene.file;
+  out.scene_text = scene.text;
+  out.mechanism = section.name;
+  out.kind = section.kind->name;
+  const MachineMotion machine(scene, Effects{}, section.name, options);
+  const MechanismData data = mechanism_data(scene, section.name);
+  out.rocks = data.rocks();
+  OutputLoads loads(scene, section.name);
+  const CrankSpeed speed = prescribed_speed(machine, options);
+  const std::string at = out.speed_unit.text(speed.value);
+  options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, at, speed.source));
+  out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
+  out.prescribed->label = "prescribed";
+  out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
+  if (!options.simulate) return out;
+  options.watch.say("second problem: running the rigid machine");
+  const auto motion = machine.solve(loads, {out.notes, out.complete, out.diagnosis});
+  if (!motion) return out;
+  out.simulated = linkage_cycle(data, loads, motion->tight);
+  add_errors(linkage_cycle(data, loads, motion->loose), *out.simulated);
+  out.simulated->label = "simulated";
+  out.simulated->description = motion->description;
+  return out;
+}
+
+}  // namespace kurbel

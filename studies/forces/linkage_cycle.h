@@ -1,0 +1,88 @@
+// linkage_cycle.h — kinetostatics of any mechanism with ideal joints over a cycle: reactions in every joint, balancing
+// torque, shaking force and moment, inertia forces and motion of every link, its shares in I_r and kinetic energy.
+//
+// Signs and axes: newton_euler.h. Every figure has an error (theory 9.13): what a search at half the resolution finds
+// otherwise, rounding, and, where the motion is simulated, the difference to a run with 30 × looser tolerance.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanisms/reduced/mechanism_data.h"
+#include "mechanisms/reduced/newton_euler.h"
+#include "studies/forces/crank_motion.h"
+#include "studies/forces/forces.h"
+
+namespace kurbel {
+
+struct LinkagePosition {
+  LinkageForces forces;
+  PowerFlow power;
+};
+
+// A figure over the cycle, its largest magnitude and where.
+struct LinkageFigure {
+  std::string name;   // "crank pin: crank on coupler"
+  std::string unit;   // SI
+  std::string means;  // its name in the dictionary
+  Peak peak;
+};
+
+struct MeanFigure {
+  double value = 0;
+  std::optional<double> error;
+};
+
+// One link over the cycle.
+struct LinkOfCycle {
+  std::string name;
+  Peak omega, alpha;                           // [rad/s], [rad/s²]
+  Peak inertia_force, inertia_couple;          // |−m a_S| [N], −I ε [N·m]
+  MeanFigure reduced_inertia;                  // its part of I_r, mean over the angle [kg·m²]
+  MeanFigure inertia_share;                    // of the mean I_r
+  double least_share = 0, greatest_share = 0;  // of I_r at a position
+  MeanFigure energy;                           // its kinetic energy, mean over the time [J]
+  MeanFigure energy_share;                     // of the mechanism's
+};
+
+struct LinkageCycle {
+  std::string label, description;  // "prescribed", "simulated"; for people
+  double cycle = 0;                // [rad]
+  MeanFigure mean_speed;           // of the crank, over the time [rad/s]
+  double least_speed = 0, greatest_speed = 0, closure = 0;
+  std::vector<LinkagePosition> positions;  // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<LinkagePosition> rows;       // those asked for, both ends
+  std::vector<LinkagePosition> curve;      // positions, both sides of every load edge, and the peaks
+  std::vector<LinkageFigure> reactions;    // of each joint; of a slide its normal force, then its moment
+  LinkageFigure torque, shaking_force, shaking_moment;
+  std::vector<LinkOfCycle> links;
+  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
+  MeanFigure torque_mean;        // over the angle [N·m]
+  std::vector<CycleWork> work;   // by account: loads, weight, the balancing torque
+  double kinetic_change = 0;     // over the cycle [J]
+  double power_residual = 0;     // largest, of the powers' balance at a position
+  double equation_residual = 0;  // largest, of the links' equilibrium
+};
+
+// Along one motion. Throws std::runtime_error where the mechanism has no finite reactions.
+LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion);
+// Adds to each error of `tight` its difference to `loose`.
+void add_errors(const LinkageCycle& loose, LinkageCycle& tight);
+
+// A scene's mechanism.
+struct LinkageStudy {
+  std::string title, scene_file, scene_text, mechanism, kind;
+  SpeedUnit speed_unit;
+  bool rocks = false;  // the output is an angle
+  std::optional<LinkageCycle> prescribed, simulated;
+  std::vector<std::string> notes;
+  bool complete = true;
+  std::string diagnosis;
+};
+LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options);
+
+inline const LinkageCycle& front_of(const LinkageStudy& f) { return f.simulated ? *f.simulated : *f.prescribed; }
+
+}  // namespace kurbel

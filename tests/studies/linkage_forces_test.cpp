@@ -1,0 +1,189 @@
+// linkage_forces_test.cpp — forces in every mechanism over a cycle: against closed forms, energy, and each other.
+#include "studies/forces/linkage_cycle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "studies/forces/forces_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const char* const rocker = R"(
+line = ["motor", "gear", "rocker"]
+[motor]
+kind = "motor"
+torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 40], [300, 0]] }
+inertia = "0.02 kg*m2"
+[gear]
+kind = "gearbox"
+stages = [{ teeth = [20, 100] }]
+[rocker]
+kind = "four-bar"
+crank = "80 mm"
+coupler = "250 mm"
+rocker = "200 mm"
+ground = "260 mm"
+crank_mass = "2 kg"
+coupler_mass = "1.5 kg"
+coupler_inertia = "0.01 kg*m2"
+rocker_mass = "3 kg"
+rocker_com = "100 mm"
+rocker_inertia = "0.05 kg*m2"
+load = { kind = "opposing", torque = "30 N*m" }
+[run]
+start = { speed = "30 rad/s" }
+until = "3 s"
+accuracy = 1e-8
+)";
+
+// Joints that turn without friction take no power: what the balancing torque does in a cycle is what the load takes.
+void expect_balance(const LinkageCycle& c) {
+  EXPECT_LT(c.power_residual, 1e-11);
+  EXPECT_LT(c.equation_residual, 1e-16);
+  double sum = -c.kinetic_change, largest = 0;
+  for (const CycleWork& w : c.work) sum += w.work, largest = std::max(largest, w.turnover);
+  EXPECT_NEAR(sum, 0, 1e-7 * largest);
+  double inertia = 0, energy = 0;
+  for (const LinkOfCycle& l : c.links) inertia += l.inertia_share.value, energy += l.energy_share.value;
+  EXPECT_NEAR(inertia, 1, 1e-12);
+  EXPECT_NEAR(energy, 1, 1e-12);
+}
+
+TEST(ForcesInALinkage, BalanceOverTheCycleInEveryMechanism) {
+  ForcesOptions options;
+  options.simulate = false;
+  for (const char* scene : {"scenes/four_bar_rocker.toml", "scenes/shaper.toml", "scenes/knuckle_press.toml"}) {
+    SCOPED_TRACE(scene);
+    const LinkageStudy f = find_linkage_forces(test::scene_file(scene), options);
+    expect_balance(*f.prescribed);
+    for (const LinkageFigure& r : f.prescribed->reactions) {
+      ASSERT_TRUE(r.peak.error) << r.name;
+      EXPECT_LT(*r.peak.error, 1e-8 * std::abs(f.prescribed->reactions.front().peak.value) + 1e-9) << r.name;
+    }
+  }
+}
+
+// The crank turns evenly: ω_i of the rocker over its sweep. Its swing has no mean, its greatest speeds are those of the
+// geometry; a link of the mechanism that turns with the shaft has its speed.
+TEST(ForcesInALinkage, TellsSpeedsOfTheLinks) {
+  ForcesOptions options;
+  options.simulate = false;
+  options.speed = 10;
+  const LinkageStudy f = find_linkage_forces(test::scene_from(rocker), options);
+  const LinkageCycle& c = *f.prescribed;
+  EXPECT_DOUBLE_EQ(c.links[0].omega.value, 10);
+  EXPECT_EQ(c.links[0].alpha.value, 0);
+  const auto& positions = c.positions;
+  double turned = 0;  // trapezium rule over the rocker's speed: it comes back
+  for (std::size_t i = 0; i + 1 < positions.size(); ++i) turned += positions[i].forces.links[2].omega;
+  EXPECT_NEAR(turned, 0, 1e-9 * std::abs(c.links[2].omega.value) * static_cast<double>(positions.size()));
+  // dψ/dφ by differences against ω of the rocker.
+  for (std::size_t i = 1; i + 1 < positions.size(); i += 60) {
+    const double h = 2 * (positions[1].forces.state.phi - positions[0].forces.state.phi);
+    const double ratio = (positions[i + 1].forces.output - positions[i - 1].forces.output) / h;
+    EXPECT_NEAR(positions[i].forces.links[2].omega, 10 * ratio, 1e-3 * std::abs(c.links[2].omega.value));
+  }
+}
+
+// The first order of the ground's forces of a balanced crank alone: with nothing but the crank's mass at its pin the
+// shaking force is m r ω², turning with it.
+TEST(ForcesInALinkage, ShakesAsATurningMass) {
+  std::string text = rocker;
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
+  };
+  replace("coupler_mass = \"1.5 kg\"\ncoupler_inertia = \"0.01 kg*m2\"\n", "");
+  replace("rocker_mass = \"3 kg\"\nrocker_com = \"100 mm\"\nrocker_inertia = \"0.05 kg*m2\"\n", "");
+  replace("crank_mass = \"2 kg\"\n",
+          "crank_mass = \"2 kg\"\ncrank_com = \"80 mm\"\ncrank_inertia = \"0.0128 kg*m2\"\n");
+  ForcesOptions options;
+  options.simulate = false;
+  options.speed = 10;
+  const LinkageStudy f = find_linkage_forces(test::scene_from(text), options);
+  const LinkageCycle& c = *f.prescribed;
+  EXPECT_NEAR(c.shaking_force.peak.value, 2 * 0.08 * 100, 1e-12 * 16);
+  EXPECT_NEAR(c.shaking_x[0].amplitude, 16, 1e-11);
+  EXPECT_NEAR(c.shaking_x[1].amplitude, 0, 1e-10);
+  EXPECT_EQ(c.shaking_moment.peak.value, 0);
+  EXPECT_DOUBLE_EQ(c.links[0].inertia_share.value, 1);
+}
+
+// --positions chooses rows of a table and nothing else.
+TEST(ForcesInALinkage, HasPeaksThatNoPositionsMove) {
+  ForcesOptions coarse, fine;
+  coarse.simulate = fine.simulate = false;
+  coarse.positions = 5, fine.positions = 77;
+  const Scene scene = test::scene_from(rocker);
+  const LinkageCycle a = *find_linkage_forces(scene, coarse).prescribed,
+                     b = *find_linkage_forces(scene, fine).prescribed;
+  EXPECT_EQ(a.rows.size(), 6);
+  EXPECT_EQ(b.rows.size(), 78);
+  for (std::size_t k = 0; k < a.reactions.size(); ++k) {
+    EXPECT_EQ(a.reactions[k].peak.value, b.reactions[k].peak.value) << a.reactions[k].name;
+    EXPECT_EQ(a.reactions[k].peak.phi, b.reactions[k].peak.phi);
+  }
+  EXPECT_EQ(a.torque.peak.value, b.torque.peak.value);
+  // A peak is none of the samples': the search finds no less than any position shows.
+  for (const LinkagePosition& p : b.rows)
+    EXPECT_LE(p.forces.joints[0].force.magnitude(), b.reactions[0].peak.value * (1 + 1e-12));
+}
+
+// What a looser run finds otherwise is in the error: a run at a tenth of the tolerance lies within it.
+TEST(ForcesInALinkage, HasErrorsThatHoldTheSimulatedFigures) {
+  Scene scene = test::scene_from(rocker);
+  const LinkageStudy f = find_linkage_forces(scene, {});
+  scene.run.accuracy = 1e-10;
+  const LinkageStudy truth = find_linkage_forces(scene, {});
+  ASSERT_TRUE(f.simulated && truth.simulated);
+  expect_balance(*f.simulated);
+  for (std::size_t k = 0; k < f.simulated->reactions.size(); ++k) {
+    const Peak &got = f.simulated->reactions[k].peak, &right = truth.simulated->reactions[k].peak;
+    EXPECT_NEAR(std::abs(got.value), std::abs(right.value), *got.error + *right.error)
+        << f.simulated->reactions[k].name;
+  }
+  EXPECT_NEAR(f.simulated->torque.peak.value, truth.simulated->torque.peak.value,
+              *f.simulated->torque.peak.error + *truth.simulated->torque.peak.error);
+}
+
+TEST(ForcesInALinkage, NamesJointsSensesAndAxes) {
+  ForcesOptions options;
+  options.simulate = false;
+  const LinkageStudy f = find_linkage_forces(test::scene_from(rocker), options);
+  const Findings findings = findings_of(f);
+  const auto json = nlohmann::json::parse(summary_json(findings));
+  EXPECT_NE(json.at("signs").get<std::string>().find("crank pin: crank on coupler"), std::string::npos);
+  ASSERT_EQ(findings.csv.size(), 2U);
+  const std::string csv = findings.csv[0].text();
+  EXPECT_NE(csv.find("rocker_bearing_of_frame_on_rocker_x [N]"), std::string::npos) << csv.substr(0, 400);
+  bool told = false;
+  for (const auto& note : json.at("notes"))
+    told = told || note.get<std::string>().find("no friction of them by their reactions") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+// One study's links are the other's: a slider-crank by its closed form and by all links at once.
+TEST(ForcesInALinkage, AgreesWithTheSliderCranksOwn) {
+  ForcesOptions options;
+  options.simulate = false;
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  const Forces own = find_forces(scene, options);
+  for (std::size_t i = 0; i < own.prescribed->positions.size(); i += 37) {
+    const SliderCrankForces& s = own.prescribed->positions[i].forces;
+    const LinkageForces& l = own.links->positions[i].forces;
+    EXPECT_NEAR(l.links[1].inertia_force.x, s.rod_inertia.x, 1e-12 * own.prescribed->shaking_force.value);
+    EXPECT_NEAR(l.shaking_moment, s.shaking_moment, 1e-10 * own.prescribed->torque.value);
+    if (own.joints.frictionless()) {
+      EXPECT_NEAR(l.joints[1].force.magnitude(), s.crank_pin.magnitude(), 1e-10 * own.prescribed->reaction[1].value);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kurbel
