@@ -24,25 +24,27 @@ constexpr Eigen::Index most_frozen = 60;  // coordinates
 // The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
 std::vector<char> pair_damped(ModesStudy& found) {
   std::vector<char> used(found.damped.size(), 0);
-  for (Mode& mode : found.modes) {
-    double best = 0;
-    std::size_t which = found.damped.size();
-    for (std::size_t i = 0; i < found.damped.size(); ++i) {
-      const DampedMode& d = found.damped[i];
-      if (used[i] || d.lambda.imag() <= 0) continue;
-      const Eigen::VectorXcd moved = found.drive.inertia.cwiseProduct(mode.shape).cast<Complex>();
-      const double norm = std::sqrt((found.drive.inertia.array() * d.shape.array().abs2()).sum());
-      const double near = 1 - std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
-      const double like = std::abs(moved.dot(d.shape)) / norm * near;
-      if (like > best) best = like, which = i;
+  // A mode that the slopes of motors and loads move far away still has its shape.
+  for (const bool near : {true, false})
+    for (Mode& mode : found.modes) {
+      if (mode.lambda.imag() > 0) continue;
+      double best = 0;
+      std::size_t which = found.damped.size();
+      for (std::size_t i = 0; i < found.damped.size(); ++i) {
+        const DampedMode& d = found.damped[i];
+        if (used[i] || d.lambda.imag() <= 0) continue;
+        const Eigen::VectorXcd moved = found.drive.inertia.cwiseProduct(mode.shape).cast<Complex>();
+        const double norm = std::sqrt((found.drive.inertia.array() * d.shape.array().abs2()).sum());
+        const double off = std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
+        const double like = std::abs(moved.dot(d.shape)) / norm * (near ? 1 - off : 1);
+        if (like > best) best = like, which = i;
+      }
+      if (best < 0.3) continue;
+      used[which] = 1;
+      mode.lambda = found.damped[which].lambda;
+      mode.ratio = found.damped[which].ratio();
+      mode.error = found.damped[which].error;
     }
-    mode.ratio = 1;  // until a swing is found that grows out of it
-    if (best < 0.3) continue;
-    used[which] = 1;
-    mode.lambda = found.damped[which].lambda;
-    mode.ratio = found.damped[which].ratio();
-    mode.error = found.damped[which].error;
-  }
   return used;
 }
 
@@ -59,7 +61,6 @@ Eigen::VectorXd principal_shape(const LinearDrive& drive, const Eigen::VectorXcd
 // What swings by states of elements, and what springs and states of elements do so differently together that it grows
 // out of no undamped mode.
 void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
-  if (found.drive.own_states() == 0) return;
   for (std::size_t i = 0; i < found.damped.size(); ++i) {
     const DampedMode& d = found.damped[i];
     if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
@@ -135,6 +136,28 @@ void find_frozen_range(int count, ModesStudy& found) {
   }
 }
 
+namespace {
+
+double ratio_of(std::complex<double> exponent) { return -exponent.real() / std::abs(exponent); }
+
+// Of those not used yet, nearest first. A real multiplier has the phase 0 or π, whatever motion it belongs to.
+std::vector<std::size_t> exponents_near(const FloquetSpectrum& spectrum, std::complex<double> lambda,
+                                        bool of_real_multiplier, const std::vector<char>& used) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < spectrum.exponents.size(); ++i) {
+    const std::complex<double> s = spectrum.exponents[i].exponent;
+    const bool real = std::abs(std::sin(s.imag() * spectrum.time)) < 1e-6;
+    if (!used[i] && s.imag() > 0 && real == of_real_multiplier && std::abs(s - lambda) < 0.5 * std::abs(lambda))
+      list.push_back(i);
+  }
+  std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(spectrum.exponents[a].exponent - lambda) < std::abs(spectrum.exponents[b].exponent - lambda);
+  });
+  return list;
+}
+
+}  // namespace
+
 void find_exponents(const Regime& regime, ModesStudy& found) {
   const Model& m = *found.drive.model;
   const bool varies = std::any_of(m.network.elements.begin(), m.network.elements.end(),
@@ -153,25 +176,31 @@ void find_exponents(const Regime& regime, ModesStudy& found) {
   const Mode* of = nullptr;
   for (Mode& mode : found.modes) {
     if (!(mode.lambda.imag() > 0)) continue;
-    double nearest = HUGE_VAL;
-    std::size_t which = 0;
-    for (std::size_t i = 0; i < spectrum.exponents.size(); ++i) {
-      const FloquetExponent& e = spectrum.exponents[i];
-      const double off = std::abs(e.exponent - mode.lambda);
-      if (!used[i] && e.exponent.imag() > 0 && off < nearest) nearest = off, which = i;
+    std::vector<std::size_t> own = exponents_near(spectrum, mode.lambda, false, used);
+    if (own.empty()) {
+      own = exponents_near(spectrum, mode.lambda, true, used);
+      if (own.size() < 2) continue;  // one alone is a slow change of speed
+      const FloquetExponent &one = spectrum.exponents[own[0]], &two = spectrum.exponents[own[1]];
+      used[own[1]] = 1;
+      found.notes.push_back(
+          fmt::format("mode {} is locked to the round by coefficients that change with the angle: it swings at {:.6g} "
+                      "Hz and {:.6g} Hz, "
+                      "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
+                      mode.number, one.exponent.imag() / (2 * pi), two.exponent.imag() / (2 * pi),
+                      ratio_of(one.exponent), ratio_of(two.exponent), mode.lambda.imag() / (2 * pi), mode.ratio));
     }
-    if (!(nearest < 0.5 * std::abs(mode.lambda))) continue;
-    used[which] = 1;
-    mode.periodic = spectrum.exponents[which].exponent;
-    mode.periodic_error = spectrum.exponents[which].error;
-    if (nearest / std::abs(mode.lambda) > worst) worst = nearest / std::abs(mode.lambda), of = &mode;
+    const FloquetExponent& e = spectrum.exponents[own.front()];
+    used[own.front()] = 1;
+    mode.periodic = e.exponent;
+    mode.periodic_error = e.error;
+    const double off = std::abs(e.exponent - mode.lambda) / std::abs(mode.lambda);
+    if (off > worst) worst = off, of = &mode;
   }
   if (of && worst > told_of_mean)
     found.notes.push_back(fmt::format(
         "coefficients change with the angle: by the exponents of the periodic system mode {} swings at {:.6g} Hz with "
         "ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
-        of->number, of->periodic->imag() / (2 * pi), -of->periodic->real() / std::abs(*of->periodic),
-        of->lambda.imag() / (2 * pi), of->ratio));
+        of->number, of->periodic->imag() / (2 * pi), ratio_of(*of->periodic), of->lambda.imag() / (2 * pi), of->ratio));
 }
 
 void note_changes(const CycleSamples& samples, ModesStudy& found) {

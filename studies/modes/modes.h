@@ -46,7 +46,7 @@ struct Mode {
   std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
   double ratio = 1;             // ζ; 1: does not swing
   double error = 0;             // of λ, of ω where none was found [rad/s]
-  bool of_own_states = false;   // it swings by the states of elements: it has no undamped mode that it grows out of
+  bool of_own_states = false;   // it grows out of no undamped mode: states of elements, slopes of motors
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
   // Of the periodic system, where coefficients change with the angle: what the mean leaves out is the difference to λ.
