@@ -35,9 +35,14 @@ enum class Topic {
   multipliers,
   energy,
   mean_torques,
-  sized_delta
+  sized_delta,
+  frequencies,
+  damping,
+  forced_orders,
+  forced_peaks
 };
-inline constexpr std::size_t topic_count = 11;
+inline constexpr std::size_t topic_count = 15;
+inline constexpr std::size_t first_of_modes = 11;  // from here on: swings (compare_modes)
 const char* name_of(Topic topic);
 
 struct Compared {
@@ -67,6 +72,11 @@ struct Questions {
 
 // Throws SceneError where the scene makes no machine.
 Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings = {});
+
+// `modes` against free and forced swings of the settled run (free_swing.h, forced_swing.h). No cells where nothing is
+// elastic. Frequencies and damping: the three lowest that swing, on either side, each against its nearest on the other;
+// forced_orders: amplitudes of every order of every joint's torque; forced_peaks: its mean, greatest and least value.
+Row compare_modes(const Scene& scene, const SettleSettings& settings = {});
 
 // Names of tests/agreement/*.toml, in alphabetic order. Templates are files of scenes/.
 std::vector<std::string> scene_files(const std::string& folder);

@@ -16,9 +16,10 @@ const char* name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 const char* name_of(Topic topic) {
-  static constexpr const char* names[topic_count] = {"mean speed", "mid speed",    "δ",         "period",
-                                                     "peaks",      "RMS",          "works",     "multipliers",
-                                                     "energy",     "mean torques", "δ as sized"};
+  static constexpr const char* names[topic_count] = {"mean speed", "mid speed",     "δ",           "period",
+                                                     "peaks",      "RMS",           "works",       "multipliers",
+                                                     "energy",     "mean torques",  "δ as sized",  "frequencies",
+                                                     "damping",    "forced orders", "forced peaks"};
   return names[static_cast<std::size_t>(topic)];
 }
 
