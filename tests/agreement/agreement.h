@@ -40,11 +40,12 @@ enum class Topic {
   damping,
   forced_orders,
   forced_peaks,
+  linear_peaks,
   crank_torque,
   reactions,
   advice
 };
-inline constexpr std::size_t topic_count = 18;
+inline constexpr std::size_t topic_count = 19;
 inline constexpr std::size_t first_of_modes = 11;  // from here on: swings (compare_modes)
 const char* name_of(Topic topic);
 

@@ -34,6 +34,7 @@ constexpr int most_looks = 4000;           // within a sub-interval
 constexpr double left_by_runs = 2e-11;     // of the scales
 constexpr double least_multiplier = 1e-6;  // of a sub-interval: what is less is lost in what runs leave
 constexpr double real_enough = 1e-6;
+constexpr double much = 0.1;  // of the energy
 
 // States at equal times.
 class Looks final : public Observer {
@@ -139,8 +140,8 @@ class Pushing {
     const Index n = scale_.size();
     const std::size_t all = state.y.size();
     std::vector<double> y = state.y, forwards(all), backwards(all);
-    MatrixXd a(n, n);
-    for (Index j = 0; j < n; ++j) {
+    MatrixXd a = MatrixXd::Zero(n, n);  // angles are held
+    for (auto j = static_cast<Index>(equations_.twists_begin()); j < n; ++j) {
       const double h = 1e-6 * scale_[j], before = y[at(j)];
       y[at(j)] = before + h;
       equations_.flow(state.t, y, forwards);
@@ -274,12 +275,15 @@ class Pushing {
       });
       if (swing.omega > 0 && !seen) list.push_back(swing);
     }
-    // What is locked comes in two; one alone is a slow change of speed that the forced swing follows.
+    // What is locked comes in two, and takes the place of a swing; else it is a slow change of speed that the forced swing
+    // follows.
     const std::vector<FreeSwing> all = list;
+    const auto free = std::count_if(all.begin(), all.end(), [](const FreeSwing& s) { return !s.locked; });
     std::erase_if(list, [&](const FreeSwing& s) {
-      return s.locked && std::none_of(all.begin(), all.end(), [&](const FreeSwing& o) {
-               return o.locked && o.decay != s.decay && std::abs(o.omega - s.omega) < 1.02 * pi / period_;
-             });
+      return s.locked && (free >= static_cast<std::ptrdiff_t>(held_.size()) ||
+                          std::none_of(all.begin(), all.end(), [&](const FreeSwing& o) {
+                            return o.locked && o.decay != s.decay && std::abs(o.omega - s.omega) < 1.02 * pi / period_;
+                          }));
     });
     if (!run_.model->own_states.empty()) leave_others(list);
     std::sort(list.begin(), list.end(), [](const FreeSwing& a, const FreeSwing& b) { return a.omega < b.omega; });
@@ -330,10 +334,9 @@ class Pushing {
     const auto joints = static_cast<Index>(run_.model->elastic.size());
     const double lowest = arg_mu / step_, sector = pi / found_.sub_intervals;
     const MatrixXd energy = energies(path, lowest);
-    Index k = 0, joint = 0;
-    energy.colwise().sum().maxCoeff(&k);
-    const Index number = energy.cols();
-    swing.omega = std::abs(lowest + 2 * pi * static_cast<double>(k <= number / 2 ? k : k - number) / period_);
+    Index joint = 0;
+    const Index k = sideband_of(energy.colwise().sum(), lowest);
+    swing.omega = frequency(lowest, k, energy.cols());
     swing.share = energy.col(k).segment(twists, joints).sum() / std::max(energy.col(k).sum(), 1e-300);
     energy.col(k).segment(twists, joints).maxCoeff(&joint);
     swing.joint = run_.model->network.joints[at(run_.model->elastic[at(joint)].joint)].component;
@@ -341,6 +344,23 @@ class Pushing {
     // The motion itself, later or earlier, neither grows nor dies away; nor does what is bound to stay as it is.
     if (swing.locked && (swing.share < 0.25 || std::abs(swing.decay) * period_ < 1e-4)) swing.omega = 0;
     return swing;
+  }
+  double frequency(double lowest, Index k, Index number) const {
+    return std::abs(lowest + 2 * pi * static_cast<double>(k <= number / 2 ? k : k - number) / period_);
+  }
+  // That with most energy. Currents and deflections of rods have energies that are not counted: beside them, of all with
+  // much energy the one nearest to a frequency that the machine has while its angles are held.
+  Index sideband_of(const Eigen::RowVectorXd& energy, double lowest) const {
+    Index best = 0;
+    const double most = energy.maxCoeff(&best);
+    if (run_.model->own_states.empty()) return best;
+    double nearest = HUGE_VAL;
+    for (Index k = 0; k < energy.size(); ++k)
+      for (const Complex& rate : held_) {
+        const double apart = std::abs(rate.imag() - frequency(lowest, k, energy.size()));
+        if (energy[k] > much * most && apart < nearest) nearest = apart, best = k;
+      }
+    return best;
   }
   // States × frequencies ω₀ + 2πk/T in the order of the FFT: ½ I ω², ½ k θ² of the amplitudes.
   MatrixXd energies(const std::vector<Eigen::VectorXcd>& path, double lowest) const {

@@ -17,10 +17,10 @@ const char* name_of(Verdict verdict) {
 }
 const char* name_of(Topic topic) {
   static constexpr const char* names[topic_count] = {
-      "mean speed",   "mid speed",   "δ",           "period",        "peaks",
-      "RMS",          "works",       "multipliers", "energy",        "mean torques",
-      "δ as sized",   "frequencies", "damping",     "forced orders", "forced peaks",
-      "crank torque", "reactions",   "advice"};
+      "mean speed",   "mid speed",    "δ",           "period",        "peaks",
+      "RMS",          "works",        "multipliers", "energy",        "mean torques",
+      "δ as sized",   "frequencies",  "damping",     "forced orders", "forced peaks",
+      "linear peaks", "crank torque", "reactions",   "advice"};
   return names[static_cast<std::size_t>(topic)];
 }
 
