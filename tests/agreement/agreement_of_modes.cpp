@@ -155,14 +155,16 @@ class ModesComparison {
     for (const Topic topic : topics())
       row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why.empty() ? "no reason given" : why});
   }
+  // What is left out with a number, or a joint whose frequency hangs on the amplitude, with that of the round as it is.
+  static bool tells(const ModesStudy& by) { return tells_how_much(by.notes) || !by.rattles.empty(); }
   // `stated`: what the study says that its figure may be off by.
   void compare(Topic topic, const std::string& figure, double run, double study, double allowed, double stated,
                const ModesStudy& by) {
     const double off = std::abs(run - study);
     const bool agrees = off <= allowed || (off <= allowed + stated && stated <= most_stated * std::abs(study));
-    const Verdict verdict = agrees                                                ? Verdict::agrees
-                            : off <= allowed + stated || tells_how_much(by.notes) ? Verdict::told
-                                                                                  : Verdict::silent;
+    const Verdict verdict = agrees                                 ? Verdict::agrees
+                            : off <= allowed + stated || tells(by) ? Verdict::told
+                                                                   : Verdict::silent;
     row_.figures.push_back({topic, figure, run, study, allowed + stated, verdict, {}});
   }
 

@@ -33,8 +33,8 @@ constexpr double turns_by = 0.15;          // radians between looks
 constexpr int most_looks = 4000;           // within a sub-interval
 constexpr double left_by_runs = 2e-11;     // of the scales
 constexpr double least_multiplier = 1e-6;  // of a sub-interval: what is less is lost in what runs leave
-constexpr double real_enough = 1e-6;
-constexpr double much = 0.1;  // of the energy
+constexpr double real_enough = 1e-3;       // of a double exponent half the digits are lost
+constexpr double much = 0.1;               // of the energy
 
 // States at equal times.
 class Looks final : public Observer {
@@ -275,15 +275,16 @@ class Pushing {
       });
       if (swing.omega > 0 && !seen) list.push_back(swing);
     }
-    // What is locked comes in two, and takes the place of a swing; else it is a slow change of speed that the forced swing
-    // follows.
+    // What is locked comes in two, and takes the place of a swing; else what never changes its sign from period to period is
+    // a slow change of speed that the forced swing follows.
     const std::vector<FreeSwing> all = list;
     const auto free = std::count_if(all.begin(), all.end(), [](const FreeSwing& s) { return !s.locked; });
     std::erase_if(list, [&](const FreeSwing& s) {
-      return s.locked && (free >= static_cast<std::ptrdiff_t>(held_.size()) ||
-                          std::none_of(all.begin(), all.end(), [&](const FreeSwing& o) {
-                            return o.locked && o.decay != s.decay && std::abs(o.omega - s.omega) < 1.02 * pi / period_;
-                          }));
+      return s.locked && !s.turned &&
+             (free >= static_cast<std::ptrdiff_t>(held_.size()) ||
+              std::none_of(all.begin(), all.end(), [&](const FreeSwing& o) {
+                return o.locked && o.decay != s.decay && std::abs(o.omega - s.omega) < 1.02 * pi / period_;
+              }));
     });
     if (!run_.model->own_states.empty()) leave_others(list);
     std::sort(list.begin(), list.end(), [](const FreeSwing& a, const FreeSwing& b) { return a.omega < b.omega; });
@@ -332,7 +333,7 @@ class Pushing {
     swing.decay = -log_mu / step_;
     const auto twists = static_cast<Index>(equations_.twists_begin());
     const auto joints = static_cast<Index>(run_.model->elastic.size());
-    const double lowest = arg_mu / step_, sector = pi / found_.sub_intervals;
+    const double lowest = arg_mu / step_;
     const MatrixXd energy = energies(path, lowest);
     Index joint = 0;
     const Index k = sideband_of(energy.colwise().sum(), lowest);
@@ -340,7 +341,9 @@ class Pushing {
     swing.share = energy.col(k).segment(twists, joints).sum() / std::max(energy.col(k).sum(), 1e-300);
     energy.col(k).segment(twists, joints).maxCoeff(&joint);
     swing.joint = run_.model->network.joints[at(run_.model->elastic[at(joint)].joint)].component;
-    swing.locked = std::abs(lowest) < real_enough || std::abs(std::abs(lowest) * step_ - sector) < real_enough;
+    const double phase = std::abs(lowest) * period_;  // over a period
+    swing.locked = phase < real_enough || std::abs(phase - pi) < real_enough;
+    swing.turned = swing.locked && phase > 1;
     // The motion itself, later or earlier, neither grows nor dies away; nor does what is bound to stay as it is.
     if (swing.locked && (swing.share < 0.25 || std::abs(swing.decay) * period_ < 1e-4)) swing.omega = 0;
     return swing;

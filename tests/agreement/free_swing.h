@@ -22,7 +22,8 @@ struct FreeSwing {
   double omega_error = 0, decay_error = 0;  // pushes to one side only against pushes to both; what runs leave
   std::string joint;                        // that swings most
   double share = 0;                         // of twists in its energy: about ½
-  bool locked = false;                      // to the period, by what varies in it: one of two with decays of their own
+  // To the period, by what varies in it: one of two with decays of their own; at an odd multiple of half of it.
+  bool locked = false, turned = false;
   double natural() const;
   double ratio() const;  // ζ
 };
