@@ -11,6 +11,7 @@
 #include "mechanisms/linkages/simbody_reactions.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/forces.h"
+#include "studies/forces/linkage_cycle.h"
 #include "tests/agreement/agreement.h"
 
 namespace kurbel::agreement {
@@ -66,6 +67,13 @@ ToldForces forces_told(const ForceCycle& cycle) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+
+ToldForces forces_told(const LinkageCycle& cycle) {
+  Curve torque;
+  for (const LinkagePosition& p : cycle.curve) torque.add(p.forces.torque);
+  const std::size_t high = torque.greatest(), low = torque.least();
+  return {torque.values[high], torque.values[low], 0, std::max(torque.between(high), torque.between(low)), {}, {}};
+}
 
 // The mechanism's element, and the coupling whose torque is all that drives it.
 struct Driven {
@@ -191,12 +199,18 @@ class ForcesComparison {
   void ask(const Effects& effects) {
     std::vector<Topic> topics;
     if (driven_.joint >= 0) topics.push_back(Topic::crank_torque);
-    if (!effects.joint_friction && !effects.joint_clearance) topics.push_back(Topic::reactions);
+    if (reactions_known(effects)) topics.push_back(Topic::reactions);
     if (topics.empty()) return;
     try {
+      if (!driven_.mechanism->data.as<SliderCrankData>()) {
+        const LinkageStudy links =
+            find_linkage_forces(scene_, {.speed = {}, .mechanism = driven_.mechanism->name, .watch = {}});
+        if (!links.simulated) throw std::invalid_argument(links.notes.empty() ? "no cycle" : links.notes.back());
+        return judge(links.notes, forces_told(*links.simulated), effects);
+      }
       const Forces found = find_forces(scene_, {.speed = {}, .mechanism = driven_.mechanism->name, .watch = {}});
       if (!found.simulated) throw std::invalid_argument(found.notes.empty() ? "no cycle" : found.notes.back());
-      judge(found, forces_told(*found.simulated), effects);
+      judge(found.notes, forces_told(*found.simulated), effects);
     } catch (const std::runtime_error& error) {
       refuse(topics, error.what());
     } catch (const std::invalid_argument& error) {
@@ -207,7 +221,7 @@ class ForcesComparison {
     row_.figures.clear();
     for (const Topic topic : topics) row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why});
   }
-  void judge(const Forces& found, const ToldForces& told, const Effects& effects) {
+  void judge(const std::vector<std::string>& found, const ToldForces& told, const Effects& effects) {
     Cycle cycle(driven_, reactions_known(effects), run_.at.state.t, run_.period / looks);
     Equations equations(run_.model, false);
     RunOptions options{.tolerance = 1e-10,
@@ -232,15 +246,17 @@ class ForcesComparison {
     compare_peak("main bearing", cycle.main_bearing, told.main_bearing, found);
     compare_peak("slider pin", cycle.slider_pin, told.slider_pin, found);
   }
-  void compare_peak(const std::string& name, const Curve& curve, const std::optional<Peak>& told, const Forces& found) {
+  void compare_peak(const std::string& name, const Curve& curve, const std::optional<Peak>& told,
+                    const std::vector<std::string>& found) {
     const double run = curve.values[curve.greatest()];
     if (!told) return refuse({Topic::reactions}, name + " is not told");
     compare(Topic::reactions, name, run, told->value,
             left_by_runs * run + curve.between(curve.greatest()) + told->error.value_or(0), found);
   }
-  void compare(Topic topic, const std::string& figure, double run, double study, double allowed, const Forces& by) {
+  void compare(Topic topic, const std::string& figure, double run, double study, double allowed,
+               const std::vector<std::string>& by) {
     const Verdict verdict = std::abs(run - study) <= allowed ? Verdict::agrees
-                            : tells_how_much(by.notes)       ? Verdict::told
+                            : tells_how_much(by)             ? Verdict::told
                                                              : Verdict::silent;
     row_.figures.push_back({topic, figure, run, study, allowed, verdict, {}});
   }
