@@ -26,33 +26,55 @@ constexpr double wanted_agree = 0.9, wanted_told = 0.1;
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
-std::vector<std::string> scenes_named(const std::string& only) {
+// What one half of the matrix compares, and on which machines.
+struct Half {
+  const char* title;
+  const char* file;
+  std::vector<const char*> folders;
+  std::size_t begin, end;  // topics
+  Row (*compare)(const Scene& scene);
+};
+const Half halves[] = {
+    {"run against steady, reduce and size",
+     "agreement.md",
+     {KURBEL_SOURCE_DIR "/scenes", KURBEL_SOURCE_DIR "/tests/agreement"},
+     0,
+     first_of_modes,
+     [](const Scene& scene) { return compare_verbs(scene, {}); }},
+    {"run against modes, forces and advise",
+     "agreement_of_swings.md",
+     {KURBEL_SOURCE_DIR "/scenes", KURBEL_SOURCE_DIR "/tests/agreement", KURBEL_SOURCE_DIR "/tests/agreement/swings"},
+     first_of_modes,
+     topic_count,
+     [](const Scene& scene) { return compare_second_half(scene); }}};
+
+std::vector<std::string> scenes_named(const Half& half, const std::string& only) {
   std::vector<std::string> names;
-  for (const char* folder : {KURBEL_SOURCE_DIR "/scenes", KURBEL_SOURCE_DIR "/tests/agreement"})
+  for (const char* folder : half.folders)
     for (std::string& file : scene_files(folder))
       if (std::filesystem::path(file).stem().string().find(only) != std::string::npos) names.push_back(std::move(file));
   return names;
 }
 
 // What breaks the process says nothing: no worse answer.
-Row broken(const std::string& scene, const std::string& words) {
+Row broken(const Half& half, const std::string& scene, const std::string& words) {
   Row row{.scene = scene, .kind = Motion::none, .regime = words, .figures = {}, .cpu_seconds = 0};
-  row.figures.push_back({Topic::mean_speed, words, 0, 0, 0, Verdict::silent, words});
+  row.figures.push_back({static_cast<Topic>(half.begin), words, 0, 0, 0, Verdict::silent, words});
   return row;
 }
 
-std::vector<Row> measured(const std::vector<std::string>& files, int jobs) {
+std::vector<Row> measured(const Half& half, const std::vector<std::string>& files, int jobs) {
   std::vector<Row> rows(files.size());
   run_tasks(
       files.size(), jobs, seconds_a_scene,
       [&](std::size_t k) {
-        Row row = compare_verbs(read_scene(files[k], all_kinds()), {});
+        Row row = half.compare(read_scene(files[k], all_kinds()));
         row.scene = std::filesystem::path(files[k]).stem().string();
         return lines_of(row);
       },
       [&](const TaskEnd& end) {
         const std::string name = std::filesystem::path(files[end.task]).stem().string();
-        rows[end.task] = end.whole ? read_row(end.text) : broken(name, end.words);
+        rows[end.task] = end.whole ? read_row(end.text) : broken(half, name, end.words);
         std::fprintf(stderr, "%s: %.2f s\n", name.c_str(), rows[end.task].cpu_seconds);
       },
       [] { return true; });
@@ -82,14 +104,14 @@ Tone tone_of(const Compared* cell) {
   return Tone::bad;
 }
 
-Table matrix_of(const std::vector<Row>& rows) {
-  Table table{.title = "run against steady, reduce and size", .columns = {"scene"}, .rows = {}};
-  for (std::size_t t = 0; t < topic_count; ++t) table.columns.emplace_back(name_of(static_cast<Topic>(t)));
+Table matrix_of(const Half& half, const std::vector<Row>& rows) {
+  Table table{.title = half.title, .columns = {"scene"}, .rows = {}};
+  for (std::size_t t = half.begin; t < half.end; ++t) table.columns.emplace_back(name_of(static_cast<Topic>(t)));
   table.columns.emplace_back("the run");
   for (const Row& row : rows) {
     std::vector<std::string> cells = {row.scene};
     std::vector<Tone> tones = {Tone::none};
-    for (std::size_t t = 0; t < topic_count; ++t) {
+    for (std::size_t t = half.begin; t < half.end; ++t) {
       const Compared* cell = row.cell(static_cast<Topic>(t));
       cells.push_back(mark_of(cell));
       tones.push_back(tone_of(cell));
@@ -119,7 +141,9 @@ Table silent_of(const std::vector<Row>& rows) {
 constexpr struct {
   const char* verb;
   Topic topic;
-} verbs[] = {{"steady", Topic::mean_speed}, {"reduce", Topic::mean_torques}, {"size", Topic::sized_delta}};
+} verbs[] = {{"steady", Topic::mean_speed},  {"reduce", Topic::mean_torques}, {"size", Topic::sized_delta},
+             {"modes", Topic::forced_peaks}, {"forces", Topic::crank_torque}, {"forces", Topic::reactions},
+             {"advise", Topic::advice}};
 
 // The same reason of several components counts as one: names and numbers are left out of the comparison.
 std::string reason_of(const std::string& words) {
@@ -131,10 +155,11 @@ std::string reason_of(const std::string& words) {
   }
   return plain;
 }
-Table refusals_of(const std::vector<Row>& rows) {
+Table refusals_of(const Half& half, const std::vector<Row>& rows) {
   Table table{.title = "refusals", .columns = {"verb", "reason", "scenes", "how many"}, .rows = {}};
   table.text_columns = 3;
   for (const auto& verb : verbs) {
+    if (const auto t = static_cast<std::size_t>(verb.topic); t < half.begin || t >= half.end) continue;
     std::map<std::string, std::vector<std::string>> by_reason;
     std::size_t asked = 0, refused = 0;
     for (const Row& row : rows) {
@@ -167,20 +192,35 @@ std::string markdown(const Table& table) {
   return text + "\n";
 }
 
+// Per topic: how many agree, are told, refused, silent.
+Table counts_of(const Half& half, const std::vector<Row>& rows) {
+  Table table{.title = "cells of each topic", .columns = {"topic", "agree", "told", "refused", "silent"}, .rows = {}};
+  for (std::size_t t = half.begin; t < half.end; ++t) {
+    std::array<int, 4> of{};
+    for (const Row& row : rows)
+      if (const Compared* cell = row.cell(static_cast<Topic>(t))) ++of[static_cast<std::size_t>(cell->verdict)];
+    table.rows.push_back({name_of(static_cast<Topic>(t)), std::to_string(of[0]), std::to_string(of[1]),
+                          std::to_string(of[2]), std::to_string(of[3])});
+  }
+  return table;
+}
+
 }  // namespace
 
-void agreement_of_verbs(BenchBook& book, const std::string& only, int jobs, const std::string& folder) {
-  const std::vector<std::string> files = scenes_named(only);
+void agreement_of_verbs(BenchBook& book, int which, const std::string& only, int jobs, const std::string& folder) {
+  const Half& half = halves[which];
+  const std::vector<std::string> files = scenes_named(half, only);
   if (files.empty()) throw std::invalid_argument(fmt::format("--only {}: no scene's name holds that", only));
-  const std::vector<Row> rows = measured(files, jobs);
+  const std::vector<Row> rows = measured(half, files, jobs);
   const Totals totals = totals_of(rows);
   const std::string words = fmt::format(
       "Of {} cells of {} scenes {} agree, {} are told, {} refused, {} silent; {} scenes are not settled.", totals.cells,
       rows.size(), percent(totals.share(Verdict::agrees)), percent(totals.share(Verdict::told)),
       percent(totals.share(Verdict::refused)), percent(totals.share(Verdict::silent)), totals.unsettled);
-  const std::vector<Table> tables = {matrix_of(rows), silent_of(rows), refusals_of(rows)};
+  const std::vector<Table> tables = {matrix_of(half, rows), counts_of(half, rows), silent_of(rows),
+                                     refusals_of(half, rows)};
   std::filesystem::create_directories(folder);
-  std::ofstream out(folder + "/agreement.md");
+  std::ofstream out(fmt::format("{}/{}", folder, half.file));
   out << words << "\n\n";
   for (const Table& table : tables) {
     out << markdown(table);

@@ -71,9 +71,9 @@ void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
 void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
 void costs_of_modes();                    // growth of the eigenvalue problem
 void costs_of_steady_cycles();
-// Every verb against the settled run of every scene whose name holds `only`; writes FOLDER/agreement.md, too. Throws
-// std::invalid_argument in words.
-void agreement_of_verbs(BenchBook& book, const std::string& only, int jobs, const std::string& folder);
+// Every verb against the settled run of every scene whose name holds `only`: half 0 steady, reduce, size; half 1 modes,
+// forces, advise. Writes FOLDER/agreement.md or agreement_of_swings.md, too. Throws std::invalid_argument in words.
+void agreement_of_verbs(BenchBook& book, int half, const std::string& only, int jobs, const std::string& folder);
 // Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s];
 // heavy ones take what they ask for.
 void hard_cases(BenchBook& book, const std::string& only, double budget);

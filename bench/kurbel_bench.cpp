@@ -1,9 +1,9 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
 // whether the hard cases end right, whether all verbs agree, and whether stated errors cover the true ones.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|agreement|coverage|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|agreement|agreement2|coverage|all [--out FOLDER]
 //   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
-//   kurbel_bench agreement [--only NAME] [--jobs 2] [--out FOLDER]
+//   kurbel_bench agreement|agreement2 [--only NAME] [--jobs 2] [--out FOLDER]
 //   kurbel_bench coverage [--variants N] [--seed S] [--shard 1/8] [--jobs J] [--minutes M] [--budget SECONDS]
 //                         [--dump-ladder FILE.csv] [--print SCENE:SEED] [--out FOLDER]
 #include <algorithm>
@@ -63,10 +63,10 @@ int main(int argc, char** argv) {
     costs_of_steady_cycles();
   }
   if (wants("hard")) hard_cases(book, only, budget);
-  if (part == "agreement") {  // a minute or two of its own: not among all
+  if (part == "agreement" || part == "agreement2") {  // a minute or two of its own: not among all
     try {
       any = true;
-      agreement_of_verbs(book, only, jobs, folder);
+      agreement_of_verbs(book, part == "agreement2" ? 1 : 0, only, jobs, folder);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "kurbel_bench: %s\n", error.what());
       return 2;
@@ -84,10 +84,9 @@ int main(int argc, char** argv) {
     }
   }
   if (!any) {
-    std::fprintf(
-        stderr,
-        "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, agreement, "
-        "coverage or all\n");
+    std::fprintf(stderr,
+                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, agreement, "
+                 "agreement2, coverage or all\n");
     return 2;
   }
   std::fputs(book.text().c_str(), stdout);

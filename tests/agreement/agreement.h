@@ -35,9 +35,18 @@ enum class Topic {
   multipliers,
   energy,
   mean_torques,
-  sized_delta
+  sized_delta,
+  frequencies,
+  damping,
+  forced_orders,
+  forced_peaks,
+  linear_peaks,
+  crank_torque,
+  reactions,
+  advice
 };
-inline constexpr std::size_t topic_count = 11;
+inline constexpr std::size_t topic_count = 19;
+inline constexpr std::size_t first_of_modes = 11;  // from here on: swings (compare_modes)
 const char* name_of(Topic topic);
 
 struct Compared {
@@ -67,6 +76,24 @@ struct Questions {
 
 // Throws SceneError where the scene makes no machine.
 Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings = {});
+
+// `modes` against free and forced swings of the settled run (free_swing.h, forced_swing.h). No cells where nothing is
+// elastic. Frequencies and damping: the three lowest that swing, on either side, each against its nearest on the other;
+// forced_orders: amplitudes of every order of every joint's torque; forced_peaks: its mean, greatest and least value.
+Row compare_modes(const Scene& scene, const SettleSettings& settings = {});
+
+// `forces` against the rigid machine's settled run. crank_torque: greatest, least and mean torque on the crank against
+// that of the coupling that alone drives it; reactions: main bearing and slider pin of a slider-crank without friction
+// against Simbody's in the run's states. No cells where there is no such mechanism.
+Row compare_forces(const Scene& scene, const SettleSettings& settings = {});
+
+// `advise` against settled runs of what it recommends and of everything, with loads as they are and ± 20 %: figures of
+// the settled motion within the tolerance of the advice, or a warning with its size. No cell where it recommends
+// everything.
+Row compare_advice(const Scene& scene, double within, const SettleSettings& settings = {});
+
+// `modes`, `forces` and `advise` within 5 %, in one row.
+Row compare_second_half(const Scene& scene, const SettleSettings& settings = {});
 
 // Names of tests/agreement/*.toml, in alphabetic order. Templates are files of scenes/.
 std::vector<std::string> scene_files(const std::string& folder);

@@ -16,9 +16,11 @@ const char* name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 const char* name_of(Topic topic) {
-  static constexpr const char* names[topic_count] = {"mean speed", "mid speed",    "δ",         "period",
-                                                     "peaks",      "RMS",          "works",     "multipliers",
-                                                     "energy",     "mean torques", "δ as sized"};
+  static constexpr const char* names[topic_count] = {
+      "mean speed",   "mid speed",    "δ",           "period",        "peaks",
+      "RMS",          "works",        "multipliers", "energy",        "mean torques",
+      "δ as sized",   "frequencies",  "damping",     "forced orders", "forced peaks",
+      "linear peaks", "crank torque", "reactions",   "advice"};
   return names[static_cast<std::size_t>(topic)];
 }
 
@@ -33,6 +35,15 @@ const Compared* Row::cell(Topic topic) const {
     if (!worst || c.verdict > worst->verdict || (c.verdict == worst->verdict && excess(c) > excess(*worst))) worst = &c;
   }
   return worst;
+}
+
+Row compare_second_half(const Scene& scene, const SettleSettings& settings) {
+  Row row = compare_modes(scene, settings);
+  for (const Row& more : {compare_forces(scene, settings), compare_advice(scene, 0.05, settings)}) {
+    row.figures.insert(row.figures.end(), more.figures.begin(), more.figures.end());
+    row.cpu_seconds += more.cpu_seconds;
+  }
+  return row;
 }
 
 Totals totals_of(const std::vector<Row>& rows) {
