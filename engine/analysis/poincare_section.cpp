@@ -230,22 +230,26 @@ class PoincareSection::Maker {
 };
 
 PoincareSection::PoincareSection(Equations& equations, State state, const SectionOptions& options)
-    : state_(std::move(state)) {
+    : state_(std::move(state)), options_(options), link_(at(equations.model().reduction_angle)) {
   equations.bind(state_.modes);
   Maker(*this, equations, options);
 }
 
+void bind_beside(Equations& equations, const State& state, std::span<const double> y) {
+  constexpr double fallen = -1e-9;
+  equations.bind(state.modes);
+  std::vector<double> guards(equations.guard_count());
+  equations.guards(state.t, y, guards);
+  if (std::any_of(guards.begin(), guards.end(), [](double g) { return g < fallen; })) equations.modes_at(state.t, y);
+}
+
 std::vector<double> PoincareSection::place(Equations& equations, const Eigen::VectorXd& z) const {
-  equations.bind(state_.modes);
   std::vector<double> y = state_.y;
   for (Index j = 0; j < z.size(); ++j)
     if (z[j] != 0)
       for (std::size_t i = 0; i < y.size(); ++i) y[i] += directions_(row(i), j) * z[j];
   y.resize(equations.size(), 0.0);
-  std::vector<double> guards(equations.guard_count());
-  equations.guards(state_.t, y, guards);
-  constexpr double fallen = -1e-9;
-  if (std::any_of(guards.begin(), guards.end(), [](double g) { return g < fallen; })) equations.modes_at(state_.t, y);
+  bind_beside(equations, state_, y);
   return y;
 }
 
@@ -270,6 +274,17 @@ Eigen::MatrixXd PoincareSection::read_directions(const Eigen::MatrixXd& of_y) co
     for (const auto& [state, weight] : coordinates_[j].terms)
       z.row(row(j)) += weight / coordinates_[j].scale * of_y.row(row(state));
   return z;
+}
+
+// dT = −δφ/φ̇.
+Eigen::MatrixXd PoincareSection::read_at_end(Eigen::MatrixXd directions, std::span<const double> rate,
+                                             Eigen::RowVectorXd& slowing) const {
+  slowing = Eigen::RowVectorXd::Zero(directions.cols());
+  if (options_.by_angle) {
+    slowing = -directions.row(row(link_)) / rate[link_];
+    for (Index i = 0; i < directions.rows(); ++i) directions.row(i) += rate[static_cast<std::size_t>(i)] * slowing;
+  }
+  return read_directions(directions);
 }
 
 double PoincareSection::magnitude() const {

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,9 @@ struct SectionOptions {
   bool by_angle = true;                 // the section is the link at its angle; else a moment of time
   std::vector<char> sticks_throughout;  // per contact (contacts_of): its two sides never slip on the way round
 };
+
+// Binds a state's modes for y beside it; where a law's piece cannot hold there, those that do.
+void bind_beside(Equations& equations, const State& state, std::span<const double> y);
 
 class PoincareSection {
  public:
@@ -37,6 +41,11 @@ class PoincareSection {
   Eigen::VectorXd read(const Modes& modes, std::span<const double> y) const;
   const Eigen::MatrixXd& directions() const { return directions_; }    // D = ∂y/∂z, states × size
   Eigen::MatrixXd read_directions(const Eigen::MatrixXd& of_y) const;  // L · δy
+  // The same of directions that end here while y moves at this rate: a section of the link's angle is reached later or
+  // sooner by `slowing` [s].
+  Eigen::MatrixXd read_at_end(Eigen::MatrixXd directions, std::span<const double> rate,
+                              Eigen::RowVectorXd& slowing) const;
+  const SectionOptions& options() const { return options_; }
   bool is_angle(std::size_t coordinate) const { return coordinates_[coordinate].period > 0; }
   double magnitude() const;  // of the state itself, in the scales of z
   std::string name(const Equations& equations, std::size_t coordinate) const;
@@ -51,6 +60,8 @@ class PoincareSection {
   class Maker;
 
   State state_;
+  SectionOptions options_;
+  std::size_t link_;  // the reduction link's angle in y
   std::vector<Coordinate> coordinates_;
   Eigen::MatrixXd directions_;
 };

@@ -110,18 +110,6 @@ void ReturnMap::follow(const ReturnMap& other) {
   time_limit_ = other.time_limit_;
 }
 
-// On a section of the link's angle the round's end moves: dT = −δφ/φ̇.
-void ReturnMap::read_derivative(const Eigen::MatrixXd& directions, std::span<const double> rate, Image& image) const {
-  const Model& m = *shared_;
-  Eigen::MatrixXd end = directions;
-  image.slowing = Eigen::RowVectorXd::Zero(row(size()));
-  if (!periodicity_.by_time) {
-    image.slowing = -directions.row(row(at(m.reduction_angle))) / rate[at(m.reduction_angle)];
-    for (Eigen::Index i = 0; i < end.rows(); ++i) end.row(i) += rate[static_cast<std::size_t>(i)] * image.slowing;
-  }
-  image.derivative = section_->read_directions(end);
-}
-
 std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equations& equations,
                                                                             std::span<const double> y,
                                                                             double rounds) const {
@@ -201,7 +189,7 @@ ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative
   }
   std::vector<double> rate(equations_.size());
   equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);
-  read_derivative(sensitivities.matrix(outcome.state), rate, image);
+  image.derivative = section_->read_at_end(sensitivities.matrix(outcome.state), rate, image.slowing);
   image.grazed = sensitivities.grazed();
   return image;
 }

@@ -84,6 +84,9 @@ class ReturnMap {
   // Of a round with derivative, in rounds.
   double derivative_cost() const { return (variational_ ? 1.0 : 2.0) * static_cast<double>(size()) + 1; }
   double time_limit() const { return time_limit_; }
+  const ReturnMapOptions& options() const { return options_; }
+  // Derivatives come from variational equations with their jumps; else from differences.
+  bool variational() const { return variational_; }
 
  private:
   Image approach_as_given(double from);
@@ -91,7 +94,6 @@ class ReturnMap {
   void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);
   void differentiate(const Eigen::VectorXd& z, Image& image);
-  void read_derivative(const Eigen::MatrixXd& directions, std::span<const double> rate, Image& image) const;
   Image judge(const RunOutcome& outcome, double from, double link_begin, Equations& equations) const;
 
   std::shared_ptr<const Model> shared_;

@@ -7,14 +7,12 @@
 namespace kurbel {
 namespace {
 
-// Directions may be followed this much more loosely than the motion: their errors enter Newton's steps, not the result.
-constexpr double looser = 100;
 constexpr double difference_step = 1e-6;  // over the scale of a state, for guards
 
 }  // namespace
 
-Sensitivities::Sensitivities(Equations& equations, std::size_t columns)
-    : equations_(equations), states_(equations.size()), columns_(columns) {
+Sensitivities::Sensitivities(Equations& equations, std::size_t columns, double looser)
+    : equations_(equations), states_(equations.size()), columns_(columns), looser_(looser) {
   scale_ = equations.error_control(1).scale;
   values_.resize(equations.jacobian_pattern().row.size());
   flow_before_.resize(states_);
@@ -82,7 +80,7 @@ void Sensitivities::jacobian(double t, std::span<const double> y, std::span<doub
 
 ErrorControl Sensitivities::error_control(double tolerance) const {
   ErrorControl control{tolerance, scale_};
-  for (std::size_t i = 0; i < states_; ++i) control.scale.insert(control.scale.end(), columns_, looser * scale_[i]);
+  for (std::size_t i = 0; i < states_; ++i) control.scale.insert(control.scale.end(), columns_, looser_ * scale_[i]);
   return control;
 }
 

@@ -14,8 +14,9 @@ namespace kurbel {
 
 class Sensitivities final : public RunExtension {
  public:
-  // The equations carry no audit. columns: number of directions that are followed.
-  Sensitivities(Equations& equations, std::size_t columns);
+  // The equations carry no audit. columns: number of directions that are followed, this much more loosely than the
+  // motion: in Newton's steps their errors do not enter the result.
+  Sensitivities(Equations& equations, std::size_t columns, double looser = 100);
 
   // [ y | Y row by row ]; Y₀ = ∂y₀/∂z, states × columns.
   std::vector<double> start(std::span<const double> y, const Eigen::MatrixXd& first) const;
@@ -36,6 +37,7 @@ class Sensitivities final : public RunExtension {
  private:
   Equations& equations_;
   std::size_t states_, columns_;
+  double looser_;
   std::vector<double> scale_, values_, flow_before_, flow_after_, gradient_;
   double guard_rate_ = 0;
   bool grazed_ = false;

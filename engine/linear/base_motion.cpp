@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine/model/cycle_of.h"
@@ -34,8 +35,10 @@ BaseMotion::BaseMotion(std::shared_ptr<const Model> model, LinearisationPoint po
   for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
     const Network::Joint& joint = m_.network.joints[kurbel::at(m_.elastic[j].joint)];
     if (!joint.element->is.turns_unevenly) continue;
+    const std::size_t a = kurbel::at(joint.a);
     for (std::size_t i = 0; i < m_.angles.size(); ++i)
-      if (m_.angles[i].node == joint.a) turn_of_joint_[j] = static_cast<int>(i);
+      if (m_.angles[i].shaft == m_.shaft_of_node[a] && m_.angles[i].gain == m_.gain_of_node[a])
+        turn_of_joint_[j] = static_cast<int>(i);
   }
   choose_positions();
   take_modes();
@@ -65,10 +68,12 @@ void BaseMotion::choose_positions() {
     return;
   }
   const int n = point_.positions * (turns_ ? static_cast<int>(std::lround(cycle_ / two_pi)) : 1);
+  int stride = turns_ ? static_cast<int>(golden * n) : 1;  // every time once, in another order than the angles
+  while (std::gcd(stride, n) != 1) ++stride;
   for (int i = 0; i < n; ++i) {
     const double share = (i + 0.5) / n;  // off the round angles of load edges
-    const double spread = turns_ ? std::fmod((i + 0.5) * golden, 1.0) : share;
-    positions_.push_back({turns_ ? share * cycle_ : 0, spread * time_period_});
+    const auto turn = static_cast<int>(static_cast<long>(i) * stride % n);
+    positions_.push_back({turns_ ? share * cycle_ : 0, (turn + 0.5) / n * time_period_});
   }
 }
 

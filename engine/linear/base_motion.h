@@ -34,7 +34,7 @@ struct LinearisationPoint {
 };
 
 // Derivatives of Zᵀ I ω̇ and of ż by the states, averaged.
-struct MeanJacobian {
+struct MeanDerivatives {
   SparseMatrix torque_by_twist, torque_by_speed, torque_by_own;  // coordinates × joints, coordinates, own states
   SparseMatrix own_by_twist, own_by_speed, own_by_own;
   SparseMatrix torque_by_angle, own_by_angle;  // by the coordinates' angles; only with the link held at one
@@ -79,7 +79,7 @@ class BaseMotion {
   Residual residual_with_joints(const Position& position);
   // What a joint that turns unevenly is twisted there without load [rad]; 0 of others.
   double rest_twist(std::size_t joint, const Position& position);
-  MeanJacobian mean_jacobian();
+  MeanDerivatives mean_derivatives();
   Eigen::VectorXd mean_joint_torques();  // per elastic joint [N·m]
   bool has_spring(std::size_t joint) const;
 

@@ -119,7 +119,7 @@ class Lineariser {
   }
 
   void take_jacobian() {
-    MeanJacobian j = base_.mean_jacobian();
+    MeanDerivatives j = base_.mean_derivatives();
     const Index n = drive_.size();
     const SparseMatrix t = base_.twists();
     Eigen::VectorXd k(t.rows());

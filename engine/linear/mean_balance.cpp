@@ -40,7 +40,7 @@ VectorXd solved(const SparseMatrix& a, const VectorXd& right) {
 
 }  // namespace
 
-MeanJacobian BaseMotion::mean_jacobian() {
+MeanDerivatives BaseMotion::mean_derivatives() {
   const SparsityPattern& pattern = equations_.jacobian_pattern();
   std::vector<double> values(pattern.row.size()), sum(pattern.row.size(), 0.0);
   const std::size_t speeds = equations_.speed_index(0), twists = equations_.twist_index(0),
@@ -191,7 +191,7 @@ class BaseMotion::Balance {
 
   // Derivatives of the residual by [θ, α, z].
   SparseMatrix system() {
-    const MeanJacobian j = b_.mean_jacobian();
+    const MeanDerivatives j = b_.mean_derivatives();
     const auto springs = static_cast<int>(springs_.size()), free = static_cast<int>(free_.cols());
     std::vector<int> place(m_.elastic.size(), -1);
     for (int k = 0; k < springs; ++k) place[kurbel::at(springs_[kurbel::at(k)])] = k;

@@ -176,12 +176,20 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
 
 namespace {
 
+// What a joint dissipates at one frequency: by its damping, or with states of its own by all that it does.
+double dissipated(const LinearDrive& drive, std::size_t j, const FrequencyResponse::JointSwing& swing, double omega) {
+  if (drive.own_states() > 0 && drive.joint_by_own.row(static_cast<Index>(j)).norm() > 0)
+    return 0.5 * (swing.torque * std::conj(Complex(0, omega) * swing.twist)).real();
+  return 0.5 * drive.joints[j].damping * std::norm(omega * swing.twist);
+}
+
 // Counts what one frequency does to one joint.
-void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double omega, std::size_t harmonic) {
+void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double power, double omega,
+           std::size_t harmonic) {
   const double amplitude = std::abs(swing.torque);
   joint.amplitude_sum += amplitude;
   joint.rms += 0.5 * amplitude * amplitude;
-  joint.power += 0.5 * (swing.torque * std::conj(Complex(0, omega) * swing.twist)).real();
+  joint.power += power;
   if (amplitude <= joint.dominant_amplitude) return;
   joint.dominant_amplitude = amplitude;
   joint.dominant = harmonic;
@@ -206,7 +214,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     const auto swings = response.swings(omega, forcing);
     for (std::size_t j = 0; j < swings.size(); ++j) {
       result.orders[j][r] = swings[j].torque;
-      count(result.joints[j], swings[j], omega, r);
+      count(result.joints[j], swings[j], dissipated(drive, j, swings[j], omega), omega, r);
     }
   }
   std::vector<double> beside(drive.joints.size(), 0.0);
@@ -221,7 +229,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
       forcing.add(sources[i].kind, sources[i].index, sources[i].amplitude);
     const auto swings = response.swings(omega, forcing);
     for (std::size_t j = 0; j < swings.size(); ++j) {
-      count(result.joints[j], swings[j], omega, 0);
+      count(result.joints[j], swings[j], dissipated(drive, j, swings[j], omega), omega, 0);
       beside[j] += std::abs(swings[j].torque);
     }
   }

@@ -5,16 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/index.h"
+#include "engine/periodic/floquet.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int frozen_angles = 24;
+constexpr std::size_t most_states_of_exponents = 60;
+constexpr double told_of_mean = 0.01;     // of |λ|: an error of the mean that is worth a note
 constexpr Eigen::Index most_frozen = 60;  // coordinates
 
 // The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
@@ -120,6 +124,72 @@ void find_frozen_range(int count, ModesStudy& found) {
       springs[k]->greatest = std::max(springs[k]->greatest, held.omega[place]);
     }
   }
+}
+
+void find_exponents(const Regime& regime, ModesStudy& found) {
+  const Model& m = *found.drive.model;
+  const bool varies = std::any_of(m.network.elements.begin(), m.network.elements.end(),
+                                  [](const Network::ShaftElement& e) { return e.element->is.uses_angle; }) ||
+                      std::any_of(m.elastic.begin(), m.elastic.end(), [&](const ElasticJoint& e) {
+                        return m.network.joints[at(e.joint)].element->is.uses_angle;
+                      });
+  if (!varies || m.state_count() > most_states_of_exponents) return;
+  const FloquetSpectrum spectrum = floquet_exponents(*regime.map, regime.point.z);
+  if (!spectrum.found()) {
+    found.notes.push_back("no exponents of the periodic system beside the modes of the mean: " + spectrum.why);
+    return;
+  }
+  std::vector<char> used(spectrum.exponents.size(), 0);
+  double worst = 0;
+  const Mode* of = nullptr;
+  for (Mode& mode : found.modes) {
+    if (!(mode.lambda.imag() > 0)) continue;
+    double nearest = HUGE_VAL;
+    std::size_t which = 0;
+    for (std::size_t i = 0; i < spectrum.exponents.size(); ++i) {
+      const FloquetExponent& e = spectrum.exponents[i];
+      const double off = std::abs(e.exponent - mode.lambda);
+      if (!used[i] && e.exponent.imag() > 0 && off < nearest) nearest = off, which = i;
+    }
+    if (!(nearest < 0.5 * std::abs(mode.lambda))) continue;
+    used[which] = 1;
+    mode.periodic = spectrum.exponents[which].exponent;
+    mode.periodic_error = spectrum.exponents[which].error;
+    if (nearest / std::abs(mode.lambda) > worst) worst = nearest / std::abs(mode.lambda), of = &mode;
+  }
+  if (of && worst > told_of_mean)
+    found.notes.push_back(fmt::format(
+        "coefficients change with the angle: by the exponents of the periodic system mode {} swings at {:.6g} Hz with "
+        "ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
+        of->number, of->periodic->imag() / (2 * pi), -of->periodic->real() / std::abs(*of->periodic),
+        of->lambda.imag() / (2 * pi), of->ratio));
+}
+
+void note_changes(const CycleSamples& samples, ModesStudy& found) {
+  std::map<std::string, int> changes;
+  for (const Event& event : samples.events) switch (event.kind) {
+      case EventKind::rest:
+      case EventKind::held:
+      case EventKind::motion:
+      case EventKind::lock:
+      case EventKind::slip:
+      case EventKind::flight:
+      case EventKind::touch:
+      case EventKind::impact:
+        ++changes[event.component];
+        break;
+      default:
+        break;
+    }
+  if (changes.empty()) return;
+  std::string list;
+  for (const auto& [component, count] : changes)
+    list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", component, count);
+  found.notes.push_back(
+      fmt::format("within a round of the steady motion contacts change: {}. Modes and forced response have them as "
+                  "they are at {:.4g}° "
+                  "of {}; what the joints do in the steady motion is that of the full equations",
+                  list, samples.link_angle * 180 / pi, found.link));
 }
 
 // Joints whose pieces change within the round, with the linear spring that does most nearly the same there.

@@ -9,6 +9,10 @@ namespace kurbel {
 void list_modes(int count, ModesStudy& found);
 // Fills `least` and `greatest` of the modes with the link held at angles all over the cycle.
 void find_frozen_range(int count, ModesStudy& found);
+// Fills `periodic` of the modes of a small machine: exponents of the motions beside the cycle that belong to them.
+void find_exponents(const Regime& regime, ModesStudy& found);
+// Notes contacts that lock and slip, touch and part within the round: the linear machine has them one way.
+void note_changes(const CycleSamples& samples, ModesStudy& found);
 // Fills `rattles`: joints whose law changes its piece within the round.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found);
 

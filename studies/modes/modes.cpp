@@ -44,7 +44,11 @@ class Study {
     name_parts();
     list_modes(options_.count, found_);
     if (!options_.angle) find_frozen_range(options_.count, found_);
-    if (samples_ && !options_.speed) find_rattles(*samples_, options_.count, found_);
+    if (samples_ && !options_.speed) {
+      note_changes(*samples_, found_);
+      find_rattles(*samples_, options_.count, found_);
+    }
+    if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, found_);
     choose_range();
     say("excitation", 0.15);
     find_forcing();
@@ -112,7 +116,7 @@ class Study {
     look_for_regime();
     found_.regime = regime_->words;
     try {
-      if (regime_->repeats() && std::abs(regime_->point.time) > 0) samples_ = sample_cycle(*regime_, cycle_samples);
+      if (regime_->repeats() && regime_->point.time > 0) samples_ = sample_cycle(*regime_, cycle_samples);
     } catch (const std::invalid_argument& refused) {
       found_.regime = refused.what();
     }
@@ -315,7 +319,13 @@ class Study {
   }
 
   void add_history() {
-    found_.history = simulate_torque(*model_, effects_, found_.modes.back().omega, options_);
+    Watch watch = options_.watch;
+    watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
+    found_.history = simulate_torque(scene_, effects_,
+                                     {.torque = options_.torque,
+                                      .link = model_->network.nodes[at(model_->reduction_node)].component,
+                                      .highest = found_.modes.back().natural(),
+                                      .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false;
     found_.diagnosis = found_.history->diagnosis;

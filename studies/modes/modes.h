@@ -21,8 +21,7 @@
 #include "studies/limits/barred_ranges.h"
 #include "studies/limits/verdicts.h"
 #include "studies/modes/forced_response.h"
-#include "studies/modes/rainflow.h"
-#include "studies/modes/spectrum.h"
+#include "studies/modes/torque_history.h"
 
 namespace kurbel {
 
@@ -50,6 +49,9 @@ struct Mode {
   bool of_own_states = false;   // it swings by the states of elements: it has no undamped mode that it grows out of
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
+  // Of the periodic system, where coefficients change with the angle: what the mean leaves out is the difference to λ.
+  std::optional<std::complex<double>> periodic = {};
+  double periodic_error = 0;                                                       // [1/s]
   double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
 };
 
@@ -77,18 +79,6 @@ struct ParametricZone {
   double centre = 0;      // 2 ω/r [rad/s]
   double variation = 0;   // ε
   double half_width = 0;  // relative; 0: damping keeps it closed
-};
-
-struct TorqueHistory {
-  std::string component;  // whose torque it is
-  std::string channel;
-  std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
-  AmplitudeSpectrum spectrum, orders;
-  std::vector<WaterfallLine> lines;
-  std::vector<LoadCycle> cycles;
-  double greatest = 0, least = 0;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 struct ModesStudy {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/modes/modes_plots.h"
 
@@ -72,6 +73,13 @@ std::string damped_text(const Mode& m) {
   return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(8)) : "does not swing";
 }
 
+// Of the periodic system: damped frequency and damping ratio.
+std::string periodic_text(const Mode& m) {
+  if (!m.periodic) return "—";
+  return fmt::format("{}, {}", read_as(hertz(m.periodic->imag()), digits(6)),
+                     read_as(-m.periodic->real() / std::abs(*m.periodic), digits(4)));
+}
+
 Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
   table.always().text_in(1, 0);
@@ -100,6 +108,13 @@ Rows mode_table(const ModesStudy& m) {
       return mode.of_own_states ? std::string("—")
                                 : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
     });
+  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.periodic.has_value(); })) {
+    table.only_for_people("periodic system [Hz], ζ", periodic_text);
+    table.only_for_programs("periodic", [](const Mode& mode) {
+      const std::complex<double> s = mode.periodic.value_or(std::nan(""));
+      return Record{{"real", s.real()}, {"imaginary", s.imag()}, {"error", mode.periodic_error}};
+    });
+  }
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",
@@ -191,8 +206,10 @@ Rows rainflow_table(const TorqueHistory& h) {
     }
   }
   return table_of("", "Rainflow count (ASTM E1049)", std::move(list))
-      .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = 5: {}",
-                          h.channel, torque_text(equivalent_amplitude(h.cycles, 5))))
+      .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = {:g}: {}; "
+                          "ranges up to {} are not told from none",
+                          h.channel, load_exponent, with_error(h.equivalent_amplitude, h.equivalent_error, "N*m"),
+                          torque_text(h.resolution)))
       .text_in(0)
       .always()
       .only_for_people("range from [N·m]", &LoadClass::from, digits(5))
@@ -201,6 +218,19 @@ Rows rainflow_table(const TorqueHistory& h) {
       .only_for_people("mean [N·m]", [](const LoadClass& c) {
         return c.count > 0 ? read_as(c.sum / c.count, digits(5)) : std::string("—");
       });
+}
+
+// Sines in the simulated torque; `of` is Hz or an order.
+Rows spectral_table(const TorqueHistory& h, const char* key, const char* of, const std::vector<SpectralLine>& lines) {
+  const auto error = [&h](const SpectralLine& l) {
+    return h.run_error ? std::optional(l.amplitude_error) : std::nullopt;
+  };
+  return table_of("", fmt::format("Strongest lines of the simulated {} over {}", h.channel, of), lines)
+      .headed(fmt::format("strongest lines of the simulated {} over {}", h.channel, of))
+      .text_in(0)
+      .only_for_people(key, [](const SpectralLine& l) { return with_error(l.frequency, l.frequency_error, ""); })
+      .only_for_people("amplitude",
+                       [error](const SpectralLine& l) { return with_error(l.amplitude, error(l), "N*m"); });
 }
 
 std::string point_text(const ModesStudy& m) {
@@ -233,11 +263,25 @@ List joint_list(const ModesStudy& m) {
   });
 }
 
+List spectral_list(const TorqueHistory& h, const char* key, const std::vector<SpectralLine>& lines) {
+  return each(lines, [&](const SpectralLine& l) {
+    return Record{{key, l.frequency},
+                  {"error", l.frequency_error},
+                  {"amplitude", l.amplitude},
+                  {"amplitude_error", h.run_error ? std::optional(l.amplitude_error) : std::nullopt}};
+  });
+}
+
 Record history_record(const TorqueHistory& h) {
   return {{"channel", h.channel},
           {"greatest", h.greatest},
+          {"greatest_error", h.greatest_error},
           {"least", h.least},
-          {"equivalent_amplitude", equivalent_amplitude(h.cycles, 5)}};
+          {"least_error", h.least_error},
+          {"equivalent_amplitude", h.equivalent_amplitude},
+          {"equivalent_amplitude_error", h.equivalent_error},
+          {"strongest_lines", spectral_list(h, "frequency", h.strongest)},
+          {"strongest_orders", spectral_list(h, "order", h.strongest_orders)}};
 }
 
 std::string shapes_csv(const ModesStudy& m) {
@@ -328,6 +372,13 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
   if (!m.history) return;
   const TorqueHistory& h = *m.history;
   if (!h.lines.empty()) f.draw(in, [&] { return history_plots(m, h); });
+  f.say(in, Sentences{.lines = {fmt::format("simulated {}: from {} to {}", h.channel,
+                                            with_error(h.least, h.least_error, "N*m"),
+                                            with_error(h.greatest, h.greatest_error, "N*m"))},
+                      .indent = "  ",
+                      .apart = true});
+  if (!h.strongest.empty()) f.say(in, spectral_table(h, "frequency [Hz]", "frequency", h.strongest));
+  if (!h.strongest_orders.empty()) f.say(in, spectral_table(h, "order", "orders", h.strongest_orders));
   Rows rainflow = rainflow_table(h);
   rainflow.page = !h.lines.empty();
   f.say(in, std::move(rainflow));

@@ -7,14 +7,13 @@
 namespace kurbel {
 namespace {
 
-std::vector<double> reversals(const std::vector<double>& history) {
+std::vector<double> reversals(const std::vector<double>& history, double least) {
   std::vector<double> turns;
   for (const double x : history) {
-    if (!turns.empty() && x == turns.back()) continue;
     const std::size_t n = turns.size();
     if (n >= 2 && (turns[n - 1] - turns[n - 2]) * (x - turns[n - 1]) > 0)
       turns.back() = x;
-    else
+    else if (n == 0 || std::abs(x - turns.back()) > least)
       turns.push_back(x);
   }
   return turns;
@@ -24,10 +23,10 @@ LoadCycle cycle(double a, double b, double count) { return {std::abs(a - b), 0.5
 
 }  // namespace
 
-std::vector<LoadCycle> rainflow(const std::vector<double>& history) {
+std::vector<LoadCycle> rainflow(const std::vector<double>& history, double least) {
   std::vector<LoadCycle> found;
   std::deque<double> points;
-  for (const double x : reversals(history)) {
+  for (const double x : reversals(history, least)) {
     points.push_back(x);
     while (points.size() >= 3) {
       const std::size_t n = points.size();

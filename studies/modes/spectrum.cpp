@@ -12,6 +12,28 @@
 #include "studies/modes/excitation.h"
 
 namespace kurbel {
+namespace {
+
+// A sine near a spectrum's k-th line, which is higher than its neighbours.
+SpectralLine located(const AmplitudeSpectrum& s, std::size_t k) {
+  const double before = s.amplitude[k - 1], here = s.amplitude[k], after = s.amplitude[k + 1];
+  const double sense = after >= before ? 1 : -1, ratio = std::max(before, after) / here;
+  const double delta = (2 * ratio - 1) / (1 + ratio), x = std::numbers::pi * delta;
+  const double gain = std::abs(delta) < 1e-9 ? 1 : std::sin(x) / (x * (1 - delta * delta));
+  return {.frequency = (static_cast<double>(k) + sense * delta) * s.resolution, .amplitude = here / gain};
+}
+
+// By amplitude; what lies within two lines of 0 is the mean's.
+std::vector<SpectralLine> lines_in(const AmplitudeSpectrum& s) {
+  std::vector<SpectralLine> lines;
+  for (std::size_t k = 2; k + 1 < s.amplitude.size(); ++k)
+    if (s.amplitude[k] > s.amplitude[k - 1] && s.amplitude[k] >= s.amplitude[k + 1]) lines.push_back(located(s, k));
+  std::sort(lines.begin(), lines.end(),
+            [](const SpectralLine& a, const SpectralLine& b) { return a.amplitude > b.amplitude; });
+  return lines;
+}
+
+}  // namespace
 
 AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step) {
   if (values.size() < 16 || !(step > 0))
@@ -38,6 +60,31 @@ AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step) {
     spectrum.amplitude.push_back(std::abs(lines[r]));
   }
   return spectrum;
+}
+
+std::vector<SpectralLine> strongest_lines(const std::vector<double>& values, double step, std::size_t count) {
+  if (values.size() < 32) return {};
+  const AmplitudeSpectrum whole = spectrum_of(values, step);
+  std::vector<SpectralLine> lines = lines_in(whole);
+  if (lines.size() > count) lines.resize(count);
+  const auto half = static_cast<std::ptrdiff_t>(std::lround(0.5 / (whole.resolution * step)));
+  for (const std::ptrdiff_t back : {half, half + half / 2, 2 * half})
+    widen_errors(lines, spectrum_of({values.end() - back, values.end() - back + half}, step));
+  return lines;
+}
+
+void widen_errors(std::vector<SpectralLine>& lines, const AmplitudeSpectrum& other) {
+  const std::vector<SpectralLine> found = lines_in(other);
+  for (SpectralLine& line : lines) {
+    const auto distance = [&](const SpectralLine& l) { return std::abs(l.frequency - line.frequency); };
+    const auto nearest =
+        std::min_element(found.begin(), found.end(),
+                         [&](const SpectralLine& a, const SpectralLine& b) { return distance(a) < distance(b); });
+    const bool known = nearest != found.end() && distance(*nearest) <= 2 * other.resolution;
+    const double apart = known ? std::abs(nearest->amplitude - line.amplitude) : line.amplitude;
+    line.frequency_error = std::max(line.frequency_error, 2 * (known ? distance(*nearest) : other.resolution));
+    line.amplitude_error = std::max(line.amplitude_error, std::min(2 * apart, line.amplitude));
+  }
 }
 
 std::vector<double> resampled_over_angle(const std::vector<double>& angle, const std::vector<double>& values,

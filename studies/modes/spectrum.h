@@ -17,6 +17,24 @@ struct AmplitudeSpectrum {
 // std::invalid_argument for fewer than 16 values or a step that is not > 0.
 AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step);
 
+// A sine among the values, located between the lines of Hann's window (theory 15.3), which gives two of them the ratio
+//     |X_(k+1)|/|X_k| = (1 + δ)/(2 − δ),   |X_k| = A sin(πδ)/(πδ (1 − δ²))
+// where it lies δ lines above the k-th, alone. What another sine, a decay or a change of frequency does to it is seen in
+// three windows half as long, the first half of the whole, its middle and its last: twice the greatest difference is the
+// error, for they may happen to see none of it.
+struct SpectralLine {
+  double frequency = 0, frequency_error = 0;  // [Hz], or orders
+  double amplitude = 0, amplitude_error = 0;  // in the values' unit
+};
+
+// The strongest ones, the strongest first; none of fewer than 32 values. A line's greatest amplitude alone would lack up
+// to 15 % of a sine between two lines.
+std::vector<SpectralLine> strongest_lines(const std::vector<double>& values, double step, std::size_t count);
+
+// Errors at least twice the distances to what another spectrum of the same has there: all of the amplitude where that
+// has nothing.
+void widen_errors(std::vector<SpectralLine>& lines, const AmplitudeSpectrum& other);
+
 // The same quantity, sampled at equal steps of the angle by cubic interpolation, while the angle grows.
 std::vector<double> resampled_over_angle(const std::vector<double>& angle, const std::vector<double>& values,
                                          double step);

@@ -4,31 +4,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/numerics/index.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::size_t lines_told = 6;
 
-SimulateOptions simulate_options(const ModesOptions& asked) {
-  SimulateOptions options;
-  options.measure_error = false;
-  options.watch = asked.watch;
-  options.watch.progress = [&asked](const std::string& what, double f) { asked.watch.at(what, 0.8 + 0.2 * f); };
-  return options;
-}
-
-// Enough samples for twice the highest frequency [rad/s], within reason.
-Scene recorded(Scene scene, double highest, const std::string& component, const std::string& link) {
-  const double wanted = std::clamp(5 * (highest / (2 * pi)) * scene.run.until, 4096.0, 131072.0);
-  scene.run.samples = static_cast<int>(wanted);
+// Twenty samples a period of the highest frequency [rad/s], within reason.
+Scene recorded(Scene scene, const HistoryWanted& wanted, const std::string& component) {
+  const double samples = std::clamp(20 * (wanted.highest / (2 * pi)) * scene.run.until, 4096.0, 131072.0);
+  scene.run.samples = static_cast<int>(samples);
   scene.run.output = {component};
-  if (link != component) scene.run.output.push_back(link);
+  if (wanted.link != component) scene.run.output.push_back(wanted.link);
   return scene;
 }
 
@@ -45,46 +38,125 @@ std::vector<double> column(const TrajectoryRecorder& t, const std::vector<Name>&
       "--torque {}: the component carries no torque that is recorded; give a coupling, shaft, motor or load", asked));
 }
 
+// Every second one, the last among them.
+std::vector<double> every_second(const std::vector<double>& values) {
+  std::vector<double> thinned;
+  for (std::size_t i = (values.size() + 1) % 2; i < values.size(); i += 2) thinned.push_back(values[i]);
+  return thinned;
+}
+
+// How far a smooth quantity may rise between the samples about its greatest (sense = 1) or least one (−1): the parabola
+// through three has its vertex within half a step of the middle one, |second difference|/8 away at most.
+double hidden(const std::vector<double>& values, double sense) {
+  const auto less = [sense](double a, double b) { return sense * a < sense * b; };
+  const auto i = static_cast<std::size_t>(std::max_element(values.begin(), values.end(), less) - values.begin());
+  if (i == 0 || i + 1 == values.size()) return 0;
+  return std::abs(values[i - 1] - 2 * values[i] + values[i + 1]) / 8;
+}
+
+std::optional<double> sum(const std::optional<double>& run_error, double own) {
+  return run_error ? std::optional(*run_error + own) : std::nullopt;
+}
+
+// The run locates its peak on the continuous solution; the other extreme is that of the samples.
+void find_extremes(TorqueHistory& h, const Figure* peak) {
+  const auto [low, high] = std::minmax_element(h.value.begin(), h.value.end());
+  h.greatest = *high;
+  h.least = *low;
+  h.greatest_error = sum(h.run_error, hidden(h.value, 1));
+  h.least_error = sum(h.run_error, hidden(h.value, -1));
+  if (!peak) return;
+  // What comes later and is larger by rounding is the same peak.
+  const double most = std::abs(peak->value);
+  h.greatest = std::min(h.greatest, most);
+  h.least = std::max(h.least, -most);
+  (peak->value > 0 ? h.greatest : h.least) = peak->value;
+  (peak->value > 0 ? h.greatest_error : h.least_error) = peak->error;
+}
+
+// Closed load cycles of the samples, and of the peak between them.
+std::vector<LoadCycle> cycles_of(const TorqueHistory& h, const std::vector<double>& values, const Figure* peak) {
+  std::vector<double> loads = values;
+  if (peak && peak->at && h.time.back() > h.time.front()) {
+    const double place = (*peak->at - h.time.front()) / (h.time.back() - h.time.front());
+    const double after = std::ceil(std::clamp(place, 0.0, 1.0) * static_cast<double>(loads.size() - 1));
+    loads.insert(loads.begin() + static_cast<std::ptrdiff_t>(after), peak->value);
+  }
+  std::vector<LoadCycle> cycles = rainflow(loads, h.resolution);
+  std::sort(cycles.begin(), cycles.end(), [](const LoadCycle& a, const LoadCycle& b) { return a.range > b.range; });
+  return cycles;
+}
+
+void count_cycles(TorqueHistory& h, const Figure* peak) {
+  h.cycles = cycles_of(h, h.value, peak);
+  h.equivalent_amplitude = equivalent_amplitude(h.cycles, load_exponent);
+  const double coarse = equivalent_amplitude(cycles_of(h, every_second(h.value), peak), load_exponent);
+  h.equivalent_error = sum(h.run_error, 2 * std::abs(h.equivalent_amplitude - coarse));
+}
+
+std::vector<double> over_turns(std::vector<double> angle, const std::vector<double>& values, double turns) {
+  if (angle.back() < angle.front())
+    for (double& a : angle) a = -a;
+  return resampled_over_angle(angle, values, 2 * pi * turns);
+}
+
+// Orders of the link's turn; what half as many samples give counts as error, too.
+void find_orders(TorqueHistory& h) {
+  constexpr double turns = 1.0 / 64;
+  const std::vector<double> resampled = over_turns(h.angle, h.value, turns);
+  if (resampled.size() < 16) return;
+  h.orders = spectrum_of(resampled, turns);
+  h.strongest_orders = strongest_lines(resampled, turns, lines_told);
+  const std::vector<double> coarse = over_turns(every_second(h.angle), every_second(h.value), turns);
+  if (coarse.size() < 16) return;
+  widen_errors(h.strongest_orders, spectrum_of(coarse, turns));
+}
+
 // Frequencies over the whole run and along it, orders over the link's turns, closed load cycles by their range.
-void take_apart(TorqueHistory& history) {
-  const double step = (history.time.back() - history.time.front()) / static_cast<double>(history.time.size() - 1);
-  history.spectrum = spectrum_of(history.value, step);
-  history.lines = waterfall(history.time, history.speed, history.value, 12);
-  const double turns = 1.0 / 64;
-  std::vector<double> forwards = history.angle;
-  if (forwards.back() < forwards.front())
-    for (double& a : forwards) a = -a;
-  const std::vector<double> resampled = resampled_over_angle(forwards, history.value, 2 * pi * turns);
-  if (resampled.size() >= 16) history.orders = spectrum_of(resampled, turns);
-  history.cycles = rainflow(history.value);
-  std::sort(history.cycles.begin(), history.cycles.end(),
-            [](const LoadCycle& a, const LoadCycle& b) { return a.range > b.range; });
-  history.greatest = *std::max_element(history.value.begin(), history.value.end());
-  history.least = *std::min_element(history.value.begin(), history.value.end());
+void take_apart(TorqueHistory& h, const Figure* peak) {
+  const double step = (h.time.back() - h.time.front()) / static_cast<double>(h.time.size() - 1);
+  find_extremes(h, peak);
+  h.spectrum = spectrum_of(h.value, step);
+  h.strongest = strongest_lines(h.value, step, lines_told);
+  widen_errors(h.strongest, spectrum_of(every_second(h.value), 2 * step));
+  h.lines = waterfall(h.time, h.speed, h.value, 12);
+  find_orders(h);
+  count_cycles(h, peak);
 }
 
 }  // namespace
 
-TorqueHistory simulate_torque(const Model& model, const Effects& effects, double highest, const ModesOptions& options) {
-  const std::string component = options.torque.substr(0, options.torque.find('.'));
-  if (!model.scene.find(component))
-    throw std::invalid_argument(fmt::format("--torque {}: no such component in the scene", options.torque));
-  const std::string link = model.network.nodes[at(model.reduction_node)].component;
-  const Result result =
-      simulate(recorded(model.scene, highest, component, link), effects, "elastic", simulate_options(options));
+TorqueHistory simulate_torque(const Scene& scene, const Effects& effects, const HistoryWanted& wanted) {
+  const std::string component = wanted.torque.substr(0, wanted.torque.find('.'));
+  if (!scene.find(component))
+    throw std::invalid_argument(fmt::format("--torque {}: no such component in the scene", wanted.torque));
+  SimulateOptions options;
+  options.watch = wanted.watch;
+  const Result result = simulate(recorded(scene, wanted, component), effects, "elastic", options);
   const auto samples = [&](QuantityKind what, const std::string& of, const std::string& part) {
-    return column(*result.trajectory, {Name::make(what, of), Name::make(what, of + part)}, options.torque);
+    return column(*result.trajectory, {Name::make(what, of), Name::make(what, of + part)}, wanted.torque);
   };
   TorqueHistory history;
-  history.component = options.torque;
-  history.channel = Name::make(QuantityKind::torque, options.torque).text;
+  history.component = wanted.torque;
+  history.channel = Name::make(QuantityKind::torque, wanted.torque).text;
   history.time = result.trajectory->time();
-  history.value = samples(QuantityKind::torque, options.torque, ".1");
-  history.speed = samples(QuantityKind::speed, link, ".in");
-  history.angle = samples(QuantityKind::angle, link, ".in");
+  history.value = samples(QuantityKind::torque, wanted.torque, ".1");
+  history.speed = samples(QuantityKind::speed, wanted.link, ".in");
+  history.angle = samples(QuantityKind::angle, wanted.link, ".in");
   history.complete = result.complete;
   history.diagnosis = result.diagnosis;
-  if (history.time.size() >= 64) take_apart(history);
+  const Figure* peak = result.find(QuantityKind::peak_torque, wanted.torque);
+  if (!peak) peak = result.find(QuantityKind::peak_torque, wanted.torque + ".1");
+  double largest = 0;
+  for (const double v : history.value) largest = std::max(largest, std::abs(v));
+  if (peak)
+    history.run_error = peak->error;
+  else if (result.errors_measured)
+    history.run_error = result.measured_accuracy * largest;
+  history.resolution = 2 * history.run_error.value_or(result.accuracy * largest);
+  if (history.time.size() >= 64) take_apart(history, peak);
+  for (auto* lines : {&history.strongest, &history.strongest_orders})
+    for (SpectralLine& line : *lines) line.amplitude_error += 2 * history.run_error.value_or(0);
   return history;
 }
 
