@@ -35,11 +35,15 @@ CommonPeriod common_period(const std::vector<double>& periods) {
   return none;
 }
 
-// The shortest multiple of a turn after which every element that depends on an angle is back.
+// The shortest multiple of a turn after which every element and joint that depends on an angle is back.
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period = {turn};
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
+  for (const ElasticJoint& e : m.elastic) {
+    const Network::Joint& joint = m.network.joints[at(e.joint)];
+    if (joint.element->is.uses_angle) period.push_back(turn / m.scale_ratio[at(joint.a)]);
+  }
   if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true};
   return {m.cycle > 0 ? m.cycle : turn, false};
 }

@@ -43,6 +43,7 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
 
 Use by_rule(const LimitedJoint& joint, const JointLoad& load, double factor) {
   const double mean = std::abs(load.mean.value);
+  if (joint.stands) return {0, HUGE_VAL, ""};
   return {load.swing.value, factor * std::max(mean, joint.rated),
           fmt::format("{:g} × {} torque", factor, mean > joint.rated ? "mean" : "rated")};
 }

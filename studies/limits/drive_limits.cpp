@@ -40,6 +40,7 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     const Network::Joint& joint = model.network.joints[at(e.joint)];
     LimitedJoint one{.name = joint.component, .component = joint.component, .joint = e.joint};
     if (total[joint.component] > 1) one.name += fmt::format(".{}", ++seen[joint.component]);
+    one.stands = model.node_ratio[at(joint.a)] == 0;
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.loss_account = e.loss_account;
     if (const Section* s = model.scene.find(joint.component)) {

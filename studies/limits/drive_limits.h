@@ -21,6 +21,7 @@ struct LimitedJoint {
   std::string name;  // of its component; numbered where that has several: "shaft.2"
   std::string component;
   int joint = 0;          // in the network
+  bool stands = false;    // it holds what does not turn, a housing: the drive's rated torque says nothing of it
   double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
   bool has_play = false;  // backlash is stated: where its torque changes sign, it hammers
   int loss_account = -1;  // of what its damping takes; −1: none

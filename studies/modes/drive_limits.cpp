@@ -31,23 +31,18 @@ std::vector<Passing> passing_of(const ModesStudy& found) {
   return passing;
 }
 
-// Between two samples the torque rises by no more than an eighth of its second difference, where that stands for it.
-Measured largest_of_samples(const TorqueHistory& h) {
-  std::size_t most = 0;
-  for (std::size_t k = 0; k < h.value.size(); ++k)
-    if (std::abs(h.value[k]) > std::abs(h.value[most])) most = k;
-  if (most == 0 || most + 1 >= h.value.size()) return {std::abs(h.value[most]), 0};
-  return {std::abs(h.value[most]), std::abs(h.value[most - 1] - 2 * h.value[most] + h.value[most + 1]) / 8};
-}
-
 void judge_history(ModesStudy& found) {
   if (!found.history || found.history->value.empty()) return;
+  const TorqueHistory& h = *found.history;
+  const bool below = -h.least > h.greatest;
   for (const LimitedJoint& joint : found.limited) {
-    if (joint.name != found.history->component || !(joint.limits.maximum > 0)) continue;
-    const Measured most = largest_of_samples(*found.history);
-    const double factor = joint.limits.temperature_factor;
-    found.verdicts.push_back({joint.name, "maximum torque of the simulated run: S_t |T| ≤ T_Kmax", factor * most.value,
-                              joint.limits.maximum, "N*m", "of the samples", factor * most.error});
+    if (joint.name != h.component || !(joint.limits.maximum > 0)) continue;
+    // Without an error the run was not confirmed, and nothing is decided by it.
+    const double factor = joint.limits.temperature_factor, most = below ? -h.least : h.greatest;
+    const double error = (below ? h.least_error : h.greatest_error).value_or(std::nan(""));
+    found.verdicts.push_back({joint.name, "maximum torque of the simulated run: S_t |T| ≤ T_Kmax", factor * most,
+                              joint.limits.maximum, "N*m", std::isnan(error) ? "of a run that was not confirmed" : "",
+                              factor * error});
   }
 }
 

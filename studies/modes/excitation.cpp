@@ -17,7 +17,7 @@ namespace kurbel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::size_t many_shafts = 500, time_samples = 2048;
+constexpr std::size_t many_shafts = 500, time_samples = 2048, most_samples = 65536;
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
 constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
@@ -141,7 +141,9 @@ class Search {
     found_.harmonics = static_cast<std::size_t>(std::max(1.0, std::floor(highest_order_ / found_.fundamental + 1e-9)));
     found_.speed = drive_.at.speed;
     samples_ = m_.shafts.size() > many_shafts ? 1024 : 4096;
-    while (samples_ < 8 * found_.harmonics) samples_ *= 2;
+    const double turns = cycle.angle / (2 * pi);
+    while (samples_ < 8 * found_.harmonics || (samples_ < most_samples && static_cast<double>(samples_) < 1024 * turns))
+      samples_ *= 2;
     const bool stands = drive_.at.regime && drive_.at.regime->speed == 0;
     if (base.turns() && !stands) find_orders(base, cycle.periodic);
     if (base.time_period() > 0) find_frequencies(base);

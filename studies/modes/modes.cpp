@@ -91,12 +91,27 @@ class Study {
     if (rest_ && !options_.speed) point.regime = rest_;
     if (!options_.speed && !point.regime) point.speed = balanced_or_usual_speed();
     BaseMotion base(model_, point);
+    if (!point.regime && base.equations().has_followers())
+      throw std::invalid_argument(
+          "its own start leads to no motion that repeats, and a joint with clearance or a rod that bends has no small "
+          "motions about any other: leave those effects out, e.g. --effects elasticity, or look at kurbel run");
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
+    if (regime_->kind == Regime::Kind::equilibrium) take_swings_away(*found_.cycle);
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
+  }
+
+  // In an equilibrium nothing swings: what samples tell of it is rounding.
+  static void take_swings_away(SpeedResponse& response) {
+    for (JointResponse& joint : response.joints) {
+      JointResponse still;
+      still.mean = still.upper = still.lower = joint.mean;
+      joint = still;
+    }
+    for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
   }
 
   void look_for_regime() {

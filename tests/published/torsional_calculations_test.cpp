@@ -269,7 +269,7 @@ std::vector<double> Crankshaft::sums_of_amplitudes(double n) const {
 
 ModesStudy crankshaft_study(const Crankshaft& shaft, double n) {
   const Scene scene = test::scene_from(shaft.scene(n));
-  return find_modes(scene, scene.effects, {.slowest = 0.999 * n * rpm, .fastest = 1.001 * n * rpm, .orders = 12});
+  return find_modes(scene, scene.effects, {.speed = n * rpm, .slowest = 0.999 * n * rpm, .fastest = 1.001 * n * rpm, .orders = 12});
 }
 
 class DieselCrankshaft : public ::testing::TestWithParam<double> {};
