@@ -24,6 +24,22 @@ std::string joined_words(const std::vector<std::string>& words) {
   return text;
 }
 
+bool on_in(const Scene& scene, const EffectUnit& unit) {
+  if (unit.name.starts_with(elasticity)) return scene.effects.is_elastic(unit.name.substr(elasticity.size()));
+  const auto flags = effect_flags();
+  return std::any_of(flags.begin(), flags.end(),
+                     [&](const EffectFlag& flag) { return unit.name == flag.name && scene.effects.*(flag.flag); });
+}
+
+bool makes_machine(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
+  try {
+    compile(scene, effects_of(scene, units, on));
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
 // Values of these keys in components of these kinds, times the factor; nested tables too.
 std::vector<std::string> scale(Section& section, const std::set<std::string>& keys, double factor) {
   std::vector<std::string> changed;
@@ -67,6 +83,34 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
       if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
   }
   return effects;
+}
+
+EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep) {
+  const EffectSet all(units.size(), true);
+  if (makes_machine(scene, units, all)) return all;
+  std::vector<std::size_t> order;
+  if (keep) order.push_back(*keep);
+  for (const bool own : {true, false})
+    for (std::size_t k = 0; k < units.size(); ++k)
+      if (k != keep && on_in(scene, units[k]) == own) order.push_back(k);
+  EffectSet on(units.size(), false);
+  for (const std::size_t k : order) {
+    on[k] = true;
+    on[k] = makes_machine(scene, units, on);
+    if (k == keep && !on[k]) return on;
+  }
+  return on;
+}
+
+InPlaceOf in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
+                             std::size_t unit) {
+  InPlaceOf found{.with = fullest_set(scene, units, unit), .without = {}, .gives_way = {}};
+  found.without = found.with;
+  found.without[unit] = false;
+  EffectSet gone(units.size(), false);
+  for (std::size_t k = 0; k < units.size(); ++k) gone[k] = fullest[k] && !found.with[k];
+  found.gives_way = describe(units, gone);
+  return found;
 }
 
 std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on) {
