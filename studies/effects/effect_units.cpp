@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "engine/events/equations.h"
@@ -29,6 +30,13 @@ bool on_in(const Scene& scene, const EffectUnit& unit) {
   const auto flags = effect_flags();
   return std::any_of(flags.begin(), flags.end(),
                      [&](const EffectFlag& flag) { return unit.name == flag.name && scene.effects.*(flag.flag); });
+}
+
+bool part_of_machine(const EffectUnit& unit) {
+  const auto flags = effect_flags();
+  return std::any_of(flags.begin(), flags.end(), [&](const EffectFlag& flag) {
+    return unit.name == flag.name && flag.unsaid == EffectFlag::Unsaid::part_of_machine;
+  });
 }
 
 bool makes_machine(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
@@ -88,11 +96,13 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
 EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep) {
   const EffectSet all(units.size(), true);
   if (makes_machine(scene, units, all)) return all;
-  std::vector<std::size_t> order;
-  if (keep) order.push_back(*keep);
-  for (const bool own : {true, false})
-    for (std::size_t k = 0; k < units.size(); ++k)
-      if (k != keep && on_in(scene, units[k]) == own) order.push_back(k);
+  // What is part of the machine comes first: without it a mechanism may be too simple to exclude anything.
+  const auto rank = [&](std::size_t k) {
+    return part_of_machine(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
+  };
+  std::vector<std::size_t> order(units.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   EffectSet on(units.size(), false);
   for (const std::size_t k : order) {
     on[k] = true;

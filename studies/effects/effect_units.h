@@ -22,8 +22,9 @@ std::vector<EffectUnit> effect_units(const Scene& scene);
 // A set of units: on[k] belongs to units[k].
 using EffectSet = std::vector<bool>;
 Effects effects_of(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on);
-// As many of the units as one machine can have at once: the scene's own effects first, then what else goes with them
-// (ideal joints with friction do not go with clearance in the same mechanism). `keep` comes before all others. Where
+// As many of the units as one machine can have at once: what is part of the machine, then the scene's own effects,
+// then what else goes with them (ideal joints with friction do not go with clearance in the same mechanism). `keep`
+// comes before all but what is part of the machine. Where
 // not even one unit makes a machine, nothing is on.
 EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep = {});
 
