@@ -40,6 +40,7 @@ Rows tried_table(const Advice& a) {
       .always()
       .only_for_people("effects on", &TriedSet::words)
       .only_for_people("deviation", [](const TriedSet* t) { return t->refused.empty() ? percent(t->deviation) : "—"; })
+      .only_for_people("error", [](const TriedSet* t) { return t->refused.empty() ? "± " + percent(t->error) : "—"; })
       .only_for_people("in", [](const TriedSet* t) { return or_dash(t->figure); })
       .only_for_people("time [ms]", &TriedSet::cpu_seconds, {.factor = 1e3, .digits = 3})
       .only_for_people("states", [](const TriedSet* t) { return t->size.states; })
@@ -53,7 +54,9 @@ Rows held_out_table(const Advice& a) {
   return table_of("held_out", "Figures and operating points that took no part in the choice", a.held_out)
       .column("what", "held out", &HeldOut::what)
       .only_for_programs("deviation", &HeldOut::deviation)
+      .only_for_programs("error", &HeldOut::error)
       .only_for_people("deviation", [](const HeldOut& h) { return h.refused.empty() ? percent(h.deviation) : "—"; })
+      .only_for_people("error", [](const HeldOut& h) { return h.refused.empty() ? "± " + percent(h.error) : "—"; })
       .column("figure", "in", &HeldOut::figure, or_dash)
       .only_for_programs("within", &HeldOut::within)
       .only_for_people("within", [](const HeldOut& h) {
@@ -76,6 +79,8 @@ Record tried_record(const Advice& a, const TriedSet& t) {
     r.push_back({"refused", t.refused});
   } else {
     if (std::isfinite(t.deviation)) r.push_back({"deviation", t.deviation});
+    r.push_back({"error", t.error});
+    if (!t.not_judged.empty()) r.push_back({"not_judged", each(t.not_judged, [](const std::string& f) { return f; })});
     r.push_back({"figure", t.figure});
   }
   r.push_back({"chosen", &t == &a.tried[a.chosen]});
@@ -126,10 +131,12 @@ Findings findings_of(const Advice& a) {
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
-  f.figures = {{"deviation", 100 * chosen.deviation, "", {}, "% at most, measured", 3, "deviation"},
-               {"time of the full model", 1e3 * full.cpu_seconds, "", {}, "ms a run", 3, "processor_time"},
-               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", {}, "ms a run", 3, "processor_time"},
-               {"sets run", static_cast<double>(a.tried.size()), "", {}, "", 3, "sets_run"}};
+  f.figures = {{"deviation", 100 * chosen.deviation, "", 100 * chosen.error, "% at most, measured", 3, "deviation"},
+               {"time of the full model", 1e3 * full.cpu_seconds, "", 1e3 * a.time_spread * full.cpu_seconds,
+                "ms a run", 3, "processor_time"},
+               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", 1e3 * a.time_spread * chosen.cpu_seconds,
+                "ms a run", 3, "processor_time"},
+               {"sets run", static_cast<double>(a.tried.size()), "", 0, "", 3, "sets_run"}};
   const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
   f.tell("within", a.tolerance);
   f.draw(advice, [&a] { return plane(a); });

@@ -12,11 +12,37 @@
 namespace kurbel {
 namespace {
 
+// The greatest change that the errors allow.
+double largest(const LeftOut& l) {
+  double most = 0;
+  for (const FigureChange& c : l.changes) most = std::max(most, c.relative + c.error);
+  return most;
+}
+
+// What the full model cannot have, and how much that is.
+std::string beyond(const EffectStudy& s) {
+  std::string text;
+  for (const LeftOut& l : s.left_out) {
+    if (l.in_place_of.empty()) continue;
+    text += fmt::format(" The full model is without {}, which does not go with {}", l.effect.words, l.in_place_of);
+    if (!l.refused.empty())
+      text += " and does not run: " + l.refused;
+    else if (l.changes.empty() || !l.changes.front().told())
+      text += "; in their place it changes no figure compared by more than the runs' errors";
+    else
+      text += fmt::format("; in their place it changes {} by {:.2g} ± {:.1g} %", l.changes.front().figure,
+                          100 * l.changes.front().relative, 100 * l.changes.front().error);
+    text += ".";
+  }
+  return text;
+}
+
 std::string conclusion_of(const EffectStudy& s) {
   if (!s.full.complete) return "The full model did not run to the end: " + s.full.diagnosis;
   std::string text;
-  const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(),
-                                      [](const LeftOut& l) { return l.refused.empty() && !l.changes.empty(); });
+  const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) {
+    return l.refused.empty() && !l.changes.empty() && l.in_place_of.empty();
+  });
   if (strongest == s.left_out.end()) {
     const bool any_ran =
         std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.refused.empty(); });
@@ -24,24 +50,61 @@ std::string conclusion_of(const EffectStudy& s) {
                    : "No effect of this scene can be left out: without any of them it does not run.";
   }
   const FigureChange& most = strongest->changes.front();
-  if (most.relative == 0) return "No effect changes any figure compared.";
+  if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
   const int digits = most.relative < 1e-2 ? 7 : 4;  // so that the two differ
-  text = fmt::format("Most depends on {}: without it {} is {} instead of {}{}", strongest->effect.words, most.figure,
-                     with_unit(most.without, most.unit, digits), with_unit(most.full, most.unit, digits),
-                     most.from_nothing ? std::string(", which is zero within its error")
-                                       : fmt::format(" ({:.2g} % off)", 100 * most.relative));
+  text =
+      fmt::format("Most depends on {}: without it {} is {} instead of {}{}", strongest->effect.words, most.figure,
+                  with_unit(most.without, most.unit, digits), with_unit(most.full, most.unit, digits),
+                  most.from_nothing ? std::string(", which is zero within its error")
+                                    : fmt::format(" ({:.2g} ± {:.1g} % off)", 100 * most.relative, 100 * most.error));
   std::vector<std::string> idle;
   for (const LeftOut& l : s.left_out)
-    if (l.refused.empty() && !l.changes.empty() && l.changes.front().relative < 1e-3) idle.push_back(l.effect.words);
+    if (l.refused.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);
   if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
   const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
                                         [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
   if (dearest->time_ratio > 1.05)
     text += fmt::format("; {} costs most, {:.3g} × the time without it", dearest->effect.words, dearest->time_ratio);
-  return text + ".";
+  return text + "." + beyond(s);
+}
+
+// The figures of the run with the unit against those of the run without.
+void compare(LeftOut& left, const Result& with, const ModelSize& size) {
+  left.changes = changes_between(with, left.result);
+  const ModelSize less = size_of(*left.result.model);
+  left.saved = {size.states - less.states, size.nonzeros - less.nonzeros, size.guards - less.guards};
+  left.events_added = static_cast<long>(with.statistics.events - left.result.statistics.events);
+  left.time_ratio = with.statistics.cpu_seconds / std::max(left.result.statistics.cpu_seconds, 1e-9);
+}
+
+void run_without(LeftOut& left, const Scene& scene, const Effects& effects, const SimulateOptions& options) {
+  try {
+    left.result = simulate(scene, effects, "without " + left.effect.words, options);
+    if (!left.result.complete) left.refused = left.result.diagnosis;
+  } catch (const SceneError& error) {
+    left.refused = error.what();
+  }
 }
 
 }  // namespace
+
+LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
+                                 std::size_t unit, const SimulateOptions& options) {
+  const InPlaceOf sets = in_place_of_others(scene, units, fullest, unit);
+  LeftOut left{.effect = units[unit]};
+  left.in_place_of = sets.gives_way;
+  if (!sets.with[unit]) {
+    left.refused = "it goes with no other effect of this scene, nor alone";
+    return left;
+  }
+  const Result with = simulate(scene, effects_of(scene, units, sets.with), "with " + left.effect.words, options);
+  if (!with.complete)
+    left.refused = with.diagnosis;
+  else
+    run_without(left, scene, effects_of(scene, units, sets.without), options);
+  if (left.refused.empty()) compare(left, with, size_of(*with.model));
+  return left;
+}
 
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   EffectStudy study;
@@ -59,34 +122,26 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   SimulateOptions quiet = options;
   quiet.watch.progress = {};
   quiet.traces = false;
-  EffectSet on(study.units.size(), true);
+  EffectSet on = fullest_set(scene, study.units);
   say("all effects", 0);
   study.full = simulate(scene, effects_of(scene, study.units, on), "full", quiet);
   study.size = size_of(*study.full.model);
   for (std::size_t k = 0; k < study.units.size() && study.full.complete; ++k) {
     say("without " + study.units[k].words, k + 1);
+    if (!on[k]) {
+      study.left_out.push_back(study_in_place_of_others(scene, study.units, on, k, quiet));
+      continue;
+    }
     LeftOut left{.effect = study.units[k]};
     on[k] = false;
-    try {
-      left.result = simulate(scene, effects_of(scene, study.units, on), "without " + left.effect.words, quiet);
-      if (!left.result.complete) left.refused = left.result.diagnosis;
-    } catch (const SceneError& error) {
-      left.refused = error.what();
-    }
+    run_without(left, scene, effects_of(scene, study.units, on), quiet);
     on[k] = true;
-    if (left.refused.empty()) {
-      left.changes = changes_between(study.full, left.result);
-      const ModelSize less = size_of(*left.result.model);
-      left.saved = {study.size.states - less.states, study.size.nonzeros - less.nonzeros,
-                    study.size.guards - less.guards};
-      left.events_added = static_cast<long>(study.full.statistics.events - left.result.statistics.events);
-      left.time_ratio = study.full.statistics.cpu_seconds / std::max(left.result.statistics.cpu_seconds, 1e-9);
-    }
+    if (left.refused.empty()) compare(left, study.full, study.size);
     study.left_out.push_back(std::move(left));
   }
   std::stable_sort(study.left_out.begin(), study.left_out.end(), [](const LeftOut& a, const LeftOut& b) {
     const auto most = [](const LeftOut& l) {
-      return !l.refused.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().relative;
+      return !l.refused.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().sure();
     };
     return most(a) > most(b);
   });

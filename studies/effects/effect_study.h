@@ -1,4 +1,5 @@
-// effect_study.h — what each effect changes and costs: the full model, and the model without one effect at a time.
+// effect_study.h — what each effect changes and costs: the full model, and the model without one effect at a time. An
+// effect that does not go with all the others is judged in their place.
 #pragma once
 
 #include <string>
@@ -18,6 +19,9 @@ struct LeftOut {
   long events_added = 0;
   double time_ratio = 0;     // processor time of the full model over that without
   std::string refused = {};  // why the machine cannot run without it
+  // What it does not go with, in words: it is judged by the machine without those, with and without it. Empty: it is
+  // part of the full model.
+  std::string in_place_of = {};
 };
 
 struct EffectStudy {
@@ -28,6 +32,10 @@ struct EffectStudy {
   std::vector<LeftOut> left_out;  // ranked by their greatest change
   std::string conclusion;
 };
+
+// Two runs, of the fullest machine that has the unit and of the same without it: for a unit that is off in `fullest`.
+LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
+                                 std::size_t unit, const SimulateOptions& options);
 
 // Throws std::invalid_argument where the scene has no effect to leave out.
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);

@@ -17,22 +17,31 @@ std::string percent(const FigureChange& change) {
                                                     : fmt::format("{:.3g} %", 100 * change.relative);
 }
 
+// The error apart: what the runs leave open of the change.
+std::string error_of(const FigureChange& change) {
+  return change.from_nothing && change.relative > 1 ? std::string("—") : fmt::format("± {:.1g} %", 100 * change.error);
+}
+
+std::string words_of(const LeftOut& l) {
+  return l.in_place_of.empty() ? l.effect.words : fmt::format("{} (in place of {})", l.effect.words, l.in_place_of);
+}
+
 Rows ranking(const EffectStudy& s) {
   Lines lines;
   for (const LeftOut& l : s.left_out) {
     if (!l.refused.empty()) {
-      lines.push_back({l.effect.words, "—", "—", "", "", "", "", "", "does not run: " + l.refused});
+      lines.push_back({words_of(l), "—", "—", "—", "", "", "", "", "", "does not run: " + l.refused});
       continue;
     }
     const bool any = !l.changes.empty();
-    lines.push_back({l.effect.words, any ? percent(l.changes.front()) : "—", any ? l.changes.front().figure : "—",
-                     fmt::format("{}", l.saved.states), fmt::format("{}", l.saved.nonzeros),
-                     fmt::format("{}", l.saved.guards), fmt::format("{:+d}", l.events_added),
-                     fmt::format("{:.2f}", l.time_ratio), ""});
+    lines.push_back({words_of(l), any ? percent(l.changes.front()) : "—", any ? error_of(l.changes.front()) : "—",
+                     any ? l.changes.front().figure : "—", fmt::format("{}", l.saved.states),
+                     fmt::format("{}", l.saved.nonzeros), fmt::format("{}", l.saved.guards),
+                     fmt::format("{:+d}", l.events_added), fmt::format("{:.2f}", l.time_ratio), ""});
   }
-  Rows table =
-      words_table("Each effect left out of the full model",
-                  {"left out", "greatest change", "in", "states", "nonzeros", "guards", "events", "time ×", ""}, lines);
+  Rows table = words_table(
+      "Each effect left out of the full model",
+      {"left out", "greatest change", "error", "in", "states", "nonzeros", "guards", "events", "time ×", ""}, lines);
   table.apart = false;
   return table;
 }
@@ -44,7 +53,7 @@ std::vector<std::string> figures_shown(const EffectStudy& s) {
     double change = -1;
     for (const LeftOut& l : s.left_out)
       for (const FigureChange& c : l.changes)
-        if (c.figure == f.name) change = std::max(change, c.relative);
+        if (c.figure == f.name) change = std::max(change, c.sure());
     if (change >= 0) most.emplace_back(change, f.name);
   }
   std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -59,9 +68,7 @@ Rows matrix(const EffectStudy& s) {
   const std::vector<std::string> figures = figures_shown(s);
   auto table = table_of("", "Change of each figure", ran);
   table.even_if_empty = !figures.empty();
-  table.people_see_it_if(!figures.empty()).only_for_people("change when left out", [](const LeftOut& l) {
-    return l.effect.words;
-  });
+  table.people_see_it_if(!figures.empty()).only_for_people("change when left out", words_of);
   for (const std::string& name : figures)
     table.only_for_people(name, [&](const LeftOut& l) {
       const auto found =
@@ -72,20 +79,23 @@ Rows matrix(const EffectStudy& s) {
 }
 
 Record left_out_record(const LeftOut& l) {
-  if (!l.refused.empty()) return {{"effect", l.effect.name}, {"refused", l.refused}};
-  return {{"effect", l.effect.name},
-          {"states", l.saved.states},
-          {"nonzeros", l.saved.nonzeros},
-          {"guards", l.saved.guards},
-          {"events_added", l.events_added},
-          {"time_ratio", l.time_ratio},
-          {"changes", each(l.changes, [](const FigureChange& c) {
-             return Record{{"figure", c.figure},
-                           {"unit", c.unit},
-                           {"full", c.full},
-                           {"without", c.without},
-                           {"relative", c.relative}};
-           })}};
+  Record record = {{"effect", l.effect.name}};
+  if (!l.in_place_of.empty()) record.push_back({"in_place_of", l.in_place_of});
+  if (!l.refused.empty()) {
+    record.push_back({"refused", l.refused});
+    return record;
+  }
+  const Record told = {{"states", l.saved.states},
+                       {"nonzeros", l.saved.nonzeros},
+                       {"guards", l.saved.guards},
+                       {"events_added", l.events_added},
+                       {"time_ratio", l.time_ratio},
+                       {"changes", each(l.changes, [](const FigureChange& c) {
+                          return Record{{"figure", c.figure},   {"unit", c.unit},         {"full", c.full},
+                                        {"without", c.without}, {"relative", c.relative}, {"error", c.error}};
+                        })}};
+  record.insert(record.end(), told.begin(), told.end());
+  return record;
 }
 
 // Change against cost: what lies on the left above costs little and matters.
@@ -97,7 +107,7 @@ Plot plane(const EffectStudy& s) {
   std::size_t k = 0;
   for (const LeftOut& l : s.left_out) {
     if (!l.refused.empty() || l.changes.empty()) continue;
-    plot.series.push_back({.name = l.effect.words + " (" + l.changes.front().figure + ")",
+    plot.series.push_back({.name = words_of(l) + " (" + l.changes.front().figure + ")",
                            .role = further_role(k++),
                            .x = {l.time_ratio},
                            .y = {std::max(100 * l.changes.front().relative, least_shown)},
@@ -126,13 +136,8 @@ Findings findings_of(const EffectStudy& s) {
              .tells_diagnosis = false};
   for (const LeftOut& l : s.left_out)
     if (l.refused.empty() && !l.changes.empty() && f.figures.size() < 4)
-      f.figures.push_back({"without " + l.effect.words,
-                           100 * l.changes.front().relative,
-                           "",
-                           {},
-                           "% off in " + l.changes.front().figure,
-                           3,
-                           "change_without"});
+      f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "",
+                           100 * l.changes.front().error, "% off in " + l.changes.front().figure, 3, "change_without"});
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
   f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});
   f.draw(ranked, [&s] { return plane(s); });

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "engine/events/equations.h"
@@ -22,6 +23,29 @@ std::string joined_words(const std::vector<std::string>& words) {
   std::string text = words.front();
   for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
   return text;
+}
+
+bool on_in(const Scene& scene, const EffectUnit& unit) {
+  if (unit.name.starts_with(elasticity)) return scene.effects.is_elastic(unit.name.substr(elasticity.size()));
+  const auto flags = effect_flags();
+  return std::any_of(flags.begin(), flags.end(),
+                     [&](const EffectFlag& flag) { return unit.name == flag.name && scene.effects.*(flag.flag); });
+}
+
+bool part_of_machine(const EffectUnit& unit) {
+  const auto flags = effect_flags();
+  return std::any_of(flags.begin(), flags.end(), [&](const EffectFlag& flag) {
+    return unit.name == flag.name && flag.unsaid == EffectFlag::Unsaid::part_of_machine;
+  });
+}
+
+bool makes_machine(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
+  try {
+    compile(scene, effects_of(scene, units, on));
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
 }
 
 // Values of these keys in components of these kinds, times the factor; nested tables too.
@@ -67,6 +91,36 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
       if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
   }
   return effects;
+}
+
+EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep) {
+  const EffectSet all(units.size(), true);
+  if (makes_machine(scene, units, all)) return all;
+  // What is part of the machine comes first: without it a mechanism may be too simple to exclude anything.
+  const auto rank = [&](std::size_t k) {
+    return part_of_machine(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
+  };
+  std::vector<std::size_t> order(units.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  EffectSet on(units.size(), false);
+  for (const std::size_t k : order) {
+    on[k] = true;
+    on[k] = makes_machine(scene, units, on);
+    if (k == keep && !on[k]) return on;
+  }
+  return on;
+}
+
+InPlaceOf in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
+                             std::size_t unit) {
+  InPlaceOf found{.with = fullest_set(scene, units, unit), .without = {}, .gives_way = {}};
+  found.without = found.with;
+  found.without[unit] = false;
+  EffectSet gone(units.size(), false);
+  for (std::size_t k = 0; k < units.size(); ++k) gone[k] = fullest[k] && !found.with[k];
+  found.gives_way = describe(units, gone);
+  return found;
 }
 
 std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on) {

@@ -2,6 +2,7 @@
 // the scene has parameters for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,21 @@ std::vector<EffectUnit> effect_units(const Scene& scene);
 // A set of units: on[k] belongs to units[k].
 using EffectSet = std::vector<bool>;
 Effects effects_of(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on);
+// As many of the units as one machine can have at once: what is part of the machine, then the scene's own effects,
+// then what else goes with them (ideal joints with friction do not go with clearance in the same mechanism). `keep`
+// comes before all but what is part of the machine. Where
+// not even one unit makes a machine, nothing is on.
+EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep = {});
+
+// How an effect is judged that does not go with the fullest set: by the fullest set that it goes with, with and without
+// it. Nothing is on in `with` where it makes no machine at all.
+struct InPlaceOf {
+  EffectSet with, without;
+  std::string gives_way;  // "joint clearance and flexible rod"
+};
+InPlaceOf in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
+                             std::size_t unit);
+
 std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on);  // "backlash and …", "none"
 
 // What a set of effects makes of the machine.

@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace kurbel {
+namespace {
+
+constexpr double rounding = 1e-9;  // of a rated quantity
+
+}  // namespace
 
 bool is_telling(const Figure& figure) {
   using enum QuantityKind;
@@ -29,10 +35,11 @@ const Figure* like_in(const Result& run, const Figure& figure) {
   return found == run.figures.end() ? nullptr : &*found;
 }
 
-double floor_of(const Figure& figure, const Result& run) {
-  constexpr double rounding = 1e-9;
-  return figure.error.value_or(0) + std::max(rounding, run.tolerance) * figure.scale;
+double error_of(const Figure& figure, const Result& run) {
+  return figure.error.value_or(figure.exact ? 0 : std::max(rounding, run.tolerance) * figure.scale);
 }
+
+double floor_of(const Figure& figure, const Result& run) { return error_of(figure, run) + rounding * figure.scale; }
 
 std::vector<FigureChange> changes_between(const Result& full, const Result& other,
                                           const std::vector<std::string>& wanted) {
@@ -51,11 +58,12 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
     const double difference =
         magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
     const double size = std::max({std::abs(figure.value), nothing, 1e-300});
-    changes.push_back(
-        {figure.name, figure.unit, figure.value, same->value, difference / size, std::abs(figure.value) <= nothing});
+    changes.push_back({figure.name, figure.unit, figure.value, same->value, difference / size,
+                       std::abs(figure.value) <= nothing, (error_of(figure, full) + error_of(*same, other)) / size});
   }
-  std::stable_sort(changes.begin(), changes.end(),
-                   [](const FigureChange& a, const FigureChange& b) { return a.relative > b.relative; });
+  std::stable_sort(changes.begin(), changes.end(), [](const FigureChange& a, const FigureChange& b) {
+    return std::pair(a.sure(), a.relative) > std::pair(b.sure(), b.relative);
+  });
   return changes;
 }
 

@@ -10,16 +10,23 @@ namespace kurbel {
 
 // How far a figure is from that of the full model, over the full model's value of it: 0.01 is one per cent of the
 // figure itself, be it a δ of 0.002 or a torque far below the rated one. Only a figure that the full model does not
-// tell from zero is judged by its floor instead: its measured error and max(1e-9, tolerance) of its rated quantity. A
-// figure that is zero in both models is left out.
+// tell from zero is judged by its floor instead. A figure that is zero in both models is left out.
+//
+// The change is what the models differ by; the error is what the two runs leave open of it, and no part of it.
 struct FigureChange {
   std::string figure, unit;
   double full = 0, without = 0, relative = 0;
   bool from_nothing = false;  // the full model's value is not told from zero
+  double error = 0;           // of `relative`: the errors of both figures over the same size
+
+  bool told() const { return relative > error; }                           // from no change at all
+  double sure() const { return relative > error ? relative - error : 0; }  // at least as much
 };
 
-// What a figure of a run does not tell from nothing: its measured error, and what steps and rounding resolve of the
-// rated quantity.
+// Of a figure: the measured one; where none was measured, max(1e-9, tolerance) of its rated quantity, which is what
+// steps and rounding resolve.
+double error_of(const Figure& figure, const Result& run);
+// What a figure of a run does not tell from nothing: its error, and rounding (1e-9) of its rated quantity.
 double floor_of(const Figure& figure, const Result& run);
 // δ and a fluctuation that is none differ by what a run found of its motion, not by how they are measured.
 bool measure_the_same(const Figure& a, const Figure& b);
@@ -27,7 +34,7 @@ bool measure_the_same(const Figure& a, const Figure& b);
 const Figure* like_in(const Result& run, const Figure& figure);
 // Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.
 bool is_telling(const Figure& figure);
-// Changes of the telling figures of `other` against `full`; only `wanted`, unless empty (names or their beginnings).
+// Changes of the telling figures of `other` against `full`, the surely greatest first; only `wanted`, unless empty (names or their beginnings).
 std::vector<FigureChange> changes_between(const Result& full, const Result& other,
                                           const std::vector<std::string>& wanted = {});
 

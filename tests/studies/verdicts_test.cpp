@@ -275,6 +275,46 @@ TEST(Effects, FiguresThatAreZeroButForRoundingAreNotCompared) {
   EXPECT_GT(appeared[0].relative, 1e3);
 }
 
+// A figure below its own error may be ten times its size in the other run: that is no change, and it does not come
+// first.
+TEST(Effects, ATinyFigureWithinItsErrorDoesNotDominate) {
+  const auto full = with_figures({figure(QuantityKind::peak_torque, "idler", 1e-5, "N*m", 1e-6, 4000),
+                                  figure(QuantityKind::peak_torque, "pump", 3, "N*m", 1e-5, 4000)});
+  const auto other = with_figures({figure(QuantityKind::peak_torque, "idler", 1e-4, "N*m", 5e-4, 4000),
+                                   figure(QuantityKind::peak_torque, "pump", 3.3, "N*m", 1e-5, 4000)});
+  const std::vector<FigureChange> changes = changes_between(full, other);
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.front().figure, "peak_torque.pump");
+  EXPECT_NEAR(changes.front().relative, 0.1, 1e-12);
+  for (const FigureChange& change : changes) EXPECT_EQ(change.told(), change.figure == "peak_torque.pump");
+}
+
+// The measured error is the floor: a looser run's tolerance hides no figure that was measured well.
+TEST(Effects, AFigureAThousandTimesSmallerIsJudgedByItsOwnSize) {
+  auto full = with_figures({figure(QuantityKind::peak_torque, "main", 4000, "N*m", 1e-4, 4000),
+                            figure(QuantityKind::peak_torque, "pump", 4, "N*m", 1e-4, 4000)});
+  auto other = with_figures({figure(QuantityKind::peak_torque, "main", 4040, "N*m", 1e-4, 4000),
+                             figure(QuantityKind::peak_torque, "pump", 6, "N*m", 1e-4, 4000)});
+  full.tolerance = other.tolerance = 1e-2;
+  const std::vector<FigureChange> changes = changes_between(full, other);
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].figure, "peak_torque.pump");
+  EXPECT_NEAR(changes[0].relative, 0.5, 1e-12);
+  EXPECT_NEAR(changes[1].relative, 0.01, 1e-12);
+}
+
+// Errors add to none of the change: they stand beside it, of both runs, over the same size.
+TEST(Effects, ErrorAndDeviationAreApart) {
+  for (const double error : {0.0, 1e-3, 0.2}) {
+    const std::vector<FigureChange> changes =
+        changes_between(with_figures({figure(QuantityKind::delta, "crank", 2, "", error, 1)}),
+                        with_figures({figure(QuantityKind::delta, "crank", 2.1, "", 2 * error, 1)}));
+    ASSERT_EQ(changes.size(), 1u);
+    EXPECT_NEAR(changes[0].relative, 0.05, 1e-12);
+    EXPECT_NEAR(changes[0].error, 3 * error / 2, 1e-12);
+  }
+}
+
 // Scaling a figure and its counterpart changes no verdict, down to the floor.
 TEST(Effects, VerdictsDoNotDependOnTheScaleOfAFigure) {
   for (double size = 1e-5; size < 1e3; size *= 10) {
