@@ -171,7 +171,13 @@ std::span<const double> BaseMotion::at(const Position& position) {
     for (std::size_t p = 0; p < modes.prescribed_piece.size(); ++p)
       modes.prescribed_piece[p] = m_.network.prescribed[p].piece(t);
   }
-  equations_.modes_at(time(position), y_);
+  if (!point_.regime) {
+    equations_.modes_at(time(position), y_);
+    return y_;
+  }
+  // Load edges by the angle; other laws keep the pieces that they have in the regime.
+  for (const auto& pool : m_.pools)
+    if (pool->guards_are_of_angle()) pool->first_modes(equations_.instant(time(position), y_), modes.piece.data());
   return y_;
 }
 

@@ -21,7 +21,7 @@ constexpr std::size_t many_shafts = 500, time_samples = 2048, most_samples = 655
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
 constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
-constexpr double strong = 0.3;   // of the strongest order of the same torque
+constexpr double strong = 0.3;  // of the strongest order of the same torque
 constexpr std::size_t few_speeds = 3, more_speeds = 9;
 
 // One place where something may be left over, with its samples.

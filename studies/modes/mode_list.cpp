@@ -17,6 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int frozen_angles = 24;
+constexpr double hardly_moves = 0.999;  // share of a mode in own states
 constexpr std::size_t most_states_of_exponents = 60;
 constexpr double told_of_mean = 0.01;     // of |λ|: an error of the mean that is worth a note
 constexpr Eigen::Index most_frozen = 60;  // coordinates
@@ -72,7 +73,10 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
     mode.of_own_states = true;
     mode.least = mode.greatest = mode.omega;
     mode.shape = principal_shape(found.drive, d.shape);
-    mode.shares = energy_shares(found.drive, mode.shape);
+    mode.shares = energy_shares(found.drive, d.shape.cwiseAbs());  // parts swing in different phases
+    if (d.in_own_states > hardly_moves)  // where the machine stands still to rounding, no share means anything
+      for (std::vector<double>* shares : {&mode.shares.joint, &mode.shares.shaft})
+        std::fill(shares->begin(), shares->end(), 0.0);
     found.modes.push_back(std::move(mode));
   }
   std::stable_sort(found.modes.begin(), found.modes.end(),

@@ -256,6 +256,7 @@ class Study {
                      [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
       return;
     for (const Mode& mode : found_.modes) {
+      if (mode.of_own_states) continue;  // no spring holds it
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
@@ -273,7 +274,7 @@ class Study {
   std::vector<double> sweep_speeds() {
     std::vector<double> speeds;
     for (int i = 0; i <= sweep_points; ++i)
-      speeds.push_back(found_.slowest + (found_.fastest - found_.slowest) * i / sweep_points);
+      speeds.push_back(std::min(found_.slowest + (found_.fastest - found_.slowest) * i / sweep_points, found_.fastest));
     for (const CriticalSpeed& c : found_.critical) {
       const double zeta = std::clamp(found_.modes[at(c.mode - 1)].ratio, 1e-4, 0.2);
       for (const double factor : {1 - 2 * zeta, 1 - zeta, 1 - 0.4 * zeta, 1.0, 1 + 0.4 * zeta, 1 + zeta, 1 + 2 * zeta})

@@ -130,7 +130,8 @@ run = {{ start = "rest", until = "20 s" }}
     off[i] = std::abs(linear.peak / really.peak - 1);
   }
   EXPECT_LT(off[0], 0.005);
-  EXPECT_NEAR(off[1] / off[0], 16, 6);
+  EXPECT_GT(off[1] / off[0], 12);  // 16 and what is of higher order
+  EXPECT_LT(off[1] / off[0], 26);
 }
 
 // An epicyclic gear whose three shafts are free keeps two motions. Against the eigenvalues of Zᵀ M Z, Zᵀ K Z with
