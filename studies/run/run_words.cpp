@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "drivetrain/motors/induction_circuit.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 
@@ -25,7 +27,126 @@ std::string of_last_cycle(const Result& r) {
   return first_of(r, QuantityKind::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }
 
+// --- validity of the static curve of induction motors (theory 4.1) ---
+
+// A motor on its static curve, and its supply.
+struct StaticMotor {
+  std::string name;
+  double rated_torque = 0, breakdown_slip = 0, mains = 0;  // [N·m], [1], [Hz]
+  bool has_circuit = false;                                // data of the two-axis model
+};
+
+// The mains that a synchronous speed [rad/s] belongs to, with a whole number of pole pairs; 50 Hz where both fit.
+double mains_of(double synchronous_speed) {
+  const auto fits = [&](double frequency) {
+    const double pairs = 2 * std::numbers::pi * frequency / synchronous_speed;
+    return std::lround(pairs) >= 1 && std::abs(pairs - std::round(pairs)) < 1e-6 * pairs;
+  };
+  return !fits(50) && fits(60) ? 60 : 50;
+}
+
+StaticMotor motor_of_circuit(const Section& s) {
+  const EquivalentCircuit circuit{.voltage = s.number("voltage") * s.number_or("voltage_factor", 1),
+                                  .frequency = s.number("frequency"),
+                                  .pole_pairs = static_cast<int>(s.number("pole_pairs")),
+                                  .stator_resistance = s.number("stator_resistance"),
+                                  .rotor_resistance = s.number("rotor_resistance"),
+                                  .stator_leakage = s.number("stator_reactance"),
+                                  .rotor_leakage = s.number("rotor_reactance"),
+                                  .magnetising = s.number("magnetising_reactance")};
+  const InductionMotor motor = circuit.characteristic();
+  return {s.name, motor.rated_torque, motor.breakdown_slip, circuit.frequency, true};
+}
+
+StaticMotor motor_of_catalogue(const Section& s) {
+  const double synchronous = s.number("synchronous_speed");
+  const auto motor = InductionMotor::from_catalogue(s.number("rated_power"), s.number("rated_speed"), synchronous,
+                                                    s.number("breakdown_ratio"), s.number_or("resistance_ratio", 0),
+                                                    s.number_or("voltage_factor", 1));
+  const bool by_points = s.has("starting_ratio") && s.has("breakdown_speed");
+  return {s.name, motor.rated_torque, by_points ? 1 - s.number("breakdown_speed") / synchronous : motor.breakdown_slip,
+          s.number_or("frequency", mains_of(synchronous)), s.has("frequency")};
+}
+
+// Of a frequency converter the supply is no mains.
+std::vector<StaticMotor> static_motors(const Model& model) {
+  std::vector<StaticMotor> list;
+  for (const Section& s : model.scene.components) {
+    if (s.kind->name != "induction motor" || (s.has("starting") && s.text("starting") == "frequency converter"))
+      continue;
+    if (s.has("frequency") && model.effects.transients) continue;
+    list.push_back(s.has("voltage") ? motor_of_circuit(s) : motor_of_catalogue(s));
+  }
+  return list;
+}
+
+// Between two turning points of its speed and back.
+struct DriveSwing {
+  double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
+  double followed = 1;                       // part of a torque's swing that the fluxes let through
+  double missed() const { return torque * (1 - followed); }
+};
+
+// Fluxes follow the curve as T dM/dt + M = M_static(ω), T = 1/(2π s_b f), for small slips: T is the rotor's transient
+// time constant, by which Kloss' curve has its breakdown at s_b.
+double part_followed(double swing, const StaticMotor& motor) {
+  return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
+}
+
+// The swing of which the curve gives most that a real motor would not, above the least share of the mains' frequency.
+DriveSwing worst_swing(const TrajectoryRecorder& trajectory, const StaticMotor& motor, double least_share) {
+  const auto column = [&](const std::string& name) {
+    const auto& channels = trajectory.channels();
+    return static_cast<std::size_t>(
+        std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name.text == name; }) -
+        channels.begin());
+  };
+  const std::size_t speed = column("speed." + motor.name), torque = column("torque." + motor.name);
+  DriveSwing worst;
+  if (std::max(speed, torque) >= trajectory.channels().size()) return worst;
+  const std::vector<double>& t = trajectory.time();
+  const auto change = [&](std::size_t k) { return trajectory.value(k + 1, speed) - trajectory.value(k, speed); };
+  std::vector<std::size_t> turns;
+  for (std::size_t k = 1; k + 1 < t.size(); ++k) {
+    if (!(change(k - 1) * change(k) < 0)) continue;
+    turns.push_back(k);
+    if (turns.size() < 3) continue;
+    const std::size_t begin = turns[turns.size() - 3];
+    DriveSwing swing{.frequency = 1 / (t[k] - t[begin]), .at = t[begin]};
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t row = begin; row <= k; ++row) {
+      least = std::min(least, trajectory.value(row, torque));
+      most = std::max(most, trajectory.value(row, torque));
+    }
+    swing.torque = most - least;
+    swing.followed = part_followed(swing.frequency, motor);
+    if (swing.frequency >= least_share * motor.mains && swing.missed() > worst.missed()) worst = swing;
+  }
+  return worst;
+}
+
 }  // namespace
+
+std::vector<std::string> static_curve_notes(const Model& model, const TrajectoryRecorder& trajectory) {
+  constexpr double least_share = 0.03, least_torque = 0.05;  // of the mains' frequency, of the rated torque
+  std::vector<std::string> notes;
+  for (const StaticMotor& motor : static_motors(model)) {
+    const DriveSwing swing = worst_swing(trajectory, motor, least_share);
+    if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
+    notes.push_back(fmt::format(
+        "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
+        "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
+        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}",
+        motor.name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
+        motor.breakdown_slip, 100 * swing.followed,
+        motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
+                          : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "
+                                        "resistance_ratio > 0 (cage motors: about 1) instead of starting_ratio or a "
+                                        "starter, and the effect transients",
+                                        motor.mains)));
+  }
+  return notes;
+}
 
 bool nothing_turned_over(const EnergyBalance& e) {
   return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&

@@ -18,6 +18,7 @@
 #include "studies/run/figures.h"
 #include "studies/run/measured_errors.h"
 #include "studies/run/multibody.h"
+#include "studies/run/run_findings.h"
 
 namespace kurbel {
 namespace {
@@ -331,6 +332,7 @@ class Simulation {
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
     note_regularised(run.outcome.regularised);
+    for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
   }
   void note_regularised(const std::vector<std::string>& list) {
     for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {

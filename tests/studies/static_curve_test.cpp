@@ -1,0 +1,78 @@
+// static_curve_test.cpp — a static torque-speed curve holds for slow changes; where a drive swings faster, a run says so.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "studies/run/compare.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+// The crank press, with keys put into its motor.
+Scene press_with(const std::string& motor_keys) {
+  const std::string place = "breakdown_ratio   = 3.0";
+  std::string text = test::scene_file("scenes/crank_press.toml").text;
+  const std::size_t at = text.find(place);
+  EXPECT_NE(at, std::string::npos);
+  Scene scene = test::scene_from(text.replace(at, place.size(), place + "\n" + motor_keys));
+  scene.run.until = 2;
+  return scene;
+}
+
+std::string note_of(const Result& result) {
+  const auto found = std::find_if(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.find("static torque-speed curve") != std::string::npos;
+  });
+  return found == result.notes.end() ? "" : *found;
+}
+
+double peak_ratio(const Scene& scene) {
+  const ModelPair pair = models_to_compare(scene);
+  SimulateOptions options;
+  options.measure_error = false;
+  const Comparison c = compare(scene, pair, options);
+  return test::figure(c.b, "peak_torque.main_coupling") / test::figure(c.a, "peak_torque.main_coupling");
+}
+
+TEST(StaticCurve, ringing_at_a_third_of_the_mains_frequency_is_told_to_be_too_fast) {
+  const std::string note = note_of(test::run(press_with(""), false));
+  EXPECT_NE(note.find("% of the mains' 50 Hz"), std::string::npos) << note;
+  EXPECT_NE(note.find("frequency = \"50 Hz\""), std::string::npos) << note;
+}
+
+TEST(StaticCurve, a_scene_with_the_data_of_two_axes_is_told_to_switch_them_on) {
+  Scene scene = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
+  scene.effects.transients = false;
+  const std::string note = note_of(test::run(scene, false));
+  EXPECT_NE(note.find("--effects with transients"), std::string::npos) << note;
+}
+
+TEST(StaticCurve, the_two_axis_motor_needs_no_warning) {
+  Scene scene = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
+  scene.effects.transients = true;
+  EXPECT_EQ(note_of(test::run(scene, false)), "");
+}
+
+TEST(StaticCurve, a_start_without_swings_needs_no_warning) {
+  const char* fan = R"(
+line  = ["motor", "fan"]
+motor = { kind = "induction motor", rated_power = "15 kW", rated_speed = "1460 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 3, inertia = "0.1 kg*m2" }
+fan   = { kind = "flywheel", inertia = "2 kg*m2" }
+run   = { until = "5 s" }
+)";
+  EXPECT_EQ(note_of(test::run(fan, false)), "");
+}
+
+// What docs/how_it_works.md says of the motor's models.
+TEST(StaticCurve, the_press_amplifies_less_the_nearer_its_motor_is_to_a_real_one) {
+  EXPECT_NEAR(peak_ratio(press_with("")), 3.05, 0.005);
+  EXPECT_NEAR(peak_ratio(press_with("starting_ratio = 2.5")), 1.98, 0.005);
+  Scene two_axes = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
+  two_axes.effects.transients = true;
+  EXPECT_NEAR(peak_ratio(two_axes), 1.86, 0.005);
+}
+
+}  // namespace
+}  // namespace kurbel
