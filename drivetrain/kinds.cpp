@@ -4,6 +4,7 @@
 #include "drivetrain/couplings/kinds.h"
 #include "drivetrain/friction/kinds.h"
 #include "drivetrain/gears/kinds.h"
+#include "drivetrain/induction/kinds.h"
 #include "drivetrain/loads/kinds.h"
 #include "drivetrain/motors/kinds.h"
 

@@ -7,7 +7,6 @@
 
 namespace kurbel {
 
-std::vector<Kind> induction_kinds();
 std::vector<Kind> dc_kinds();
 std::vector<Kind> engine_kinds();
 std::vector<Kind> fluid_motor_kinds();

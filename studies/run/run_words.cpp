@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/motors/induction_circuit.h"
+#include "drivetrain/induction/induction_law.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 
@@ -36,46 +36,13 @@ struct StaticMotor {
   bool has_circuit = false;                                // data of the two-axis model
 };
 
-// The mains that a synchronous speed [rad/s] belongs to, with a whole number of pole pairs; 50 Hz where both fit.
-double mains_of(double synchronous_speed) {
-  const auto fits = [&](double frequency) {
-    const double pairs = 2 * std::numbers::pi * frequency / synchronous_speed;
-    return std::lround(pairs) >= 1 && std::abs(pairs - std::round(pairs)) < 1e-6 * pairs;
-  };
-  return !fits(50) && fits(60) ? 60 : 50;
-}
-
-StaticMotor motor_of_circuit(const Section& s) {
-  const EquivalentCircuit circuit{.voltage = s.number("voltage") * s.number_or("voltage_factor", 1),
-                                  .frequency = s.number("frequency"),
-                                  .pole_pairs = static_cast<int>(s.number("pole_pairs")),
-                                  .stator_resistance = s.number("stator_resistance"),
-                                  .rotor_resistance = s.number("rotor_resistance"),
-                                  .stator_leakage = s.number("stator_reactance"),
-                                  .rotor_leakage = s.number("rotor_reactance"),
-                                  .magnetising = s.number("magnetising_reactance")};
-  const InductionMotor motor = circuit.characteristic();
-  return {s.name, motor.rated_torque, motor.breakdown_slip, circuit.frequency, true};
-}
-
-StaticMotor motor_of_catalogue(const Section& s) {
-  const double synchronous = s.number("synchronous_speed");
-  const auto motor = InductionMotor::from_catalogue(s.number("rated_power"), s.number("rated_speed"), synchronous,
-                                                    s.number("breakdown_ratio"), s.number_or("resistance_ratio", 0),
-                                                    s.number_or("voltage_factor", 1));
-  const bool by_points = s.has("starting_ratio") && s.has("breakdown_speed");
-  return {s.name, motor.rated_torque, by_points ? 1 - s.number("breakdown_speed") / synchronous : motor.breakdown_slip,
-          s.number_or("frequency", mains_of(synchronous)), s.has("frequency")};
-}
-
 // Of a frequency converter the supply is no mains.
 std::vector<StaticMotor> static_motors(const Model& model) {
   std::vector<StaticMotor> list;
   for (const Section& s : model.scene.components) {
-    if (s.kind->name != "induction motor" || (s.has("starting") && s.text("starting") == "frequency converter"))
-      continue;
-    if (s.has("frequency") && model.effects.transients) continue;
-    list.push_back(s.has("voltage") ? motor_of_circuit(s) : motor_of_catalogue(s));
+    const auto motor = induction_data(s);
+    if (!motor || motor->by_converter || (motor->has_circuit && model.effects.transients)) continue;
+    list.push_back({s.name, motor->rated_torque, motor->breakdown_slip, motor->mains, motor->has_circuit});
   }
   return list;
 }

@@ -28,6 +28,7 @@ KURBEL_SCENE(knuckle, "knuckle_press.toml")
 KURBEL_SCENE(rocker, "four_bar_rocker.toml")
 KURBEL_SCENE(chain, "six_inertia_chain.toml")
 KURBEL_SCENE(fan, "fan_star_delta.toml")
+KURBEL_SCENE(centrifugal, "centrifugal_pump.toml")
 KURBEL_SCENE(conveyor, "belt_conveyor.toml")
 KURBEL_SCENE(crane, "series_motor_crane.toml")
 KURBEL_SCENE(winch, "hydraulic_winch.toml")
@@ -55,6 +56,7 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
       {"chain", "six inertias on couplings: start of a fan", chain()},
       {"fan", "fan started star–delta: cage motor by its catalogue's points", fan()},
+      {"centrifugal", "centrifugal pump switched on directly: cage motor by its nameplate", centrifugal()},
       {"conveyor", "belt conveyor on a frequency converter with a torque limit", conveyor()},
       {"crane", "crane hoist with a DC series motor", crane()},
       {"winch", "hydraulic winch: constant flow, relief valve", winch()},

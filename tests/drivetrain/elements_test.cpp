@@ -4,13 +4,14 @@
 #include <random>
 
 #include "drivetrain/couplings/coupling.h"
+#include "drivetrain/induction/catalogue_motor.h"
+#include "drivetrain/induction/kloss.h"
+#include "drivetrain/induction/started_motor.h"
 #include "drivetrain/loads/loads.h"
-#include "drivetrain/motors/catalogue_motor.h"
 #include "drivetrain/motors/dc_series_motor.h"
 #include "drivetrain/motors/engine_torque.h"
 #include "drivetrain/motors/fluid_motors.h"
 #include "drivetrain/motors/motors.h"
-#include "drivetrain/motors/started_motor.h"
 #include "drivetrain/shared/torque_source.h"
 #include "engine/elements/element_pool.h"
 #include "tests/support/scenes.h"

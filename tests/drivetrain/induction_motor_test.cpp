@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "drivetrain/motors/catalogue_motor.h"
-#include "drivetrain/motors/motors.h"
-#include "drivetrain/motors/started_motor.h"
+#include "drivetrain/induction/catalogue_motor.h"
+#include "drivetrain/induction/kloss.h"
+#include "drivetrain/induction/started_motor.h"
 #include "tests/published/published.h"
 
 namespace kurbel {

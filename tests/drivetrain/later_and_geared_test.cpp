@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/motors/starters.h"
+#include "drivetrain/induction/starters.h"
 #include "engine/model/model.h"
 #include "tests/support/scenes.h"
 

@@ -9,10 +9,11 @@
 #include "drivetrain/couplings/rubber_coupling.h"
 #include "drivetrain/couplings/universal_joint.h"
 #include "drivetrain/gears/gear_pair.h"
-#include "drivetrain/motors/catalogue_motor.h"
+#include "drivetrain/induction/catalogue_motor.h"
+#include "drivetrain/induction/induction_circuit.h"
+#include "drivetrain/induction/kloss.h"
 #include "drivetrain/motors/dc_circuits.h"
 #include "drivetrain/motors/governor.h"
-#include "drivetrain/motors/induction_circuit.h"
 #include "drivetrain/motors/motors.h"
 #include "tests/support/scenes.h"
 

@@ -12,9 +12,9 @@
 #include "drivetrain/gears/gear_losses.h"
 #include "drivetrain/gears/gear_mesh.h"
 #include "drivetrain/gears/gear_pair.h"
+#include "drivetrain/induction/induction_circuit.h"
 #include "drivetrain/motors/dc_circuits.h"
 #include "drivetrain/motors/governor.h"
-#include "drivetrain/motors/induction_circuit.h"
 #include "tests/support/elements.h"
 
 namespace kurbel {

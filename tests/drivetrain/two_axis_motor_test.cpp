@@ -6,7 +6,7 @@
 #include <complex>
 #include <random>
 
-#include "drivetrain/motors/induction_circuit.h"
+#include "drivetrain/induction/induction_circuit.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

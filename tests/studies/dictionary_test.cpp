@@ -119,8 +119,7 @@ TEST(Dictionary, WhatItSaysThatRunsTellIsToldByOne) {
     for (const Channel& c : of.channels) told.insert(definition_of(c.name)->name);
   }
   // No scene of the folder has the element, or the model of it, that brings them along.
-  const std::set<std::string_view> not_in_scenes = {"bristle", "guide_shift*", "guide_tilt*", "rotor_current_*",
-                                                    "stator_current_*"};
+  const std::set<std::string_view> not_in_scenes = {"bristle", "guide_shift*", "guide_tilt*"};
   for (const Definition& d : dictionary()) {
     if (!d.is_printed_by("run") || d.name == "coordinates") continue;
     EXPECT_NE(told.contains(d.name), not_in_scenes.contains(d.name)) << d.name;

@@ -60,6 +60,7 @@ struct CatalogueMotor {
   Curve curve;                       // [rad/s] → [N·m]
   double synchronous_speed = 0;      // ω_s [rad/s]
   double rated_torque = 0;           // M_n [N·m]
+  double breakdown_speed = 0;        // [rad/s]
 
   template <class T>
   T torque_in(int piece, const T& speed) const {

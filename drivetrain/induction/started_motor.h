@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "drivetrain/motors/starters.h"
+#include "drivetrain/induction/starters.h"
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
 

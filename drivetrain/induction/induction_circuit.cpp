@@ -1,6 +1,6 @@
 // induction_circuit.cpp — equivalent circuit of an induction motor: its characteristic, steady currents, and the
 // circuit that belongs to a characteristic.
-#include "drivetrain/motors/induction_circuit.h"
+#include "drivetrain/induction/induction_circuit.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +69,12 @@ EquivalentCircuit EquivalentCircuit::of(const InductionMotor& wanted, double fre
   return c;
 }
 
+LineCurrent line_current(const EquivalentCircuit& c, double slip) {
+  const Complex main = j * c.magnetising, rotor = c.rotor_resistance / slip + j * c.rotor_leakage;
+  const Complex z = c.stator_resistance + j * c.stator_leakage + main * rotor / (main + rotor);
+  return {c.voltage / std::sqrt(3.0) / std::abs(z), z.real() / std::abs(z)};
+}
+
 void TwoAxisMotor::first_states(const ShaftState<double>& x, double* own) const {
   std::fill(own, own + is.states, 0.0);
   if (!x.on || x.rate == 0) return;
@@ -101,11 +107,18 @@ ShaftForm under(const TwoAxisMotor& motor, const Effects& effects) {
 }
 
 std::string TwoAxisMotor::describe() const {
-  return fmt::format("two-axis circuit: R_s = {}, R_r = {}, X_s = {}, X_r = {}, X_m = {} at {}, {} pole pair{}",
-                     with_unit(circuit.stator_resistance, "Ohm", 4), with_unit(circuit.rotor_resistance, "Ohm", 4),
-                     with_unit(circuit.stator_leakage, "Ohm", 4), with_unit(circuit.rotor_leakage, "Ohm", 4),
-                     with_unit(circuit.magnetising, "Ohm", 4), with_unit(circuit.frequency, "Hz", 4),
-                     circuit.pole_pairs, circuit.pole_pairs == 1 ? "" : "s");
+  std::string text =
+      fmt::format("two-axis circuit: R_s = {}, R_r = {}, X_s = {}, X_r = {}, X_m = {} at {}, {} pole pair{}",
+                  with_unit(circuit.stator_resistance, "Ohm", 4), with_unit(circuit.rotor_resistance, "Ohm", 4),
+                  with_unit(circuit.stator_leakage, "Ohm", 4), with_unit(circuit.rotor_leakage, "Ohm", 4),
+                  with_unit(circuit.magnetising, "Ohm", 4), with_unit(circuit.frequency, "Hz", 4), circuit.pole_pairs,
+                  circuit.pole_pairs == 1 ? "" : "s");
+  if (rated_slip > 0) {
+    const LineCurrent rated = line_current(circuit, rated_slip), held = line_current(circuit, 1);
+    text += fmt::format("; estimated from the nameplate: at rated slip {} with cos φ = {:.3f}, at standstill {}",
+                        with_unit(rated.current, "A", 4), rated.power_factor, with_unit(held.current, "A", 4));
+  }
+  return text;
 }
 
 }  // namespace kurbel

@@ -21,7 +21,7 @@
 #include <complex>
 #include <string>
 
-#include "drivetrain/motors/motors.h"
+#include "drivetrain/induction/kloss.h"
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
 
@@ -47,6 +47,12 @@ struct EquivalentCircuit {
   static EquivalentCircuit of(const InductionMotor& characteristic, double frequency, double magnetising_ratio);
 };
 
+// Effective current of a line at a slip, and cos φ there.
+struct LineCurrent {
+  double current = 0, power_factor = 0;  // [A], [1]
+};
+LineCurrent line_current(const EquivalentCircuit& circuit, double slip);
+
 struct TwoAxisMotor {
   static constexpr ShaftTraits is{.account = Account::driving,
                                   .commanded = true,
@@ -57,7 +63,8 @@ struct TwoAxisMotor {
                                   .described = true,
                                   .other_forms = true};
   EquivalentCircuit circuit;
-  InductionMotor line;  // its steady characteristic
+  InductionMotor line;    // its steady characteristic
+  double rated_slip = 0;  // s_n, to describe it; 0: not known
 
   template <class T>
   T torque(const ShaftState<T>& x) const {

@@ -1,0 +1,54 @@
+// induction_keys.h — the keys of an induction motor: what its catalogue, its nameplate, its circuit say of it, and how
+// it is started.
+#pragma once
+
+#include <optional>
+
+#include "drivetrain/shared/shared_keys.h"
+#include "engine/scene/fields.h"
+
+namespace kurbel {
+
+// From a catalogue: ratios are torques over the rated torque.
+struct CatalogueKeys {
+  std::optional<double> rated_power, rated_speed, breakdown_ratio;  // [W], [rad/s]
+  std::optional<double> synchronous_speed;                          // [rad/s]; else by the number of poles
+  std::optional<int> poles;                                         // 2 p
+  double mains = 50;                                                // [Hz], for the poles
+  std::optional<double> breakdown_torque, breakdown_slip;           // of Kloss' curve itself [N·m], [1]
+  double resistance_ratio = 0;                                      // a = R_s/R_r′
+  double voltage_factor = 1;                                        // over the rated voltage
+  std::optional<double> starting_ratio, pull_up_ratio, pull_up_speed, breakdown_speed;
+};
+// What the nameplate says of the currents; two of the three are enough.
+struct NameplateKeys {
+  std::optional<double> rated_current, power_factor, efficiency;  // [A]
+  double stator_share = 0.5;                                      // copper of the stator, of all losses but the rotor's
+};
+// Of the two-axis model: X in Ω at the frequency, of one phase.
+struct CircuitKeys {
+  std::optional<double> frequency;  // [Hz]
+  double magnetising_ratio = 30;    // X_m over X_s = X_r
+  std::optional<double> voltage;    // line to line [V]
+  std::optional<int> pole_pairs;
+  std::optional<double> stator_resistance, rotor_resistance, stator_reactance, rotor_reactance, magnetising_reactance;
+};
+enum class Starting { direct, star_delta, soft_start, frequency_converter };
+struct StartingKeys {
+  Starting starting = Starting::direct;
+  std::optional<double> switch_time, switch_speed;   // [s], [rad/s]
+  double pause = 0;                                  // [s]
+  std::optional<double> ramp;                        // [s]
+  double initial_voltage = 0.3;                      // u₀
+  std::optional<double> target_speed, torque_limit;  // [rad/s], [N·m]
+};
+struct InductionKeys : CatalogueKeys, NameplateKeys, CircuitKeys, StartingKeys {
+  double inertia = 0;  // [kg·m²]
+  Window window;
+};
+
+const Words<Starting>& starting_methods();
+const char* name_of(Starting method);
+const Fields<InductionKeys>& induction_fields();
+
+}  // namespace kurbel

@@ -1,0 +1,138 @@
+// induction_kinds.cpp — induction motors from catalogue, nameplate or circuit, and how they are started.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "drivetrain/induction/induction_law.h"
+#include "drivetrain/induction/kinds.h"
+#include "drivetrain/induction/started_motor.h"
+#include "engine/model/network.h"
+
+namespace kurbel {
+namespace {
+
+using Motor = Reading<InductionKeys>;
+using Keys = InductionKeys;
+
+double in_rpm(double speed) { return speed * 30 / std::numbers::pi; }
+
+// A key of the starters belongs to some of their methods.
+template <class Member>
+void belongs_to(const Motor& m, Member member, std::initializer_list<Starting> owners) {
+  if (!m.given(member) || std::find(owners.begin(), owners.end(), m.starting) != owners.end()) return;
+  std::vector<std::string> names;
+  for (const Starting owner : owners) names.push_back(name_of(owner));
+  m.refuse(member, fmt::format("\"{}\" belongs to starting = {}; here it is \"{}\"", m.key(member), listed(names),
+                               name_of(m.starting)));
+}
+
+// ω_s, where the motor came out [rad/s].
+void check_start(const Motor& m, std::optional<double> synchronous_speed) {
+  belongs_to(m, &Keys::switch_time, {Starting::star_delta});
+  belongs_to(m, &Keys::switch_speed, {Starting::star_delta});
+  belongs_to(m, &Keys::pause, {Starting::star_delta});
+  belongs_to(m, &Keys::ramp, {Starting::soft_start, Starting::frequency_converter});
+  belongs_to(m, &Keys::initial_voltage, {Starting::soft_start});
+  belongs_to(m, &Keys::target_speed, {Starting::frequency_converter});
+  belongs_to(m, &Keys::torque_limit, {Starting::soft_start, Starting::frequency_converter});
+  if (m.starting == Starting::star_delta) {
+    m.keep_one(&Keys::switch_time, &Keys::switch_speed);
+    if (!m.switch_time && !m.switch_speed)
+      m.refuse("starting = \"star-delta\" needs \"switch_time\" or \"switch_speed\"");
+    if (m.switch_speed && synchronous_speed && *m.switch_speed >= *synchronous_speed)
+      m.refuse(&Keys::switch_speed,
+               fmt::format("switch_speed = {:.6g} rpm; must be below synchronous_speed = {:.6g} rpm",
+                           in_rpm(*m.switch_speed), in_rpm(*synchronous_speed)));
+  } else if (m.starting != Starting::direct && !m.ramp) {
+    m.refuse(fmt::format("starting = \"{}\" needs \"ramp\", the time it takes", name_of(m.starting)));
+  }
+}
+
+// The motor on its starter.
+template <class Element>
+void put_started(const std::string& name, const InductionKeys& m, const Element& motor, Network& net, int node) {
+  const double on = m.window.start > Window{}.start ? m.window.start : 0;
+  const double limit = m.torque_limit.value_or(HUGE_VAL);
+  switch (m.starting) {
+    case Starting::direct:
+      return net.put(node, name, motor, m.window);
+    case Starting::star_delta: {
+      const StarDelta starter{on, m.switch_time.value_or(-1), m.switch_speed.value_or(0), m.pause};
+      return net.put(node, name, StartedMotor<Element, StarDelta>{motor, starter, HUGE_VAL}, m.window);
+    }
+    case Starting::soft_start: {
+      const SoftStart starter{on, m.initial_voltage, *m.ramp};
+      return net.put(node, name, StartedMotor<Element, SoftStart>{motor, starter, limit}, m.window);
+    }
+    case Starting::frequency_converter: {
+      const FrequencyConverter starter{on, *m.ramp, m.target_speed.value_or(motor.synchronous_speed),
+                                       motor.synchronous_speed};
+      return net.put(node, name, StartedMotor<Element, FrequencyConverter>{motor, starter, limit}, m.window);
+    }
+  }
+}
+
+double synchronous_speed_of(const InductionMotor& motor) { return motor.synchronous_speed; }
+double synchronous_speed_of(const CatalogueMotor& motor) { return motor.synchronous_speed; }
+double synchronous_speed_of(const TwoAxisMotor& motor) { return motor.line.synchronous_speed; }
+
+void build_induction(const Section& s, Network& net, Messages& messages) {
+  const auto motor = induction_fields().read(s, messages);
+  const int node = single_shaft(s, motor.inertia, net);
+  const std::size_t before = messages.all().size();
+  const auto law = induction_law(motor);
+  std::optional<double> speed;
+  if (law) speed = std::visit([](const auto& m) { return synchronous_speed_of(m); }, *law);
+  check_start(motor, speed);
+  if (!law || messages.all().size() > before) return;
+  if (const auto* two_axis = std::get_if<TwoAxisMotor>(&*law)) return net.put(node, s.name, *two_axis, motor.window);
+  if (const auto* points = std::get_if<CatalogueMotor>(&*law)) return put_started(s.name, motor, *points, net, node);
+  put_started(s.name, motor, std::get<InductionMotor>(*law), net, node);
+}
+
+// The mains that a synchronous speed [rad/s] belongs to, with a whole number of pole pairs; 50 Hz where both fit.
+double mains_at(double synchronous_speed) {
+  const auto fits = [&](double frequency) {
+    const double pairs = 2 * std::numbers::pi * frequency / synchronous_speed;
+    return std::lround(pairs) >= 1 && std::abs(pairs - std::round(pairs)) < 1e-6 * pairs;
+  };
+  return !fits(50) && fits(60) ? 60 : 50;
+}
+
+}  // namespace
+
+std::optional<InductionData> induction_data(const Section& component) {
+  if (component.kind->name != "induction motor") return {};
+  Messages unheard("");
+  const auto motor = induction_fields().read(component, unheard);
+  const auto law = induction_law(motor);
+  if (!law) return {};
+  InductionData data;
+  if (const auto* circuit = std::get_if<TwoAxisMotor>(&*law))
+    data = {circuit->line.rated_torque, circuit->line.synchronous_speed, circuit->line.breakdown_slip};
+  else if (const auto* kloss = std::get_if<InductionMotor>(&*law))
+    data = {kloss->rated_torque, kloss->synchronous_speed, kloss->breakdown_slip};
+  else if (const auto* points = std::get_if<CatalogueMotor>(&*law))
+    data = {points->rated_torque, points->synchronous_speed, 1 - points->breakdown_speed / points->synchronous_speed};
+  data.mains = motor.frequency ? *motor.frequency : motor.poles ? motor.mains : mains_at(data.synchronous_speed);
+  data.has_circuit = std::holds_alternative<TwoAxisMotor>(*law);
+  data.by_converter = motor.starting == Starting::frequency_converter;
+  return data;
+}
+
+std::vector<Kind> induction_kinds() {
+  return {
+      {.name = "induction motor",
+       .doc = "induction motor from its catalogue or nameplate: after Kloss (theory 4.1), or through its starting, "
+              "pull-up, "
+              "breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the two-axis "
+              "model",
+       .keys = induction_fields().keys(),
+       .build = build_induction},
+  };
+}
+
+}  // namespace kurbel
