@@ -56,6 +56,10 @@ struct BrakedShuntMotor {
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   double stall_torque() const { return constant * voltage / resistance; }
+  double current(const ShaftState<double>& x) const {
+    return (x.command * voltage - constant * x.rate) / (resistance + brake.added(x.mode));
+  }
+  double steady_current(const ShaftState<double>& x) const { return current(x); }
   Rated rated() const { return {rated_torque > 0 ? rated_torque : stall_torque(), voltage / constant}; }
   void guard(const ShaftState<double>& x, double* g) const { g[0] = brake.guard(x.mode, x.command); }
   int first_mode(const ShaftState<double>& x) const { return brake.mode_at(x.command); }
@@ -90,6 +94,8 @@ struct DcShuntCircuit {
     own[0] = x.on ? initial_current.value_or(steady) : 0;
   }
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
+  double current(const ShaftState<double>& x) const { return x.own[0]; }
+  double steady_current(const ShaftState<double>& x) const { return line.current(x); }
   OwnState state(int) const { return {"current", "A", line.voltage / line.resistance, true}; }
   bool opens_at_zero() const { return line.brake.resistance == 0; }
   bool uses_time() const { return false; }
@@ -131,6 +137,8 @@ struct DcSeriesCircuit {
     own[0] = x.on ? initial_current.value_or(steady) : 0;
   }
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
+  double current(const ShaftState<double>& x) const { return x.own[0]; }
+  double steady_current(const ShaftState<double>& x) const { return line.current(x); }
   OwnState state(int) const { return {"current", "A", stall_current(), true}; }
   double stall_current() const { return line.voltage / line.resistance; }
   bool opens_at_zero() const { return true; }

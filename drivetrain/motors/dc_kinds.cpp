@@ -8,6 +8,7 @@
 #include "drivetrain/motors/dc_circuits.h"
 #include "drivetrain/motors/dc_series_motor.h"
 #include "drivetrain/motors/motors.h"
+#include "drivetrain/motors/rheostat.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 
@@ -31,6 +32,76 @@ Fields<CircuitKeys> circuit_fields(const char* of) {
       });
 }
 
+// Resistances in the armature circuit that are cut out while it starts.
+struct RheostatKeys {
+  std::optional<std::vector<double>> starting_resistances, switch_times;  // R_1 > R_2 > … [Ω], [s]
+  std::optional<double> switch_current;                                   // [A]
+};
+void check_rheostat(const Reading<RheostatKeys>& r) {
+  using Keys = RheostatKeys;
+  if (!r.drop_without(&Keys::starting_resistances, &Keys::switch_times, &Keys::switch_current)) return;
+  if (!r.starting_resistances) return;
+  const std::vector<double>& steps = *r.starting_resistances;
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (steps[k] <= 0 || (k > 0 && steps[k] >= steps[k - 1])) {
+      r.refuse(&Keys::starting_resistances,
+               fmt::format("starting_resistances: {:g} Ohm in place {}; must be > 0 and below the one before: what is "
+                           "still in the circuit, stage by stage",
+                           steps[k], k + 1));
+      return;
+    }
+  if (!r.keep_one(&Keys::switch_current, &Keys::switch_times)) return;
+  if (!r.switch_current && !r.switch_times)
+    r.refuse(&Keys::starting_resistances,
+             "\"starting_resistances\" need \"switch_current\", at which the next is cut out, or \"switch_times\"");
+  if (!r.switch_times) return;
+  const std::vector<double>& times = *r.switch_times;
+  bool rises = times.front() > 0;
+  for (std::size_t k = 1; k < times.size(); ++k) rises = rises && times[k] > times[k - 1];
+  if (times.size() != steps.size() || !rises)
+    r.refuse(&Keys::switch_times,
+             fmt::format("switch_times: {} of them for {} starting_resistances; must be one each, > 0 and rising",
+                         times.size(), steps.size()));
+}
+Fields<RheostatKeys> rheostat_fields() {
+  using Keys = RheostatKeys;
+  return Fields<Keys>()
+      .add({.name = "starting_resistances",
+            .unit = "Ohm",
+            .doc = "in the armature circuit, stage by stage of a start, falling; a sequence may only switch the motor "
+                   "then, and its last stage stays"},
+           &Keys::starting_resistances)
+      .add({.name = "switch_current",
+            .unit = "A",
+            .domain = positive,
+            .doc = "armature current down to which a stage lasts"},
+           &Keys::switch_current)
+      .add({.name = "switch_times", .unit = "s", .doc = "ends of the stages, in place of switch_current"},
+           &Keys::switch_times)
+      .check(check_rheostat);
+}
+
+// The motor with every resistance of its start; `with` makes one of a total resistance.
+template <class With>
+void put_on_rheostat(const RheostatKeys& keys, const std::string& name, Window window, double resistance, Network& net,
+                     int node, const With& with) {
+  using Motor = decltype(with(resistance));
+  std::vector<Motor> stages;
+  for (const double step : *keys.starting_resistances) stages.push_back(with(resistance + step));
+  stages.push_back(with(resistance));
+  const double on = window.start > Window{}.start ? window.start : 0;
+  const auto put = [&](auto motor) {
+    motor.stages = std::move(stages), motor.switched_on = on;
+    motor.switch_current = keys.switch_current.value_or(1);
+    if (keys.switch_times) motor.times = *keys.switch_times;
+    net.put(node, name, std::move(motor), window);
+  };
+  if (keys.switch_times)
+    put(OnRheostat<Motor, CutOut::by_time>{});
+  else
+    put(OnRheostat<Motor, CutOut::by_current>{});
+}
+
 // --- shunt motor ---
 
 struct ShuntKeys {
@@ -40,6 +111,7 @@ struct ShuntKeys {
   std::optional<double> braking_resistance;             // [Ω]
   double inertia = 0;                                   // [kg·m²]
   CircuitKeys circuit;
+  RheostatKeys rheostat;
   Window window;
 
   bool electrical() const { return voltage || resistance || constant; }
@@ -53,12 +125,17 @@ void needs_circuit(const Reading<ShuntKeys>& m) {
   };
   if (m.circuit.inductance) refuse(&ShuntKeys::circuit);
   if (m.braking_resistance) refuse(&ShuntKeys::braking_resistance);
+  if (m.rheostat.starting_resistances) refuse(&ShuntKeys::rheostat);
 }
 
 void check_shunt(const Reading<ShuntKeys>& m) {
   if (m.electrical()) {
     if (!m.voltage || !m.resistance || !m.constant || m.stall_torque || m.no_load_speed)
       m.refuse("give either stall_torque and no_load_speed, or voltage, resistance and constant");
+    if (m.rheostat.starting_resistances && m.braking_resistance)
+      m.refuse(&ShuntKeys::braking_resistance,
+               "\"braking_resistance\" acts by commands, which a motor on \"starting_resistances\" does not take; drop "
+               "one of them");
     return;
   }
   if (!m.stall_torque && !m.no_load_speed)
@@ -103,6 +180,7 @@ const Fields<ShuntKeys>& shunt_fields() {
                &Keys::braking_resistance)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(circuit_fields("L of the armature circuit"), &Keys::circuit)
+          .add(rheostat_fields(), &Keys::rheostat)
           .add(window_fields(), &Keys::window)
           .check(check_shunt);
   return made;
@@ -117,8 +195,20 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
     return net.put(node, s.name, DcShuntMotor{*m.stall_torque, *m.no_load_speed, m.rated_torque}, m.window);
   const double voltage = *m.voltage, resistance = *m.resistance, constant = *m.constant;
   const BrakedShuntMotor line{voltage, resistance, constant, m.rated_torque, {m.braking_resistance.value_or(0)}};
-  if (m.circuit.inductance)
-    net.put(node, s.name, DcShuntCircuit{line, *m.circuit.inductance, m.circuit.initial_current}, m.window);
+  const auto with = [&](double total) {
+    BrakedShuntMotor one = line;
+    one.resistance = total;
+    return one;
+  };
+  const auto circuit = [&](double total) {
+    return DcShuntCircuit{with(total), *m.circuit.inductance, m.circuit.initial_current};
+  };
+  if (m.rheostat.starting_resistances && m.circuit.inductance)
+    put_on_rheostat(m.rheostat, s.name, m.window, resistance, net, node, circuit);
+  else if (m.rheostat.starting_resistances)
+    put_on_rheostat(m.rheostat, s.name, m.window, resistance, net, node, with);
+  else if (m.circuit.inductance)
+    net.put(node, s.name, circuit(resistance), m.window);
   else if (line.brake.resistance > 0)
     net.put(node, s.name, line, m.window);
   else
@@ -131,6 +221,7 @@ struct SeriesKeys : DcSeriesMotor {
   std::optional<double> rated_speed;  // [rad/s]
   double inertia = 0;                 // [kg·m²]
   CircuitKeys circuit;
+  RheostatKeys rheostat;
   Window window;
 };
 
@@ -166,6 +257,7 @@ const Fields<SeriesKeys>& series_fields() {
                &Keys::max_speed, speed_limit)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(circuit_fields("L of armature and field together"), &Keys::circuit)
+          .add(rheostat_fields(), &Keys::rheostat)
           .add(window_fields(), &Keys::window)
           .check([](const Reading<Keys>& m) {
             constexpr double in_rpm = 30 / std::numbers::pi;
@@ -183,8 +275,20 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
   motor.name = s.name;
   if (!m.given(&SeriesKeys::max_speed))
     motor.limit_by = m.rated_speed ? "by default 5 rated_speed" : "by default 100 R/κ, as rated_speed is not given";
-  if (m.circuit.inductance)
-    net.put(node, s.name, DcSeriesCircuit{motor, *m.circuit.inductance, m.circuit.initial_current}, m.window);
+  const auto with = [&](double total) {
+    DcSeriesMotor one = motor;
+    one.resistance = total;
+    return one;
+  };
+  const auto circuit = [&](double total) {
+    return DcSeriesCircuit{with(total), *m.circuit.inductance, m.circuit.initial_current};
+  };
+  if (m.rheostat.starting_resistances && m.circuit.inductance)
+    put_on_rheostat(m.rheostat, s.name, m.window, motor.resistance, net, node, circuit);
+  else if (m.rheostat.starting_resistances)
+    put_on_rheostat(m.rheostat, s.name, m.window, motor.resistance, net, node, with);
+  else if (m.circuit.inductance)
+    net.put(node, s.name, circuit(motor.resistance), m.window);
   else
     net.put(node, s.name, motor, m.window);
 }

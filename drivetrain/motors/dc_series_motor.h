@@ -48,6 +48,11 @@ struct DcSeriesMotor {
     const T over_stall = 1.0 + speed / base_speed();
     return stall / (over_stall * over_stall);
   }
+  // Of steady motion at this speed, as far as the law reaches [A].
+  double current(const ShaftState<double>& x) const {
+    return std::abs(x.command) * voltage / (resistance * std::max(0.5, 1 + sense(x) * x.rate / base_speed()));
+  }
+  double steady_current(const ShaftState<double>& x) const { return current(x); }
   bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }

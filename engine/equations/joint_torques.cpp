@@ -25,27 +25,37 @@ void JointTorques::list_places() {
 // The rigid joints within each merged shaft, leaves first, seen from its reference node.
 void JointTorques::list_trees() {
   const Network& net = model_->network;
-  std::vector<std::vector<int>> joints_at(net.nodes.size());
+  std::vector<LoadLink> links;
+  std::vector<int> joint_of;
   for (std::size_t j = 0; j < net.joints.size(); ++j) {
-    if (net.joints[j].elastic) continue;
-    joints_at[at(net.joints[j].a)].push_back(static_cast<int>(j));
-    joints_at[at(net.joints[j].b)].push_back(static_cast<int>(j));
+    const Network::Joint& joint = net.joints[j];
+    if (joint.elastic) continue;
+    links.push_back({joint.a, joint.b, joint.ratio,
+                     joint.element && joint.element->stiffness > 0 ? 1 / joint.element->stiffness : 0});
+    joint_of.push_back(static_cast<int>(j));
   }
-  std::vector<char> seen(net.nodes.size(), 0);
+  LoadPaths paths(std::move(links), net.nodes.size());
   for (const Shaft& shaft : model_->shafts) {
-    std::vector<int> queue = {shaft.reference};
-    seen[at(shaft.reference)] = 1;
-    for (std::size_t next = 0; next < queue.size(); ++next)
-      for (const int j : joints_at[at(queue[next])]) {
-        const Network::Joint& joint = net.joints[at(j)];
-        const int other = joint.a == queue[next] ? joint.b : joint.a;
-        if (seen[at(other)]) continue;
-        seen[at(other)] = 1;
-        steps_.push_back({j, other, queue[next], other == joint.b, joint.ratio});
-        queue.push_back(other);
-      }
+    const std::vector<LoadStep> steps = paths.from(shaft.reference);
+    steps_.insert(steps_.end(), steps.rbegin(), steps.rend());
   }
   std::reverse(steps_.begin(), steps_.end());
+  loops_ = LoadLoops(paths, steps_, net.nodes.size(), joint_of);
+  for (LoadStep& step : steps_) step.link = joint_of[at(step.link)];
+  if (loops_.any()) lock_in_twists_of_the_start();
+}
+
+// A loop that is rigid all round keeps what it is clamped with.
+void JointTorques::lock_in_twists_of_the_start() {
+  const Network& net = model_->network;
+  const auto& start = model_->scene.run.start.components;
+  std::vector<double> twist(net.joints.size(), 0.0);
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    const auto given = start.find(net.joints[j].component);
+    if (given != start.end() && net.joints[j].element && !net.joints[j].elastic)
+      twist[j] = given->second.twist.value_or(0);
+  }
+  loops_.lock_in(twist);
 }
 
 void JointTorques::find(const Given& given, std::span<const Held> held, const Hold* shaft_hold,
@@ -55,6 +65,7 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
   for (const Held& one : held) add_held(one, shaft_hold[one.shaft], element_hold);
   walk_to_the_roots();
   bear_reactions();
+  if (loops_.any()) loops_.share(torque_.data());
 }
 
 void JointTorques::add_inertia_and_elements(const Given& given) {
@@ -100,16 +111,7 @@ void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold
 
 void JointTorques::walk_to_the_roots() {
   double *const torque = torque_.data(), *const balance = balance_.data();
-  for (const Step& step : std::span<const Step>(steps_)) {
-    const double ratio = step.ratio, need = balance[step.child];
-    if (step.child_is_b) {
-      torque[step.joint] = need / ratio;
-      balance[step.parent] += need / ratio;
-    } else {
-      torque[step.joint] = -need;
-      balance[step.parent] += ratio * need;
-    }
-  }
+  for (const LoadStep& step : std::span<const LoadStep>(steps_)) pass_on(step, balance, torque);
 }
 
 // Gears that became joints of two shafts still push on the third, which stands: their torque flows on to the frame.
@@ -122,10 +124,10 @@ void JointTorques::bear_reactions() {
       if (term.joint >= 0) need -= term.taken * torque_[at(term.joint)];
     if (need == 0) continue;
     int node = gear.node;
-    for (const Step& step : steps_) {  // leaves first: the way to the root is in order
+    for (const LoadStep& step : steps_) {  // leaves first: the way to the root is in order
       if (step.child != node) continue;
       const double ratio = step.ratio;
-      torque_[at(step.joint)] += step.child_is_b ? need / ratio : -need;
+      torque_[at(step.link)] += step.child_is_b ? need / ratio : -need;
       need = step.child_is_b ? need / ratio : ratio * need;
       node = step.parent;
     }

@@ -4,12 +4,14 @@
 // the nodes on the side away from the shaft's reference need beyond their own torques:
 //     need = J ε − Σ τ of the elements − what elastic joints and relations bring;
 //     a joint passes the need of its child on to its parent, times the ratio, from the leaves to the root.
-// At the root nothing is left, unless its motion is prescribed: that rest is the reaction there.
+// At the root nothing is left, unless its motion is prescribed: that rest is the reaction there. Rigid loops share what they
+// pass by the stiffnesses that are given (load_paths.h).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "engine/model/load_paths.h"
 #include "engine/model/model.h"
 
 namespace kurbel {
@@ -39,11 +41,6 @@ class JointTorques {
   const std::vector<double>& balance() const { return balance_; }
 
  private:
-  struct Step {  // one joint of the tree within a merged shaft, leaves first
-    int joint, child, parent;
-    bool child_is_b;
-    double ratio;
-  };
   struct NodeInertia {  // J ε = inertia · gain · α of its shaft
     double inertia_gain;
     int shaft;
@@ -54,6 +51,7 @@ class JointTorques {
   };
   void list_trees();
   void list_places();
+  void lock_in_twists_of_the_start();
   void add_inertia_and_elements(const Given& given);
   void add_connections(const Given& given);
   void add_held(const Held& held, const Hold& shaft_hold, const Hold* element_hold);
@@ -61,7 +59,8 @@ class JointTorques {
   void bear_reactions();
 
   const Model* model_;
-  std::vector<Step> steps_;
+  std::vector<LoadStep> steps_;  // of the trees within the merged shafts, leaves first; a link is a joint
+  LoadLoops loops_;
   std::vector<NodeInertia> nodes_;
   std::vector<ElementPlace> elements_;
   std::vector<double> torque_, balance_;

@@ -221,13 +221,14 @@ void Start::balance_twists(std::span<double> y, double t) {
   const Model& m = model_;
   if (m.elastic.empty()) return;
   const std::size_t first = flow_.twists_begin();
-  std::vector<double> rest(m.elastic.size(), 0.0);
+  std::vector<double> rest(m.elastic.size(), 0.0), locked_in(m.elastic.size(), 0.0);
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
-    if (m.network.joints[index(m.elastic[i].joint)].element->is.uses_angle) rest[i] = y[first + i];
+    const bool uneven = m.network.joints[index(m.elastic[i].joint)].element->is.uses_angle;
+    (uneven ? rest : locked_in)[i] = y[first + i];
     y[first + i] = 0;
   }
   flow_.evaluate(t, y);
-  const std::vector<double> joint_torque = balanced_joints(m, needs_when_balanced(y));
+  const std::vector<double> joint_torque = balanced_joints(m, needs_when_balanced(y), locked_in);
   std::vector<double> twists(m.elastic.size());
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const std::size_t j = index(m.elastic[i].joint);

@@ -45,7 +45,8 @@ class Start {
 
 // Torques of the network's joints that give every node what it needs [N·m]: summed from the leaves of the whole tree to
 // a root that can take the rest (a prescribed motion, if there is one). A gear that runs counts as one without losses.
-// Throws std::runtime_error where the three shafts of a gear are free.
-std::vector<double> balanced_joints(const Model& model, std::vector<double> need);
+// Closed loops share what they pass by the twists of their springs, which gape by what these twists (per elastic joint)
+// lock in. Throws std::runtime_error where the three shafts of a gear are free, or a loop has no spring.
+std::vector<double> balanced_joints(const Model& model, std::vector<double> need, std::span<const double> twist);
 
 }  // namespace kurbel

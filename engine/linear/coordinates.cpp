@@ -17,6 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double says_nothing_new = 1e-10;  // of a row, over the largest
+constexpr double closes = 1e-9;             // of a speed: two ways round a loop say the same
 
 class Maker {
  public:
@@ -153,10 +154,12 @@ class Walk {
           if (k.col() != queue[next] && k.value() != 0) other = k.col(), gain = k.value();
         if (other < 0) {
           free = false;
-        } else if (part_[at(other)] < 0) {
+        } else if (const double value = -j.value() * value_[at(queue[next])] / gain; part_[at(other)] < 0) {
           part_[at(other)] = part;
-          value_[at(other)] = -j.value() * value_[at(queue[next])] / gain;
+          value_[at(other)] = value;
           queue.push_back(other);
+        } else if (std::abs(value - value_[at(other)]) > closes * std::abs(value)) {
+          free = false;  // springs close a loop in which they wind each other up
         }
       }
     return free;

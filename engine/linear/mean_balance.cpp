@@ -108,6 +108,7 @@ class BaseMotion::Balance {
     for (std::size_t k = 0; k < springs_.size(); ++k) kept.emplace_back(static_cast<int>(k), springs_[k], 1.0);
     spring_twists_ = matrix(static_cast<Index>(springs_.size()), b_.twists_.rows(), kept) * b_.twists_;
     free_ = motions_without_twist(spring_twists_);
+    find_loops();
     free_alpha_ = VectorXd::Zero(free_.cols());
     is_held_.assign(static_cast<std::size_t>(states_), 0);
   }
@@ -145,18 +146,46 @@ class BaseMotion::Balance {
     return sum;
   }
 
+  // Twists that no motion brings: sums over closed loops, which keep what is locked in. Orthogonal to the springs' image.
+  void find_loops() {
+    const auto springs = static_cast<Index>(springs_.size());
+    const Index count = springs + free_.cols() - n_;
+    loops_ = Eigen::MatrixXd(0, springs);
+    if (count <= 0) return;
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(spring_twists_.transpose()));
+    loops_ = lu.kernel().transpose();
+  }
+  // Rows below the balance of the coordinates: twists of loops, or torques over the springs' stiffness.
+  void add_loops(int row, const VectorXd& factor, Triplets& to) const {
+    for (Index l = 0; l < loops_.rows(); ++l)
+      for (Index k = 0; k < loops_.cols(); ++k)
+        if (loops_(l, k) != 0)
+          to.emplace_back(row + static_cast<int>(l), static_cast<int>(k), loops_(l, k) * factor[k]);
+  }
+
   // What the joints must carry, and the twists at which they do.
   void guess_twists() {
     const VectorXd torque_now = b_.mean_joint_torques();
     VectorXd needed = mean(false).head(n_);
     for (std::size_t k = 0; k < springs_.size(); ++k)
       needed += spring_twists_.row(static_cast<Index>(k)).transpose() * torque_now[springs_[k]];
-    SparseMatrix system(n_, static_cast<Index>(springs_.size()) + free_.cols());
+    SparseMatrix system(n_ + loops_.rows(), static_cast<Index>(springs_.size()) + free_.cols());
     Triplets entries;
     add(spring_twists_.transpose(), 0, 0, 1, entries);
     add_free(static_cast<int>(springs_.size()), 1, entries);
+    VectorXd compliance = VectorXd::Zero(static_cast<Index>(springs_.size())),
+             gape = VectorXd::Zero(n_ + loops_.rows());
+    for (Index k = 0; loops_.rows() > 0 && k < compliance.size(); ++k) {
+      const auto joint = static_cast<std::size_t>(springs_[kurbel::at(k)]);
+      const double stiffness = m_.network.joints[kurbel::at(m_.elastic[joint].joint)].element->stiffness;
+      compliance[k] = stiffness > 0 ? 1 / stiffness : 0;
+      for (Index l = 0; l < loops_.rows(); ++l)
+        gape[n_ + l] += loops_(l, k) * b_.begin_[b_.equations_.twist_index(springs_[kurbel::at(k)])];
+    }
+    gape.head(n_) = needed;
+    add_loops(static_cast<int>(n_), compliance, entries);
     system.setFromTriplets(entries.begin(), entries.end());
-    const VectorXd x = solved(system, needed);
+    const VectorXd x = solved(system, gape);
     if (x.size() == 0) return;
     for (std::size_t k = 0; k < springs_.size(); ++k) {
       const auto joint = static_cast<std::size_t>(springs_[k]);
@@ -172,7 +201,9 @@ class BaseMotion::Balance {
     for (int step = 0; step < most_steps; ++step) {
       if (size <= balanced_within) return true;
       Deadline::check();
-      const VectorXd change = solved(system(), residual);
+      VectorXd right = VectorXd::Zero(residual.size() + loops_.rows());  // loops keep what they have
+      right.head(residual.size()) = residual;
+      const VectorXd change = solved(system(), right);
       if (change.size() == 0 || !change.allFinite()) return size <= good_enough;
       bool better = false;
       double part = 1;
@@ -216,7 +247,8 @@ class BaseMotion::Balance {
       for (SparseMatrix::InnerIterator it(j.own_by_own, c); it; ++it)
         if (!is_held_[kurbel::at(it.row())]) entries.emplace_back(static_cast<int>(n_ + it.row()), column, it.value());
     }
-    return matrix(n_ + states_, springs + free + states_, entries);
+    add_loops(static_cast<int>(n_ + states_), VectorXd::Ones(springs), entries);
+    return matrix(n_ + states_ + loops_.rows(), springs + free + states_, entries);
   }
   bool is_held(int block, Index row) const { return block > 0 && is_held_[kurbel::at(row)]; }
 
@@ -277,7 +309,8 @@ class BaseMotion::Balance {
   Index n_, states_;
   std::vector<int> springs_;  // elastic joints
   SparseMatrix spring_twists_;
-  Eigen::MatrixXd free_;  // motions without twist
+  Eigen::MatrixXd free_;   // motions without twist
+  Eigen::MatrixXd loops_;  // per row: the twists of springs that add up to what a loop has locked in
   VectorXd free_alpha_;
   std::vector<char> is_held_;  // per own state
 };

@@ -12,13 +12,13 @@
 namespace kurbel {
 namespace {
 
-// The node that a branch begins at: "gearbox", "gearbox.in", "differential.left".
-int port_named(const Network& network, const std::string& from) {
-  const std::size_t dot = from.find('.');
-  const Network::Ports& ports = network.ports.at(from.substr(0, dot));
+// The node that a branch begins or ends at: "gearbox", "gearbox.in", "differential.left".
+int port_named(const Network& network, const std::string& said) {
+  const std::size_t dot = said.find('.');
+  const Network::Ports& ports = network.ports.at(said.substr(0, dot));
   if (dot != std::string::npos)
-    if (const auto other = ports.others.find(from.substr(dot + 1)); other != ports.others.end()) return other->second;
-  return dot != std::string::npos && from.substr(dot + 1) == "in" ? ports.in : ports.out;
+    if (const auto other = ports.others.find(said.substr(dot + 1)); other != ports.others.end()) return other->second;
+  return dot != std::string::npos && said.substr(dot + 1) == "in" ? ports.in : ports.out;
 }
 
 }  // namespace
@@ -53,6 +53,7 @@ Network build_network(const Scene& scene) {
       if (end >= 0) network.join(end, ports.in, 1, "");
       end = ports.out;
     }
+    if (!line.to.empty()) network.join(end, port_named(network, line.to), 1, "");
   }
   return network;
 }

@@ -30,8 +30,8 @@ std::shared_ptr<const Model> compile_network(Network network, const Scene& scene
   m.network = std::move(network);
   m.scene = scene;
   m.effects = effects;
-  // The network as drawn: one tree, told for one link.
-  check_tree(c);
+  // The network as drawn, told for one link.
+  check_shafts(c);
   choose_reduction_link(c);
   find_node_ratios(c);
   // Under its effects.

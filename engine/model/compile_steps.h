@@ -42,11 +42,20 @@ Merging merge(const Network& network, const std::function<bool(const Network::Jo
 // Nodes that are one shaft under the effects that are on.
 Merging merge_shafts(const Network& network);
 
-// Throws SceneError unless the shafts form one tree of a size that can be compiled.
-void check_tree(Compilation& c);
+// Throws SceneError unless the shafts hang together, in a size that can be compiled.
+void check_shafts(Compilation& c);
 // The link that all speeds, torques and inertias are told for, and the speed of every node over its.
 void choose_reduction_link(Compilation& c);
 void find_node_ratios(Compilation& c);
+
+// --- loops.cpp: what closes loops of shafts ---
+
+// The machine's usual motion, all turning together: the speed of every node over that of the first. Throws SceneError
+// where loops are closed at ratios that clash, so that nothing can turn.
+std::vector<double> usual_motion(Compilation& c);
+// Loops that are rigid under the effects that are on: their ratios fit (clutches that count as locked among them), and
+// what they share is determined.
+void check_rigid_loops(Compilation& c, const Merging& merging);
 
 // --- switching.cpp: the network under the effects that are on ---
 

@@ -1,4 +1,4 @@
-// merging.cpp — which nodes hang together rigidly, whether all of them form a tree, and how fast each turns.
+// merging.cpp — which nodes hang together rigidly, whether all of them do, and how fast each turns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,11 @@
 namespace kurbel {
 namespace {
 
+// A clutch, or a viscous film: its sides need not turn at its ratio.
+bool may_slip(const Network::Joint& joint) {
+  return joint.element && (joint.element->is.slips || joint.element->is.springless);
+}
+
 // Goes from node to node, breadth first, and notes each one's speed relative to the first.
 class Walk {
  public:
@@ -21,6 +26,7 @@ class Walk {
       if (is_rigid(network.joints[j])) {
         joints_at_[at(network.joints[j].a)].push_back(j);
         joints_at_[at(network.joints[j].b)].push_back(j);
+        any_slips_ = any_slips_ || may_slip(network.joints[j]);
       }
     for (const Network::Relation& relation : network.relations)
       for (int k = 0; k < relation.members(); ++k)
@@ -35,9 +41,14 @@ class Walk {
       Deadline::check();
       queue_ = {first};
       merging_.group[first] = merging_.groups;
-      for (std::size_t next = 0; next < queue_.size(); ++next) {
-        walk_joints(queue_[next]);
-        walk_relations(queue_[next]);
+      // What may slip comes last: it follows the ratios that gears force on its sides, it forces none.
+      for (std::size_t next = 0, late = 0; next < queue_.size() || (any_slips_ && late < queue_.size());) {
+        if (next == queue_.size()) {
+          walk_joints(queue_[late++], true);
+          continue;
+        }
+        walk_joints(queue_[next], false);
+        walk_relations(queue_[next++]);
       }
       ++merging_.groups;
     }
@@ -48,9 +59,10 @@ class Walk {
   bool is_walked(const Network::Relation& relation, int k) const {
     return through_ == Through::all || (through_ == Through::turning && relation.usual[at(k)] != 0);
   }
-  void walk_joints(std::size_t node) {
+  void walk_joints(std::size_t node, bool slipping) {
     for (const std::size_t j : joints_at_[node]) {
       const Network::Joint& joint = network_.joints[j];
+      if (may_slip(joint) != slipping) continue;
       const bool from_a = at(joint.a) == node;
       const std::size_t other = at(from_a ? joint.b : joint.a);
       if (merging_.group[other] >= 0) continue;
@@ -81,6 +93,7 @@ class Walk {
   std::vector<std::vector<const Network::Relation*>> relations_at_;
   Merging merging_;
   std::vector<std::size_t> queue_;
+  bool any_slips_ = false;
 };
 
 bool any_joint(const Network::Joint&) { return true; }
@@ -113,16 +126,20 @@ Merging merge_shafts(const Network& network) {
   return merge(network, [](const Network::Joint& joint) { return !joint.elastic; });
 }
 
-void check_tree(Compilation& c) {
+void check_shafts(Compilation& c) {
   const Network& net = c.net();
-  const auto refuse = [&](const char* text) { throw SceneError({{c.messages.file(), c.place_of_line(), text}}); };
+  const auto refuse = [&](const std::string& text) {
+    throw SceneError({{c.messages.file(), c.place_of_line(), text}});
+  };
   if (net.nodes.empty()) refuse("the machine has no shaft");
   check_sizes(c);
-  const Merging all = merge(net, any_joint, Through::all);
-  const Merging joined = merge(net, any_joint);
-  const bool loop = net.joints.size() + at(joined.groups) != net.nodes.size();
-  if (all.groups > 1 || loop || !relations_are_independent(net, joined.group))
-    refuse("the shafts do not form a tree: a part is unconnected or a loop is closed; check the lines and branches");
+  if (merge(net, any_joint, Through::all).groups > 1)
+    refuse("a part of the machine is unconnected; check the lines and branches");
+  const Merging firm = merge(net, [](const Network::Joint& joint) { return !joint.element; });
+  if (!relations_are_independent(net, firm.group))
+    refuse(
+        "gears with losses, planetary gears or gears in housings tie the same shafts twice; check the lines and "
+        "branches");
 }
 
 // The reduction link is the crank of the first mechanism, else the first shaft of the line.
@@ -140,9 +157,8 @@ void choose_reduction_link(Compilation& c) {
 void find_node_ratios(Compilation& c) {
   Model& m = c.model;
   const Network& net = c.net();
-  const Merging all = merge(net, any_joint, Through::all);
-  m.node_ratio = all.gain;
-  const double reduction = all.gain[at(m.reduction_node)];
+  m.node_ratio = usual_motion(c);
+  const double reduction = m.node_ratio[at(m.reduction_node)];
   for (double& ratio : m.node_ratio) ratio /= reduction == 0 ? 1 : reduction;
   for (const double ratio : m.node_ratio) m.scale_ratio.push_back(ratio == 0 ? 1 : std::abs(ratio));
   // Inertias count by their squares.

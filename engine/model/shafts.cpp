@@ -109,6 +109,7 @@ void check_dead_centres(Compilation& c, const Shaft& shaft) {
 void make_shafts(Compilation& c) {
   Model& m = c.model;
   const Merging merging = merge_shafts(m.network);
+  check_rigid_loops(c, merging);
   std::vector<Shaft> groups = gather_shafts(c, merging);
   add_inertias(m, merging, groups);
   put_in_order(m, merging, groups);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "engine/reading/scene_reading.h"
 #include "engine/scene/units.h"
@@ -16,33 +17,50 @@ using Type = DocumentValue::Type;
 // "gearbox.out" → "gearbox".
 std::string component_of(const std::string& port) { return port.substr(0, port.find('.')); }
 
-void check_from(SceneReading& r, const Line& line, const std::vector<std::string>& names,
+// "gearbox.out", where a branch begins or ends: is there such a shaft?
+void check_port(SceneReading& r, const std::string& said, Location where, const std::vector<std::string>& names,
                 const std::map<std::string, Location>& placed) {
-  const std::string component = component_of(line.from);
+  const std::string component = component_of(said);
   const Section* section = r.find(component);
   if (!section) {
-    if (!r.unreadable.count(component)) r.refuse(line.at, r.no_component(component, names));
+    if (!r.unreadable.count(component)) r.refuse(where, r.no_component(component, names));
     return;
   }
-  if (std::count(line.names.begin(), line.names.end(), component)) return;  // a ring; said below
-  if (!placed.count(component)) return;                                     // said elsewhere
-  const std::string port = line.from.size() > component.size() ? line.from.substr(component.size() + 1) : "";
+  if (!placed.count(component)) return;  // said elsewhere
+  const std::string port = said.size() > component.size() ? said.substr(component.size() + 1) : "";
   const bool two = section->kind->placement == Placement::inline_two;
   const std::vector<std::string>& more = section->kind->further_shafts;
   if (two && port != "in" && port != "out" && !std::count(more.begin(), more.end(), port)) {
     if (more.empty()) {
-      r.refuse(line.at, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(line.from),
-                                    section->kind->name, component, component, component));
+      r.refuse(where, fmt::format("{}: {} \"{}\" has two shafts; say \"{}.in\" or \"{}.out\"", in_quotes(said),
+                                  section->kind->name, component, component, component));
     } else {
       std::vector<std::string> ports = {component + ".in", component + ".out"};
       for (const std::string& other : more) ports.push_back(component + "." + other);
-      r.refuse(line.at, fmt::format("{}: {} \"{}\" has {} shafts; say {}", in_quotes(line.from), section->kind->name,
-                                    component, ports.size(), listed(ports)));
+      r.refuse(where, fmt::format("{}: {} \"{}\" has {} shafts; say {}", in_quotes(said), section->kind->name,
+                                  component, ports.size(), listed(ports)));
     }
   }
-  if (!two && component.size() != line.from.size())
-    r.refuse(line.at, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(line.from), section->kind->name,
-                                  component, component));
+  if (!two && component.size() != said.size())
+    r.refuse(where, fmt::format("{}: {} \"{}\" has one shaft; say \"{}\"", in_quotes(said), section->kind->name,
+                                component, component));
+}
+
+void check_ends(SceneReading& r, const Line& line, const std::vector<std::string>& names,
+                const std::map<std::string, Location>& placed) {
+  if (line.from.empty()) return;
+  const bool ring = std::count(line.names.begin(), line.names.end(), component_of(line.from)) > 0;  // said below
+  if (!ring) check_port(r, line.from, line.at, names, placed);
+  if (line.to.empty()) return;
+  if (std::count(line.names.begin(), line.names.end(), component_of(line.to)))
+    r.refuse(line.to_at,
+             fmt::format("the branch ends at \"{0}\", which it holds itself; end it at a component of another "
+                         "line",
+                         component_of(line.to)));
+  else
+    check_port(r, line.to, line.to_at, names, placed);
+  if (line.to == line.from)
+    r.refuse(line.to_at, fmt::format("the branch begins and ends at \"{}\"; a loop ends at another shaft", line.to));
 }
 
 void report_ring(SceneReading& r, std::size_t first, const std::map<std::string, std::size_t>& line_of) {
@@ -104,8 +122,7 @@ void check_connections(SceneReading& r) {
                  fmt::format("component \"{}\" is used twice (first at line {}); one component stands in one place",
                              name, first->second.line));
     }
-  for (const Line& line : r.scene.lines)
-    if (!line.from.empty()) check_from(r, line, names, placed);
+  for (const Line& line : r.scene.lines) check_ends(r, line, names, placed);
   for (const Section& section : r.scene.components)
     if (r.lines_sound && !placed.count(section.name) && !meant.count(section.name))
       r.refuse(section.at,
@@ -119,8 +136,9 @@ void check_connections(SceneReading& r) {
 // line, then along the branches by their places of departure and names.
 void put_in_canonical_order(SceneReading& r) {
   if (r.scene.lines.empty()) return;
-  std::sort(r.scene.lines.begin() + 1, r.scene.lines.end(),
-            [](const Line& a, const Line& b) { return a.from != b.from ? a.from < b.from : a.names < b.names; });
+  std::sort(r.scene.lines.begin() + 1, r.scene.lines.end(), [](const Line& a, const Line& b) {
+    return std::tie(a.from, a.names, a.to) < std::tie(b.from, b.names, b.to);
+  });
   // A branch may begin at a branch: lines follow those they depart from, otherwise in sorted order.
   std::multimap<std::string, std::size_t> waiting;
   for (std::size_t i = 1; i < r.scene.lines.size(); ++i) waiting.emplace(component_of(r.scene.lines[i].from), i);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/reading/scene_reading.h"
 #include "engine/scene/units.h"
@@ -31,32 +32,42 @@ Line read_line(SceneReading& r, const DocumentValue& value, const std::string& w
   return line;
 }
 
+// The text of a port, "gearbox.out"; none, with a message, where something else stands there.
+std::optional<std::string> read_port(SceneReading& r, const DocumentEntry& entry) {
+  if (entry.value.type == Type::text && !entry.value.text.empty()) return entry.value.text;
+  r.refuse(entry.value.at, fmt::format("branch: {} = {}; must be the name of a component in quotes", entry.key,
+                                       entry.value.describe()));
+  return {};
+}
+
 void read_branch(SceneReading& r, const DocumentValue& branch) {
+  static const std::vector<std::string> keys = {"from", "line", "to"};
+  const auto is_key = [&](const DocumentEntry& e) { return std::count(keys.begin(), keys.end(), e.key) > 0; };
   for (const DocumentEntry& entry : branch.entries)
-    if (entry.key != "from" && entry.key != "line")
-      r.refuse(entry.at, fmt::format("branch: unknown key {}{}; allowed: \"from\" and \"line\"", in_quotes(entry.key),
-                                     suggestion(entry.key, {"from", "line"})));
-  const DocumentEntry* from = branch.find("from");
-  const DocumentEntry* line = branch.find("line");
-  const bool has_from = from && from->value.type == Type::text && !from->value.text.empty();
-  const bool mistyped = std::any_of(branch.entries.begin(), branch.entries.end(), [](const DocumentEntry& e) {
-    return e.key != "from" && e.key != "line" && nearest(e.key, {"from", "line"});
-  });
+    if (!is_key(entry))
+      r.refuse(entry.at, fmt::format("branch: unknown key {}{}; allowed: \"from\", \"line\" and \"to\"",
+                                     in_quotes(entry.key), suggestion(entry.key, keys)));
+  const DocumentEntry *from = branch.find("from"), *line = branch.find("line"), *to = branch.find("to");
+  const bool mistyped = std::any_of(branch.entries.begin(), branch.entries.end(),
+                                    [&](const DocumentEntry& e) { return !is_key(e) && nearest(e.key, keys); });
+  std::optional<std::string> begin, end;
   if (branch.type != Type::table || ((!from || !line) && !mistyped)) {
     r.refuse(branch.at, fmt::format("branch: {}; needs from = \"component\" and line = [\"component\", …]",
                                     branch.type != Type::table ? branch.describe() + " is no table"
                                     : !from && !line           ? "\"from\" and \"line\" are missing"
                                     : from                     ? "\"line\" is missing"
                                                                : "\"from\" is missing"));
-  } else if (from && !has_from) {
-    r.refuse(from->value.at,
-             fmt::format("branch: from = {}; must be the name of a component in quotes", from->value.describe()));
+    if (from && from->value.type == Type::text) begin = from->value.text;
+  } else {
+    if (from) begin = read_port(r, *from);
+    if (to) end = read_port(r, *to);
   }
-  if (!has_from || !line) r.lines_sound = false;
+  if (!begin || begin->empty() || !line || (to && !end)) r.lines_sound = false;
   if (!line) return;
-  Line read = read_line(r, line->value, "branch: line", has_from ? from->value.text : "");
-  if (!has_from) return;
+  Line read = read_line(r, line->value, "branch: line", begin.value_or(""));
+  if (!begin || begin->empty()) return;
   read.at = from->value.at;
+  if (end) read.to = *end, read.to_at = to->value.at;
   r.scene.lines.push_back(std::move(read));
 }
 

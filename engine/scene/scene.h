@@ -61,6 +61,8 @@ struct Line {
   std::vector<std::string> names = {};
   Location at = {};
   std::vector<Location> name_at = {};
+  std::string to = {};  // of a branch that closes a loop: where it ends; "planetary.ring"
+  Location to_at = {};
 };
 
 struct Scene {

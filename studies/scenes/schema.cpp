@@ -188,7 +188,9 @@ std::string scene_schema() {
   Json effects = {{"elasticity", elasticity}};
   for (const EffectFlag& effect : effect_flags())
     effects[effect.name] = {{"type", "boolean"}, {"description", effect.adds}};
-  const Json branch = table_of({{"from", from}, {"line", names}}, {"from", "line"});
+  Json to = text();
+  to["description"] = "component that the branch ends at, where it closes a loop of shafts";
+  const Json branch = table_of({{"from", from}, {"line", names}, {"to", to}}, {"from", "line"});
 
   Json definitions = Json::object(), kinds = Json::array();
   for (const Kind& kind : all_kinds()) {

@@ -42,6 +42,7 @@ KURBEL_SCENE(genset, "diesel_generator.toml")
 KURBEL_SCENE(elevator, "inclined_conveyor.toml")
 KURBEL_SCENE(axle, "drive_axle.toml")
 KURBEL_SCENE(gears, "gear_test_rig.toml")
+KURBEL_SCENE(rig, "back_to_back_rig.toml")
 
 namespace kurbel {
 
@@ -71,6 +72,7 @@ const std::vector<SceneTemplate>& scene_templates() {
        elevator()},
       {"axle", "driven axle: cardan shaft at an angle, differential", axle()},
       {"gears", "spur gears with varying tooth stiffness, run up through resonance", gears()},
+      {"rig", "back-to-back gear rig: a closed loop of shafts with locked-in torque", rig()},
   };
   return templates;
 }

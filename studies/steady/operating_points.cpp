@@ -247,15 +247,15 @@ class RatioTrial {
     target_ *= model->node_ratio[at(node_)];
     present_ = 1;
     for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
+    lies_in_a_loop_ = !has_gears() || !turns_with(1.01 * present_);
   }
-  // A stage whose ratio can be set: none where all of them have losses or teeth that yield.
-  bool has_gears() const { return !gears_of(network_, gearbox_).empty(); }
+  // A stage whose ratio can be set: none where all of them have losses or teeth that yield, or where another way round
+  // a closed loop of shafts sets it.
+  bool has_gears() const { return !gears_of(network_, gearbox_).empty() && !lies_in_a_loop_; }
   double present() const { return present_; }
   // Start time with another ratio of the last stage; HUGE_VAL: never.
   double operator()(double ratio) {
-    Network net = network_;
-    net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
-    const auto model = compile_network(std::move(net), scene_, rigid_effects());
+    const auto model = compile_network(with(ratio), scene_, rigid_effects());
     const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_, false);
     const double time = run.reached ? run.time : HUGE_VAL;
     tried_.emplace_back(ratio, time);
@@ -267,12 +267,25 @@ class RatioTrial {
   }
 
  private:
+  Network with(double ratio) const {
+    Network net = network_;
+    net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
+    return net;
+  }
+  bool turns_with(double ratio) const try {
+    compile_network(with(ratio), scene_, rigid_effects());
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+
   const Scene& scene_;
   std::string gearbox_;
   double target_, limit_;
   const std::atomic<bool>* interrupted_;
   Network network_;
   double present_ = 1;
+  bool lies_in_a_loop_ = false;
   int node_ = 0;
   std::vector<std::pair<double, double>> tried_;
 };

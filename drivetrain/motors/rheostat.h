@@ -1,0 +1,167 @@
+// rheostat.h — a DC motor that is started over resistances in its armature circuit, cut out one after another.
+//
+//     stage k: the motor's own law with R + R_k in place of R,   R_1 > R_2 > … > 0, last R alone
+// The next stage comes when the armature current has fallen to the current of switching, or at given times. By current:
+// with an inductance it rises after each switching to its peak first (where di/dt = 0: it meets the current of steady
+// motion at that speed), then falls; a stage whose peak stays below the current of switching is left at once. A machine
+// that starts turning is already past its peak. Like an induction motor on its starter it takes no commands.
+// Source: G. K. Dubey, Fundamentals of Electrical Drives, ch. 5 (starting of DC motors); theory 4.18.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "drivetrain/motors/dc_circuits.h"
+#include "engine/elements/any_shaft_element.h"
+#include "engine/elements/element.h"
+#include "engine/numerics/dual.h"
+
+namespace kurbel {
+
+enum class CutOut { by_current, by_time };
+
+// The stages, and a mode's parts: which stage it is, and the motor's own mode in it.
+template <class Motor>
+struct RheostatStages {
+  std::vector<Motor> stages;    // with R + R_1, R + R_2, …, R
+  double switch_current = 1;    // [A]
+  std::vector<double> times{};  // ends of the stages, after switching on [s]
+  double switched_on = 0;       // [s]
+
+ protected:
+  static constexpr bool has_peak = Motor::is.states > 0;
+  static constexpr int most_own = 4;  // modes of a motor
+  struct Mode {
+    int stage = 0, own = 0;
+    bool past_peak = false, told = false;  // told: the last event was one of the stages
+  };
+  static Mode unpacked(int mode) {
+    return {mode / (4 * most_own), mode / 4 % most_own, (mode & 2) != 0, (mode & 1) != 0};
+  }
+  static int packed(const Mode& m) { return ((m.stage * most_own + m.own) * 2 + m.past_peak) * 2 + m.told; }
+  template <class T>
+  static ShaftState<T> inner(ShaftState<T> x) {
+    x.mode = unpacked(x.mode).own;
+    return x;
+  }
+  int last() const { return static_cast<int>(stages.size()) - 1; }
+  const Motor& motor(const Mode& m) const { return stages[static_cast<std::size_t>(m.stage)]; }
+  double flowing(const Mode& m, const ShaftState<double>& x) const { return std::abs(motor(m).current(inner(x))); }
+  double steady(const Mode& m, const ShaftState<double>& x) const {
+    return std::abs(motor(m).steady_current(inner(x)));
+  }
+};
+
+// What only a motor with a current of its own has.
+template <class Motor, bool has_states>
+struct RheostatCurrent : RheostatStages<Motor> {};
+template <class Motor>
+struct RheostatCurrent<Motor, true> : RheostatStages<Motor> {
+  template <class T>
+  void rates(const ShaftState<T>& x, T* rate) const {
+    this->motor(this->unpacked(x.mode)).rates(this->inner(x), rate);
+  }
+  void first_states(const ShaftState<double>& x, double* own) const {
+    this->motor(this->unpacked(x.mode)).first_states(this->inner(x), own);
+  }
+  OwnState state(int k) const { return this->stages.back().state(k); }
+};
+
+// What only stages by time have.
+template <class Motor, CutOut when>
+struct RheostatTimes : RheostatCurrent<Motor, (Motor::is.states > 0)> {};
+template <class Motor>
+struct RheostatTimes<Motor, CutOut::by_time> : RheostatCurrent<Motor, (Motor::is.states > 0)> {
+  double settled_from() const { return this->switched_on + this->times.back(); }
+};
+
+template <class Motor, CutOut when>
+struct OnRheostat : RheostatTimes<Motor, when> {
+  using Stages = RheostatStages<Motor>;
+  using Stages::stages, Stages::switch_current, Stages::switched_on, Stages::times;
+  static constexpr int own_guards = Motor::is.guards;  // then the end of the stage
+  static constexpr ShaftTraits is = [] {
+    ShaftTraits traits = Motor::is;
+    traits.guards += 1;
+    traits.commanded = traits.reversible = traits.feels_switching = false;
+    traits.settles = when == CutOut::by_time;
+    return traits;
+  }();
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    return motor(unpacked(x.mode)).torque(inner(x));
+  }
+  bool uses_time() const { return when == CutOut::by_time; }
+  bool uses_speed() const { return true; }
+  Rated rated() const { return stages.back().rated(); }
+
+  void guard(const ShaftState<double>& x, double* g) const {
+    const Mode m = unpacked(x.mode);
+    motor(m).guard(inner(x), g);
+    double& left = g[own_guards];
+    if (m.stage == last())
+      left = 1;
+    else if (when == CutOut::by_time)
+      left = switched_on + times[static_cast<std::size_t>(m.stage)] - x.t;
+    else if (m.past_peak)
+      left = flowing(m, x) / switch_current - 1;
+    else
+      left = (steady(m, x) - flowing(m, x)) / switch_current;
+  }
+  int first_mode(const ShaftState<double>& x) const {
+    Mode m;
+    if (when == CutOut::by_time) {
+      while (m.stage < last() && x.t >= switched_on + times[static_cast<std::size_t>(m.stage)]) ++m.stage;
+    } else if (!has_peak || x.rate != 0) {
+      while (m.stage < last() && steady(m, x) <= switch_current) ++m.stage;
+      m.past_peak = true;
+    }
+    m.own = motor(m).first_mode(x);
+    return packed(m);
+  }
+  int next_mode(const ShaftState<double>& x, int which) const {
+    Mode m = unpacked(x.mode);
+    m.told = false;
+    if (which < own_guards) {
+      m.own = motor(m).next_mode(inner(x), which);
+      return packed(m);
+    }
+    if (when == CutOut::by_current && !m.past_peak && flowing(m, x) > switch_current) {
+      m.past_peak = true;
+      return packed(m);
+    }
+    // What would not rise above the current of switching any more is passed over.
+    do {
+      ++m.stage;
+    } while (when == CutOut::by_current && m.stage < last() && steady(m, x) <= switch_current);
+    m.past_peak = !has_peak;
+    m.told = true;
+    return packed(m);
+  }
+  std::string mode_name(int mode) const {
+    const Mode m = unpacked(mode);
+    if (!m.told) return stages.back().mode_name(m.own);
+    if (m.stage == last()) return "starting resistance cut out";
+    return "starting resistance " + std::to_string(m.stage + 1) + " of " + std::to_string(last());
+  }
+
+ private:
+  using Stages::flowing, Stages::has_peak, Stages::inner, Stages::last, Stages::motor, Stages::packed, Stages::steady,
+      Stages::unpacked;
+  using Mode = typename Stages::Mode;
+};
+
+// Their static laws without the effect "transients".
+template <class Circuit, CutOut when>
+ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) requires(Circuit::is.states > 0) {
+  if (under(motor.stages.back(), effects) == nullptr) return nullptr;
+  OnRheostat<std::remove_cvref_t<decltype(motor.stages.back().line)>, when> line;
+  for (const Circuit& stage : motor.stages) line.stages.push_back(stage.line);
+  line.switch_current = motor.switch_current, line.times = motor.times, line.switched_on = motor.switched_on;
+  return shaft_form(line);
+}
+
+}  // namespace kurbel
