@@ -5,7 +5,7 @@
 #include "drivetrain/friction/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
-#include "engine/model/no_element.h"
+#include "engine/elements/no_element.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
 

@@ -10,11 +10,9 @@
 
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "drivetrain/motors/dc_circuits.h"
-#include "engine/elements/any_shaft_element.h"
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
 
@@ -156,12 +154,6 @@ struct OnRheostat : RheostatTimes<Motor, when> {
 
 // Their static laws without the effect "transients".
 template <class Circuit, CutOut when>
-ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) requires(Circuit::is.states > 0) {
-  if (under(motor.stages.back(), effects) == nullptr) return nullptr;
-  OnRheostat<std::remove_cvref_t<decltype(motor.stages.back().line)>, when> line;
-  for (const Circuit& stage : motor.stages) line.stages.push_back(stage.line);
-  line.switch_current = motor.switch_current, line.times = motor.times, line.switched_on = motor.switched_on;
-  return shaft_form(line);
-}
+ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) requires(Circuit::is.states > 0);
 
 }  // namespace kurbel

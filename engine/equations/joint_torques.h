@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/model/load_paths.h"
+#include "engine/numerics/load_paths.h"
 #include "engine/model/model.h"
 
 namespace kurbel {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "engine/events/start.h"
-#include "engine/model/load_paths.h"
+#include "engine/numerics/load_paths.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {

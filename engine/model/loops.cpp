@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/model/compile_steps.h"
-#include "engine/model/load_paths.h"
+#include "engine/numerics/load_paths.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/index.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/model/compile_steps.h"
-#include "engine/model/no_element.h"
+#include "engine/elements/no_element.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {

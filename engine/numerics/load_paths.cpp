@@ -1,5 +1,5 @@
 // load_paths.cpp — trees grown breadth first, and the flows that circle in what they leave over.
-#include "engine/model/load_paths.h"
+#include "engine/numerics/load_paths.h"
 
 #include <algorithm>
 #include <cmath>

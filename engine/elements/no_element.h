@@ -1,10 +1,9 @@
-// no_element.cpp — one that stands for every element left out.
-#include "engine/model/no_element.h"
+// no_element.h — what a shaft element becomes that is gone without its effect: compile leaves it out.
+#pragma once
 
 #include "engine/elements/any_shaft_element.h"
 
 namespace kurbel {
-namespace {
 
 struct NoElement {
   static constexpr ShaftTraits is{.account = Account::harmful};
@@ -17,9 +16,8 @@ struct NoElement {
   Rated rated() const { return {}; }
 };
 
-}  // namespace
-
-ShaftForm no_element() {
+// One that stands for every element left out.
+inline ShaftForm no_element() {
   static const ShaftForm one = shaft_form(NoElement{});
   return one;
 }
