@@ -18,7 +18,7 @@ Table cost_of_joint_friction(const std::string& counter) {
               .rows = {}};
   const std::string source = KURBEL_SOURCE_DIR;
   for (const char* scene : {"bench/scenes/press_with_everything", "tests/agreement/joint_friction_rigid"})
-    for (const char* method : {"auto", "dop853", "esdirk", "bdf"}) {
+    for (const char* method : {"dop853", "esdirk", "bdf"}) {
       const auto count = [&](const std::string& how) {
         return counted_instructions(counter, source + "/" + scene + ".toml", "joint_friction", how + method);
       };

@@ -37,7 +37,8 @@ inline long own_instructions(const std::filesystem::path& file, const std::strin
   return sum;
 }
 
-// Of what kurbel_count_evaluations does in that way: 50 evaluations each, or a run; nothing where callgrind or the program failed.
+// Of what kurbel_count_evaluations does in that way: 50 evaluations each, or a run; nothing where callgrind or the
+// program failed.
 inline std::optional<long> counted_instructions(const std::string& program, const std::string& scene,
                                                 const std::string& effect, const std::string& how) {
   const auto file =
