@@ -1,10 +1,10 @@
 // count_evaluations.cpp — evaluates right-hand side and Jacobian of a scene with one effect off, for callgrind to
 // count.
 //
-//   kurbel_count_evaluations SCENE EFFECT off|without
-// "off": the effect is switched off; "without": besides, its keys are taken out of the scene. Only what runs inside
-// kurbel_counted_evaluations is to be counted:
-//   valgrind --tool=callgrind --toggle-collect=kurbel_counted_evaluations …
+//   kurbel_count_evaluations SCENE EFFECT off|without|run-off:METHOD|run-on:METHOD
+// "off": the effect is switched off; "without": besides, its keys are taken out of the scene; "run": a bare run to the
+// scene's end at 1e-7, with the effect on or off. Only what runs inside kurbel_counted_… is to be counted:
+//   valgrind --tool=callgrind --toggle-collect=kurbel_counted_evaluations --toggle-collect=kurbel_counted_run …
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -39,16 +39,32 @@ extern "C" __attribute__((noinline)) double kurbel_counted_evaluations(Equations
   return sum;
 }
 
+extern "C" __attribute__((noinline)) double kurbel_counted_run(Equations& equations, const RunOptions& options) {
+  return static_cast<double>(integrate(equations, options, {}).statistics.stepper.steps);
+}
+
 int main(int argc, char** argv) {
-  if (argc != 4) return std::fprintf(stderr, "kurbel_count_evaluations SCENE EFFECT off|without\n"), 2;
+  if (argc != 4)
+    return std::fprintf(stderr, "kurbel_count_evaluations SCENE EFFECT off|without|run-off:METHOD|run-on:METHOD\n"), 2;
   try {
     Scene scene = read_scene(argv[1], all_kinds());
-    const std::string effect = argv[2];
+    const std::string effect = argv[2], how = argv[3];
     Effects effects = scene.effects;
     for (const EffectFlag& flag : effect_flags())
-      if (effect == flag.name) effects.*(flag.flag) = false;
-    if (argv[3] == std::string("without")) test::erase_effect(scene, effect);
+      if (effect == flag.name) effects.*(flag.flag) = how.starts_with("run-on:");
+    if (how == "without") test::erase_effect(scene, effect);
     Equations equations(compile(scene, effects), false);
+    if (how.starts_with("run-")) {
+      const RunOptions options{.tolerance = 1e-7,
+                               .method = how.substr(how.find(':') + 1),
+                               .until = scene.run.until,
+                               .budget = 600,
+                               .interrupted = nullptr,
+                               .progress = {},
+                               .work_tables = nullptr};
+      std::printf("%.17g\n", kurbel_counted_run(equations, options));
+      return 0;
+    }
     std::vector<Moment> states;
     std::vector<double> y = equations.start(0);
     for (int i = 0; i < 50; ++i) {  // around the start, in its modes

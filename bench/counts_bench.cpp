@@ -1,5 +1,5 @@
 // counts_bench.cpp — is what is off free? Instructions of right-hand side and Jacobian with an effect off, against the
-// same scene written without it.
+// same scene written without it; and what joint friction costs where it is on.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,6 +9,28 @@
 #include "bench/machines.h"
 
 namespace kurbel::bench {
+namespace {
+
+// What joint friction costs a whole run: its own evaluations, and the steps that it asks for.
+Table cost_of_joint_friction(const std::string& counter) {
+  Table table{.title = "Instructions of a bare run at 1e-7, joint friction on : off, counted by callgrind",
+              .columns = {"scene", "method", "off", "on", "on : off"},
+              .rows = {}};
+  const std::string source = KURBEL_SOURCE_DIR;
+  for (const char* scene : {"bench/scenes/press_with_everything", "tests/agreement/joint_friction_rigid"})
+    for (const char* method : {"dop853", "esdirk", "bdf"}) {
+      const auto count = [&](const std::string& how) {
+        return counted_instructions(counter, source + "/" + scene + ".toml", "joint_friction", how + method);
+      };
+      const auto off = count("run-off:"), on = count("run-on:");
+      if (off && on)
+        table.rows.push_back({scene, method, fmt::format("{}", *off), fmt::format("{}", *on),
+                              fmt::format("{:.3g} ×", static_cast<double>(*on) / static_cast<double>(*off))});
+    }
+  return table;
+}
+
+}  // namespace
 
 void counts_of_instructions(BenchBook& book, const std::string& counter) {
   Table table{.title = "Instructions of 50 right-hand sides and Jacobians, counted by callgrind",
@@ -37,6 +59,7 @@ void counts_of_instructions(BenchBook& book, const std::string& counter) {
     }
   }
   book.tables.push_back(table);
+  book.tables.push_back(cost_of_joint_friction(counter));
 }
 
 }  // namespace kurbel::bench

@@ -1,4 +1,4 @@
-// instruction_counts.h — instructions of right-hand sides and Jacobians, counted by callgrind.
+// instruction_counts.h — instructions of right-hand sides and Jacobians, and of whole runs, counted by callgrind.
 #pragma once
 
 #include <unistd.h>
@@ -37,14 +37,15 @@ inline long own_instructions(const std::filesystem::path& file, const std::strin
   return sum;
 }
 
-// Of 50 evaluations each by kurbel_count_evaluations; nothing where callgrind or the program failed.
+// Of what kurbel_count_evaluations does in that way: 50 evaluations each, or a run; nothing where callgrind or the
+// program failed.
 inline std::optional<long> counted_instructions(const std::string& program, const std::string& scene,
                                                 const std::string& effect, const std::string& how) {
   const auto file =
       std::filesystem::temp_directory_path() / ("kurbel_counts_" + std::to_string(getpid()) + "_" + how + ".out");
   const std::string command = "valgrind --tool=callgrind '--callgrind-out-file=" + file.string() +
-                              "' --toggle-collect=kurbel_counted_evaluations '" + program + "' '" + scene + "' " +
-                              effect + " " + how + " > /dev/null 2>&1";
+                              "' --toggle-collect=kurbel_counted_evaluations --toggle-collect=kurbel_counted_run '" +
+                              program + "' '" + scene + "' " + effect + " " + how + " > /dev/null 2>&1";
   const bool ran = std::system(command.c_str()) == 0;
   std::optional<long> count;
   if (ran) count = own_instructions(file, std::filesystem::path(program).filename().string());

@@ -32,12 +32,11 @@ void ReactionBalance::react(const Instant& now, double* work_rate) {
   for (std::size_t p = 0; p < pools_.size(); ++p) pools_[p]->add_reactions(now, alpha_.data(), sums, memory_[p].get());
 }
 
-// From α to the next one; the largest change, beside the acceleration itself.
+// From α to the next one: the largest change, beside the acceleration itself.
 double ReactionBalance::newton_step(std::span<const double> inertia) {
   double change = 0;
   for (std::size_t s = 0; s < model_.free_shafts; ++s) {
     const double step = next_[s] - alpha_[s];
-    alpha_[s] = next_[s];
     if (inertia[s] == 0) continue;  // follows others
     const double usual = 1e-3 * model_.shafts[s].torque_scale / inertia[s];
     change = std::max(change, std::abs(step) / (std::abs(alpha_[s]) + usual));
@@ -64,7 +63,9 @@ void ReactionBalance::settle(const Instant& now, std::span<const double> free_to
     const bool lost = !std::all_of(next_.begin(), next_.end(), [](double a) { return std::isfinite(a); });
     const bool round_off = change < 1e-12 && change >= 0.5 * last_change;
     last_change = lost ? HUGE_VAL : change;
+    // At an α that was asked about: what elements found there, they need not find again.
     if (lost || !(change > 1e-14) || round_off) break;
+    std::copy_n(next_.begin(), model_.free_shafts, alpha_.begin());
   }
   if (!(last_change < settled)) {
     const auto reacting = std::find_if(slope_.begin(), slope_.end(), [](double slope) { return slope != 0; });

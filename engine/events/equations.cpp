@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/events/event_words.h"
+#include "engine/events/reaction_sides.h"
 #include "engine/numerics/fp_traps.h"
 
 namespace kurbel {
@@ -22,6 +23,7 @@ Equations::Equations(std::shared_ptr<const Model> model, bool audit)
 
 void Equations::modes_at(double t, std::span<const double> y) {
   for (const auto& pool : model().pools) pool->first_modes(instant(t, y), changing_modes().piece.data());
+  OpenSides(*this).settle(t, y);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -32,6 +34,7 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
   const Model& m = model();
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
+  guard_reactions(*this, t, y, guard_begin_, g);
   if (contact_guards_ < sequence_guard_) contacts_.guards(t, y, g.data() + contact_guards_);
   if (switching_.has_sequence()) g[sequence_guard_] = switching_.guard(y, now.speed);
 }
@@ -94,8 +97,10 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
       fire_piece(pool_guard(guard), t, y, log);
     }
   }
+  OpenSides sides(*this);
   contacts_.settle(t, y, changes, &log);
   for (const auto& pool : model().pools) pool->follow_directions(instant(t, y), changing_modes().piece.data());
+  sides.settle(t, y);
 }
 
 // Edges over the angle are told as such; elsewhere a label names the mode.
@@ -112,14 +117,19 @@ void Equations::fire_piece(const PoolGuard& guard, double t, std::span<const dou
 void Equations::pass_edge(double t, std::span<double> y, EventLog& log) {
   look_at_losses(t, y);
   switching_.pass_edge(t, y, log);
+  OpenSides sides(*this);
   contacts_.settle(t, y, {}, &log);
+  sides.settle(t, y);
 }
 
 bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, EventLog& log) {
   std::vector<std::size_t> of_contacts;  // others stay, as numbers that no contact has
   for (const std::size_t guard : guards)
     of_contacts.push_back(guard < contact_guards_ ? contacts_.guard_count() : guard - contact_guards_);
-  return contacts_.stop_jam(t, y, of_contacts, log);
+  OpenSides sides(*this);
+  const bool stopped = contacts_.stop_jam(t, y, of_contacts, log);
+  sides.settle(t, y);
+  return stopped;
 }
 
 }  // namespace kurbel

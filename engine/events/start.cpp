@@ -1,6 +1,8 @@
 // start.cpp — a start: unloaded motion, twists in balance with the loads, and the modes that fit.
 #include "engine/events/start.h"
 
+#include "engine/events/reaction_sides.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -161,6 +163,7 @@ void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
   contacts_.settle(t, y, changes, nullptr);
   refuse_impossible_slip(t, y);
   first_pieces(t, y);
+  OpenSides(flow_).settle(t, y);
 }
 
 // A contact that can only ever hold in the sense in which it slips: the sides would have to hit each other.

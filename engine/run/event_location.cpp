@@ -16,7 +16,7 @@ constexpr double fired_below = -1e-11, at_root = 1e-13;
 bool guards_beyond_angles(const Equations& equations) {
   std::size_t of_angle = 0;
   for (const auto& pool : equations.model().pools)
-    if (pool->guards_are_of_angle()) of_angle += pool->guard_count();
+    if (pool->guards_are_of_angle() && !pool->reacts()) of_angle += pool->guard_count();
   return equations.guard_count() > of_angle;
 }
 

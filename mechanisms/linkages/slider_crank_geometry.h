@@ -14,6 +14,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace kurbel {
 
@@ -71,6 +72,42 @@ class SliderCrankGeometry {
  public:
   explicit SliderCrankGeometry(const SliderCrankData& data) : d_(data) { validate(data); }
   const SliderCrankData& data() const { return d_; }
+
+  // Closure r sin φ + l sin β = e, cos β > 0, and its first three derivatives by φ.
+  template <class T>
+  struct Pose {
+    static bool is_negative(const T& v) {
+      if constexpr (std::is_class_v<T>)
+        return v.value < 0;
+      else
+        return v < T(0);
+    }
+    T sin_phi, cos_phi, sin_beta, cos_beta, beta1, beta2, beta3, x, x1, x2, x3;
+
+    Pose(const SliderCrankData& d, T phi) {
+      using std::cos;
+      using std::sin;
+      using std::sqrt;
+      const T r = d.radius, l = d.rod_length, e = d.offset;
+      sin_phi = sin(phi), cos_phi = cos(phi);
+      sin_beta = (e - r * sin_phi) / l;
+      // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
+      // keep every digit.
+      const T cos_squared = cos_phi * cos_phi;
+      const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;   // 1 + sin φ
+      const T above = is_negative(-sin_phi) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
+      cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
+      const T lever = l * cos_beta, rise = l * sin_beta;
+      beta1 = -r * cos_phi / lever;
+      const T beta1_squared = beta1 * beta1;
+      beta2 = (r * sin_phi + rise * beta1_squared) / lever;
+      beta3 = beta1 * (beta1_squared - T(1)) + T(3) * sin_beta / cos_beta * beta1 * beta2;
+      x = r * cos_phi + lever;
+      x1 = -r * sin_phi - rise * beta1;
+      x2 = -r * cos_phi - lever * beta1_squared - rise * beta2;
+      x3 = r * sin_phi + rise * (beta1 * beta1_squared - beta3) - T(3) * lever * beta1 * beta2;
+    }
+  };
 
   // The rod in line with the crank: sin φ = e/(l + r), and sin(φ − π) = e/(l − r).
   double extended_angle() const { return std::asin(d_.offset / (d_.rod_length + d_.radius)); }
@@ -150,36 +187,6 @@ class SliderCrankGeometry {
   }
 
  private:
-  // Closure r sin φ + l sin β = e, cos β > 0, and its first three derivatives by φ.
-  template <class T>
-  struct Pose {
-    T sin_phi, cos_phi, sin_beta, cos_beta, beta1, beta2, beta3, x, x1, x2, x3;
-
-    Pose(const SliderCrankData& d, T phi) {
-      using std::cos;
-      using std::sin;
-      using std::sqrt;
-      const T r = d.radius, l = d.rod_length, e = d.offset;
-      sin_phi = sin(phi), cos_phi = cos(phi);
-      sin_beta = (e - r * sin_phi) / l;
-      // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
-      // keep every digit.
-      const T cos_squared = cos_phi * cos_phi;
-      const T below = sin_phi < T(0) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;  // 1 + sin φ
-      const T above = sin_phi > T(0) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
-      cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
-      const T lever = l * cos_beta, rise = l * sin_beta;
-      beta1 = -r * cos_phi / lever;
-      const T beta1_squared = beta1 * beta1;
-      beta2 = (r * sin_phi + rise * beta1_squared) / lever;
-      beta3 = beta1 * (beta1_squared - T(1)) + T(3) * sin_beta / cos_beta * beta1 * beta2;
-      x = r * cos_phi + lever;
-      x1 = -r * sin_phi - rise * beta1;
-      x2 = -r * cos_phi - lever * beta1_squared - rise * beta2;
-      x3 = r * sin_phi + rise * (beta1 * beta1_squared - beta3) - T(3) * lever * beta1 * beta2;
-    }
-  };
-
   // √(hypotenuse² − e²) without cancellation.
   double leg(double hypotenuse) const { return std::sqrt((hypotenuse - d_.offset) * (hypotenuse + d_.offset)); }
 

@@ -115,7 +115,7 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
   if (mechanism_.joint_friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
   rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
-  modes = 1 + static_cast<int>(loads.size());
+  modes = 1 + static_cast<int>(loads.size()) + (mechanism_.joint_friction ? 3 : 0);
 }
 
 std::string MechanismElement::describe() const {

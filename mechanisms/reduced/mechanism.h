@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/elements/any_shaft_element.h"
+#include "engine/elements/reacting_pool.h"
 #include "engine/model/network.h"
 #include "mechanisms/loads/slider_loads.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
@@ -87,8 +88,9 @@ class MechanismElement : public AnyShaftElement {
 // Null for elements of other kinds.
 const MechanismElement* mechanism_of(const Network::ShaftElement& element);
 
-// Modes of a placed mechanism: the sign of x′ first, then the piece of each load.
-class MechanismPool final : public ElementPool {
+// Modes of a placed mechanism: the sign of x′ first, then the piece of each load; with joint friction the sign of β′ and
+// of what the two edges of the guide bear, behind these.
+class MechanismPool final : public ReactingPool {
  public:
   void place(Mechanism mechanism, ShaftPorts at);
 
@@ -99,10 +101,15 @@ class MechanismPool final : public ElementPool {
   std::unique_ptr<Memory> make_memory() const override;
   void add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const override;
   int guard_count() const override { return guards_; }
-  bool guards_are_of_angle() const override { return true; }  // over travel or crank angle, whatever the speed
+  const std::vector<int>& side_modes() const override { return side_modes_; }
+  const std::vector<int>& side_guards() const override { return side_guards_; }
+  void find_sides(const Instant& now, const double* alpha, double* side) const override;
+  // Over travel or crank angle, whatever the speed; beside those of the sides of reactions.
+  bool guards_are_of_angle() const override { return true; }
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const Instant& now) const override;
+  bool regularise(int guard, int* mode) const override;
   void first_modes(const Instant& now, int* mode) const override;
   void follow_directions(const Instant& now, int* mode) const override;
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override;
@@ -115,13 +122,14 @@ class MechanismPool final : public ElementPool {
     ShaftPorts at;
     int slot_angle = 0, slot_rate = 0;
     bool has_weight = false;
-    double output_scale = 1;
-    bool watches_travel = false;  // some load depends on the direction of travel
+    double output_scale = 1, rod_scale = 1;  // of x′, β′
+    bool watches_travel = false;             // some load depends on the direction of travel
   };
   struct GuardOwner {
     std::size_t placed;
-    int load;  // −1: the sign of x′
+    int load;  // or the sign of x′, of β′, of what an edge of the guide bears
     int which;
+    static constexpr int travel = -1, rod = -2, edge = -3;
   };
   // What acts at an angle: from the tables, or from the bodies.
   struct Reduced {
@@ -130,17 +138,21 @@ class MechanismPool final : public ElementPool {
   static Reduced reduced_at(const Placed& p, double phi);
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   double load_force(const Placed& p, const Instant& now) const;
-  double load_force(const Placed& p, const Instant& now, double phi, double omega) const;
   struct FrictionMemory;
   static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state,
-                                                            SliderCrankStatics::Memory* memory);
-  CrankState crank_state(const Placed& p, const Instant& now, const double* alpha) const;
-  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
+                                                            SliderCrankStatics::Memory& memory);
+  CrankState crank_state(const Placed& p, const Instant& now, const double* alpha, double slider_force) const;
+  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& slider_force,
+                             double* slots) const;
+  static int rod_mode(const Placed& p) { return p.at.mode + 1 + static_cast<int>(p.mechanism.loads.size()); }
+  static int edge_mode(const Placed& p, int edge) { return rod_mode(p) + 1 + edge; }
+  void take_first_signs(const Placed& p, const Instant& now, int* mode) const;
   Hold load_hold(const Placed& p, const Instant& now) const;
   Hold friction_hold(const Placed& p, const Instant& now) const;
 
   std::vector<Placed> placed_;
   std::vector<GuardOwner> owners_;
+  std::vector<int> side_modes_, side_guards_;  // two edges a mechanism with joint friction
   int guards_ = 0;
   bool reacts_ = false;
 };

@@ -24,15 +24,27 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   Placed placed{std::move(mechanism), std::move(at)};
   placed.has_weight = placed.mechanism.has_weight();
   placed.output_scale = placed.mechanism.output_scale();
+  if (placed.mechanism.joints) {
+    const SliderCrankData& d = placed.mechanism.joints->data();
+    placed.rod_scale = d.radius / d.rod_length;
+  }
   placed.watches_travel = placed.mechanism.joint_friction;  // the guide's friction turns round with the slider
   reacts_ = reacts_ || placed.mechanism.joint_friction;
   for (const SliderLoad& load : placed.mechanism.loads)
     placed.watches_travel = placed.watches_travel || load.depends_on_travel();
   const std::size_t index = placed_.size();
-  if (placed.watches_travel) owners_.push_back({index, -1, 0});
+  if (placed.watches_travel) owners_.push_back({index, GuardOwner::travel, 0});
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
     if (placed.mechanism.loads[k].has_pieces())
       for (const int which : {0, 1}) owners_.push_back({index, static_cast<int>(k), which});
+  if (placed.mechanism.joint_friction) {
+    owners_.push_back({index, GuardOwner::rod, 0});
+    for (const int edge : {0, 1}) {
+      side_modes_.push_back(edge_mode(placed, edge));
+      side_guards_.push_back(static_cast<int>(owners_.size()));
+      owners_.push_back({index, GuardOwner::edge, edge});
+    }
+  }
   guards_ = static_cast<int>(owners_.size());
   placed_.push_back(std::move(placed));
 }
@@ -105,29 +117,31 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
   }
 }
 
-// All loads at another angle and speed, with the modes that hold.
-double MechanismPool::load_force(const Placed& p, const Instant& now, double phi, double omega) const {
-  const auto [x, ratio] = p.mechanism.reduced->at(phi).output_position();
-  double sum = 0;
-  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
-    SliderState<double> s = slider(p, now, k);
-    s.phi = phi, s.x = x, s.v = ratio * omega;
-    sum += p.mechanism.loads[k].value(s);
-  }
-  return sum;
-}
-
 // --- joint friction: −M_f(φ, ω, ε, F) on the crank, found together with ε (slider_crank_forces.h) ---
 
-CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha) const {
-  return {angle_of(p.at, now), p.at.gain * now.speed[p.at.shaft], p.at.gain * alpha[p.at.shaft], load_force(p, now),
-          p.at.direction(now)};
+CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha,
+                                      double slider_force) const {
+  const int rod = rod_mode(p);
+  const auto edge = [&](int which) {
+    const int side = now.mode[edge_mode(p, which)];
+    return side == without_events ? 0 : side;
+  };
+  return {.phi = angle_of(p.at, now),
+          .omega = p.at.gain * now.speed[p.at.shaft],
+          .alpha = p.at.gain * alpha[p.at.shaft],
+          .slider_force = slider_force,
+          .direction = p.at.direction(now),
+          .sign = {now.mode[p.at.mode], now.mode[rod], {edge(0), edge(1)}}};
 }
 
 struct MechanismPool::FrictionMemory final : ElementPool::Memory {
-  std::vector<SliderCrankStatics::Memory> of;  // per mechanism
+  struct Of {  // a mechanism
+    SliderCrankStatics::Memory search;
+    std::optional<double> slider_force;
+  };
+  std::vector<Of> of;
   void begin() override {
-    for (SliderCrankStatics::Memory& memory : of) memory.forget();
+    for (Of& memory : of) memory.search.forget(), memory.slider_force.reset();
   }
 };
 
@@ -138,12 +152,12 @@ std::unique_ptr<ElementPool::Memory> MechanismPool::make_memory() const {
 }
 
 SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state,
-                                                                  SliderCrankStatics::Memory* memory) {
+                                                                  SliderCrankStatics::Memory& memory) {
   // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
   if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.slider_force))
     throw Jam("slider-crank: no finite motion to find its joints' friction by", p.at.shaft);
   try {
-    return memory ? p.mechanism.joints->friction_torque(state, *memory) : p.mechanism.joints->friction_torque(state);
+    return p.mechanism.joints->friction_torque(state, memory);
   } catch (Jam& jam) {
     jam.shaft = p.at.shaft;
     throw;
@@ -151,12 +165,14 @@ SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& 
 }
 
 void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const {
-  auto* const friction = static_cast<FrictionMemory*>(memory);
+  auto& friction = static_cast<FrictionMemory&>(*memory);
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
     if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
-    const CrankState state = crank_state(p, now, alpha);
-    const auto [torque, slope] = friction_torque(p, state, friction ? &friction->of[k] : nullptr);
+    FrictionMemory::Of& known = friction.of[k];
+    if (!known.slider_force) known.slider_force = load_force(p, now);
+    const CrankState state = crank_state(p, now, alpha, *known.slider_force);
+    const auto [torque, slope] = friction_torque(p, state, known.search);
     sums.torque[p.at.shaft] -= p.at.gain * torque;
     sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
     sums.element_torque[p.at.id] -= torque;
@@ -165,23 +181,13 @@ void MechanismPool::add_reactions(const Instant& now, const double* alpha, React
   }
 }
 
-// By central differences at the acceleration that was found: the friction laws have kinks, their pieces are smooth.
+// At the acceleration that was found, which answers in turn: ReactionBalance::slope.
 void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha,
-                                          double* slots) const {
+                                          const Dual<2>& slider_force, double* slots) const {
   if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) return;
-  const CrankState here = crank_state(p, now, alpha);
-  const auto torque = [&](double phi, double omega) {
-    CrankState s = here;
-    s.phi = phi, s.omega = omega, s.slider_force = load_force(p, now, phi, omega);
-    return friction_torque(p, s, nullptr).torque;
-  };
-  constexpr double step = 1e-6;
-  const double speed_step = step * std::max(1.0, std::abs(here.omega));
-  slots[p.slot_angle] -=
-      p.at.gain * (torque(here.phi + step, here.omega) - torque(here.phi - step, here.omega)) / (2 * step);
-  slots[p.slot_rate] -= p.at.gain * p.at.gain *
-                        (torque(here.phi, here.omega + speed_step) - torque(here.phi, here.omega - speed_step)) /
-                        (2 * speed_step);
+  const auto by = p.mechanism.joints->friction_slopes(crank_state(p, now, alpha, slider_force.value));
+  slots[p.slot_angle] -= p.at.gain * (by.by_angle + by.by_force * slider_force.d[0]);
+  slots[p.slot_rate] -= p.at.gain * p.at.gain * (by.by_speed + by.by_force * slider_force.d[1]);
 }
 
 // Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction. What
@@ -224,14 +230,16 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
     const auto [x, ratio] = here.output_position();
     const D x_ratio = angle.chain(ratio, here.output_velocity().slope);
     const D v = x_ratio * speed;
+    D force(0.0);
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);
       const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
-      torque = torque + p.mechanism.loads[k].value(dual) * x_ratio;
+      force = force + p.mechanism.loads[k].value(dual);
     }
+    torque = torque + force * x_ratio;
     slots[p.slot_angle] += p.at.gain * (torque.d[0] - slope * p.at.gain * alpha[p.at.shaft]);
     slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
-    add_friction_jacobian(p, now, alpha, slots);
+    add_friction_jacobian(p, now, alpha, force, slots);
   }
 }
 
@@ -239,7 +247,15 @@ void MechanismPool::guards(const Instant& now, double* g) const {
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     const GuardOwner& owner = owners_[i];
     const Placed& p = placed_[owner.placed];
-    if (owner.load < 0) {
+    if (owner.load == GuardOwner::rod) {
+      g[i] = now.mode[rod_mode(p)] * p.mechanism.joints->rod_ratio(angle_of(p.at, now)).value / p.rod_scale;
+      continue;
+    }
+    if (owner.load == GuardOwner::edge) {
+      g[i] = 1;  // find_sides()
+      continue;
+    }
+    if (owner.load == GuardOwner::travel) {
       const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
       g[i] = now.mode[p.at.mode] * ratio / p.output_scale;
       continue;
@@ -258,6 +274,15 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
     mode[p.at.mode + 1 + owner.load] = p.mechanism.loads[load].next_piece(slider(p, now, load), owner.which);
     return;
   }
+  if (owner.load == GuardOwner::rod) {
+    mode[rod_mode(p)] = -mode[rod_mode(p)];
+    return;
+  }
+  if (owner.load == GuardOwner::edge) {
+    int& side = mode[edge_mode(p, owner.which)];
+    if (side != without_events) side = -side;
+    return;
+  }
   // Dead centre: the slider turns round, and each load takes up the branch of the other stroke.
   mode[p.at.mode] = -mode[p.at.mode];
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
@@ -271,7 +296,8 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
 GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   const Placed& p = placed_[owner.placed];
-  if (owner.load < 0)
+  if (owner.load == GuardOwner::rod || owner.load == GuardOwner::edge) return {p.mechanism.name, {}};
+  if (owner.load == GuardOwner::travel)
     return {p.mechanism.name, name_of_reversal(p.mechanism, now.mode[p.at.mode] * p.at.direction(now) > 0)};
   const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
   SliderState<double> s{};
@@ -289,7 +315,38 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
     mode[p.at.mode] = ratio >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
       p.mechanism.loads[k].take_first_piece(slider(p, now, k), mode[p.at.mode + 1 + static_cast<int>(k)]);
+    if (p.mechanism.joint_friction) take_first_signs(p, now, mode);
   }
+}
+
+// Of β′, where it is zero that of the motion to come; the edges of the guide as they come.
+void MechanismPool::take_first_signs(const Placed& p, const Instant& now, int* mode) const {
+  const int rod = rod_mode(p);
+  auto [ratio, slope] = p.mechanism.joints->rod_ratio(angle_of(p.at, now));
+  if (std::abs(ratio) < 1e-12 * p.rod_scale) ratio = slope * (p.at.direction(now) >= 0 ? 1 : -1);
+  mode[rod] = ratio >= 0 ? 1 : -1;
+  for (const int edge : {0, 1})
+    if (mode[edge_mode(p, edge)] != without_events) mode[edge_mode(p, edge)] = 0;
+}
+
+// At standstill nothing slides.
+void MechanismPool::find_sides(const Instant& now, const double* alpha, double* side) const {
+  for (const Placed& p : placed_) {
+    if (!p.mechanism.joint_friction) continue;
+    side[0] = side[1] = 1;
+    if (now.direction[p.at.shaft] != 0) {
+      const auto share = p.mechanism.joints->edge_shares(crank_state(p, now, alpha, load_force(p, now)));
+      side[0] = share[0], side[1] = share[1];
+    }
+    side += 2;
+  }
+}
+
+// Edges that go to and fro bear as it comes: by the same law, so that there is nothing to tell.
+bool MechanismPool::regularise(int guard, int* mode) const {
+  const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
+  if (owner.load == GuardOwner::edge) mode[edge_mode(placed_[owner.placed], owner.which)] = without_events;
+  return false;
 }
 
 // A crank that turns back within its stroke takes its loads onto the branch of the other sense of travel: while they do

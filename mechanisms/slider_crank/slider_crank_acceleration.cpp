@@ -15,48 +15,6 @@ SliderCrankStatics::FrictionTorque SliderCrankStatics::torque_of(const Table& un
   return {row.dot(solution.q), row.dot(dq)};
 }
 
-// The position and speed asked about last, and what was found there.
-struct SliderCrankStatics::Memory::Content {
-  CrankState state;
-  Table unit;
-  Law law;
-  bool any = false, solved = false;
-  Solution solution;
-  FrictionTorque torque;
-
-  bool is_of(const CrankState& s) const {
-    return any && state.phi == s.phi && state.omega == s.omega && state.direction == s.direction &&
-           state.at_rest == s.at_rest;
-  }
-};
-SliderCrankStatics::Memory::Memory() : content_(std::make_unique<Content>()) {}
-SliderCrankStatics::Memory::~Memory() = default;
-SliderCrankStatics::Memory::Memory(Memory&&) noexcept = default;
-void SliderCrankStatics::Memory::forget() { content_->any = false; }
-
-SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state) const {
-  const Table unit = unit_cases(state.phi);
-  return torque_of(unit, solve_friction(unit, load_column(unit, state), law_at(state), state.phi));
-}
-
-SliderCrankStatics::FrictionTorque SliderCrankStatics::friction_torque(const CrankState& state, Memory& memory) const {
-  Memory::Content& last = *memory.content_;
-  if (!last.is_of(state)) {
-    last.unit = unit_cases(state.phi);
-    last.law = law_at(state);
-    last.solved = false;
-    last.any = true;
-  } else if (last.solved && last.state.alpha == state.alpha && last.state.slider_force == state.slider_force) {
-    return last.torque;
-  }
-  last.state = state;
-  const Solution* near = last.solved ? &last.solution : nullptr;
-  last.solved = false;  // until it is: a jam throws
-  last.solution = solve_friction(last.unit, load_column(last.unit, state), last.law, state.phi, near);
-  last.solved = true;
-  return last.torque = torque_of(last.unit, last.solution);
-}
-
 double SliderCrankStatics::acceleration(CrankState state, double torque, double shaft_inertia) const {
   const Table unit = unit_cases(state.phi);
   const Law law = law_at(state);

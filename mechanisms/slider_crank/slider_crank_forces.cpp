@@ -149,7 +149,10 @@ double SliderCrankForces::friction_loss() const {
 }
 
 SliderCrankStatics::SliderCrankStatics(const SliderCrankData& data, const SliderCrankJoints& joints)
-    : data_(data), joints_(joints), geometry_(data) {
+    : data_(data),
+      joints_(joints),
+      geometry_(data),
+      down_(-data.gravity * Force2{std::sin(data.stroke_angle), std::cos(data.stroke_angle)}) {
   validate(joints);
 }
 
@@ -184,6 +187,11 @@ SliderCrankStatics::Table SliderCrankStatics::unit_cases(double phi) const {
 SliderCrankStatics::Rates SliderCrankStatics::rates(double phi, double omega) const {
   const double rod = geometry_.rod(phi).slope * omega;
   return {omega, rod - omega, -rod, geometry_.slider(phi).slope * omega};
+}
+
+ValueAndSlope<double> SliderCrankStatics::rod_ratio(double phi) const {
+  const SliderCrankGeometry::Pose<double> p(data_, phi);
+  return {p.beta1, p.beta2};
 }
 
 SliderCrankStatics::Column SliderCrankStatics::load_column(const Table& unit, const CrankState& s) const {
