@@ -16,7 +16,6 @@
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
 #include "studies/run/run_findings.h"
-#include "studies/trials/trials.h"
 
 namespace kurbel::app {
 namespace {
@@ -27,7 +26,7 @@ struct RunArguments {
   StudyOptions study;
   std::string effects, against, method, until, setting, from_state, save_state;
   std::optional<double> accuracy;
-  bool no_error = false, no_trials = false, explain = false;
+  bool no_error = false, explain = false;
 };
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
@@ -42,8 +41,6 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
                      "multibody one of Simbody's integrators");
   command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
-  command.add_flag("--no-trials", arguments.no_trials,
-                   "do not try what the effects that are off would change (one run each, while runs are short)");
 }
 
 SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
@@ -121,9 +118,7 @@ int run(const RunArguments& arguments) {
     throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
   }
   if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
-  const Trials trials = arguments.no_trials ? Trials{} : try_what_is_off(scene, effects, result, options);
-  const TriedRun tried{result, trials};
-  return present(output_of(tried), arguments.study);
+  return present(output_of(result), arguments.study);
 }
 
 int compare(const RunArguments& arguments) {
@@ -135,11 +130,8 @@ int compare(const RunArguments& arguments) {
   check_arguments(arguments, scene);
   const ModelPair models = models_to_compare(scene, asked(arguments.effects), asked(arguments.against));
   Progress progress(arguments.study.quiet);
-  const SimulateOptions options = options_of(arguments, progress);
-  const Comparison c = kurbel::compare(scene, models, options);
-  const Trials trials = arguments.no_trials ? Trials{} : try_what_is_off(scene, c.b.model->effects, c.b, options);
-  const TriedComparison tried{c, trials};
-  return present(output_of(tried), arguments.study);
+  const Comparison c = kurbel::compare(scene, models, options_of(arguments, progress));
+  return present(output_of(c), arguments.study);
 }
 
 void set_up_run(CLI::App& command, int& code) {
