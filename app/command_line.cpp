@@ -13,9 +13,9 @@
 #include <stdexcept>
 
 #include "app/terminal.h"
-#include "engine/reading/quantity_reader.h"
 #include "engine/scene/printable.h"
 #include "engine/scene/units.h"
+#include "engine/values/quantity_reader.h"
 #include "studies/files/result_set.h"
 #include "studies/files/spawn.h"
 #include "studies/report/write_output.h"

@@ -56,7 +56,10 @@ void build_progressive(const Section& s, Network& net, Messages& messages) {
   const CurveData& table = coupling.table;
   if (table.period > 0) coupling.refuse(&ProgressiveKeys::table, "a table over the twist has no period; drop it");
   try {
-    net.connect(in, out, 1, s.name, ProgressiveCouplingData{{table.x, table.y, table.form}, coupling.damping});
+    net.connect(in, out, 1, s.name,
+                ProgressiveCouplingData{table.by_formula.empty() ? ProgressiveCoupling(table.x, table.y, table.form)
+                                                                 : ProgressiveCoupling(table.by_formula),
+                                        coupling.damping});
   } catch (const std::invalid_argument& error) {
     coupling.refuse(&ProgressiveKeys::table, error.what());
   }

@@ -47,14 +47,19 @@ void build_fluid_coupling(const Section& s, Network& net, Messages& messages) {
   const CurveData& table = coupling.lambda;
   const auto refuse = [&](const std::string& text) { coupling.refuse(&FluidCouplingKeys::lambda, "lambda: " + text); };
   if (table.period > 0) return refuse("a table over the speed ratio has no period; drop it");
-  if (table.x.front() < -1 || table.x.back() != 1 || table.y.back() != 0)
+  const Curve lambda = table.curve();
+  if (table.x.front() < -1 || table.x.back() != 1 || std::abs(table.y.back()) > 1e-12 * lambda.max_abs())
     return refuse(
         fmt::format("it runs from [{:g}, {:g}] to [{:g}, {:g}]; it must lie within −1 … 1 and end in [1, 0], "
                     "for nothing is transmitted without slip",
                     table.x.front(), table.y.front(), table.x.back(), table.y.back()));
-  if (*std::min_element(table.y.begin(), table.y.end()) < 0)
-    return refuse("λ < 0; the faster side always drives the slower one");
-  net.connect(in, out, 1, s.name, FluidCoupling{curve_of(table), coupling.density * std::pow(coupling.diameter, 5)});
+  if (lambda.jumps()) return refuse("it jumps; let it rise within a part of the speed ratio");
+  constexpr int samples = 1000;
+  double least = *std::min_element(table.y.begin(), table.y.end());
+  for (int k = 0; k <= samples; ++k)
+    least = std::min(least, lambda.value(table.x.front() + (table.x.back() - table.x.front()) * k / samples));
+  if (least < -1e-12 * lambda.max_abs()) return refuse("λ < 0; the faster side always drives the slower one");
+  net.connect(in, out, 1, s.name, FluidCoupling{lambda, coupling.density * std::pow(coupling.diameter, 5)});
 }
 
 struct ViscousDamperKeys : ViscousFilm {

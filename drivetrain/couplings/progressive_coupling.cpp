@@ -1,4 +1,4 @@
-// progressive_coupling.cpp — from points to pieces, their areas, and the way back from torque to twist.
+// progressive_coupling.cpp — from points or a formula to pieces, their areas, and the way back from torque to twist.
 #include "drivetrain/couplings/progressive_coupling.h"
 
 #include <fmt/format.h>
@@ -29,6 +29,20 @@ void drop_straight_points(std::vector<double>& x, std::vector<double>& y) {
   y = std::move(kept_y);
 }
 
+void check_rises(const Curve& formula) {
+  constexpr int samples = 1000;
+  double before = -HUGE_VAL;
+  for (int k = 0; k <= samples; ++k) {
+    const double twist = formula.x().front() + (formula.x().back() - formula.x().front()) * k / samples;
+    const double torque =
+        formula.value_in(std::clamp(formula.piece(twist), 0, static_cast<int>(formula.x().size()) - 2), twist);
+    if (!(torque > before))
+      throw std::invalid_argument(fmt::format(
+          "the torque does not rise at a twist of {:.4g} rad; it must, or no twist belongs to a torque", twist));
+    before = torque;
+  }
+}
+
 }  // namespace
 
 ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const std::vector<double>& torque,
@@ -38,6 +52,12 @@ ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const
   const auto origin = std::find(x.begin(), x.end(), 0.0);
   if (origin == x.end() || y[static_cast<std::size_t>(origin - x.begin())] != 0)
     throw std::invalid_argument("the table does not pass through the origin; give the point [0, 0]");
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] == x[i - 1])
+      throw std::invalid_argument(
+          fmt::format("the torque jumps at point {}; no twist belongs to a torque within the "
+                      "jump (a preload is a coupling with \"contact\")",
+                      i + 1));
   for (std::size_t i = 1; i < x.size(); ++i)
     if (!(y[i] > y[i - 1]))
       throw std::invalid_argument(
@@ -66,9 +86,51 @@ ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const
   x.push_back(x.back() + far_beyond * range);
   y.push_back(high);
   if (form == Curve::Form::linear) drop_straight_points(x, y);
-  curve_ = Curve(std::move(x), std::move(y), form);
+  curve_ = Curve(x, y, form);
   twist_scale_ = range;
+  sum_up();
+}
 
+ProgressiveCoupling::ProgressiveCoupling(const Curve& formula) {
+  std::vector<double> knots = formula.x();
+  std::vector<FormulaProgram> programs = formula.programs();
+  if (knots.front() > 0 || knots.back() <= 0)
+    throw std::invalid_argument("the range of the formula must reach from 0 or below it to a positive twist");
+  if (!(std::abs(formula.value(0.0)) <= 1e-9 * formula.max_abs()))
+    throw std::invalid_argument(
+        fmt::format("the formula gives {:.6g} N·m at zero twist; it must be 0 there", formula.value(0.0)));
+  check_rises(formula);
+  given_twist_ = knots.back(), given_torque_ = formula.y().back();
+  if (knots.front() == 0) {  // one side counts for both
+    std::vector<double> both;
+    std::vector<FormulaProgram> both_programs;
+    for (std::size_t i = knots.size(); i-- > 1;) both.push_back(-knots[i]);
+    for (std::size_t i = programs.size(); i-- > 0;) both_programs.push_back(programs[i].mirrored());
+    both.insert(both.end(), knots.begin(), knots.end());
+    both_programs.insert(both_programs.end(), programs.begin(), programs.end());
+    knots = std::move(both);
+    programs = std::move(both_programs);
+  }
+  twist_scale_ = knots.back() - knots.front();
+  // Straight on at either end.
+  const auto tangent = [](const FormulaProgram& program, double at) {
+    const Dual<1> end = program(Dual<1>::input(at, 0));
+    FormulaProgram line;
+    for (const double number : {end.value, end.d[0]}) line.push({FormulaOp::number, number});
+    line.push({FormulaOp::variable, 0});
+    line.push({FormulaOp::number, at});
+    for (const FormulaOp op : {FormulaOp::subtract, FormulaOp::multiply, FormulaOp::add}) line.push({op, 0});
+    return line;
+  };
+  programs.insert(programs.begin(), tangent(programs.front(), knots.front()));
+  programs.push_back(tangent(programs.back(), knots.back()));
+  knots.insert(knots.begin(), knots.front() - far_beyond * twist_scale_);
+  knots.push_back(knots.back() + far_beyond * twist_scale_);
+  curve_ = Curve(std::move(knots), std::move(programs));
+  sum_up();
+}
+
+void ProgressiveCoupling::sum_up() {
   // Areas from θ = 0 outwards: those of the far ends are a million times as large.
   energy_.assign(curve_.x().size(), 0.0);
   const int middle = piece_at(0);
@@ -86,6 +148,16 @@ ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const
 }
 
 double ProgressiveCoupling::area(int piece, double from, double to) const {
+  if (curve_.form() == Curve::Form::formula) {
+    constexpr int panels = 128;
+    const double width = (to - from) / panels, offset = width / std::sqrt(12.0);
+    double sum = 0;
+    for (int k = 0; k < panels; ++k) {
+      const double middle = from + (k + 0.5) * width;
+      sum += curve_.value_in(piece, middle - offset) + curve_.value_in(piece, middle + offset);
+    }
+    return 0.5 * width * sum;
+  }
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from), offset = half / std::sqrt(3.0);
   return half * (curve_.value_in(piece, middle - offset) + curve_.value_in(piece, middle + offset));
 }
@@ -115,9 +187,10 @@ double ProgressiveCoupling::twist_at(double torque) const {
 
 std::string ProgressiveCoupling::describe() const {
   return fmt::format(
-      "progressive by a table up to {:.4g}°, {:.6g} N·m; beyond it straight on; stiffness {:.6g} N·m/rad "
+      "progressive by a {} up to {:.4g}°, {:.6g} N·m; beyond it straight on; stiffness {:.6g} N·m/rad "
       "at zero twist",
-      given_twist_ * 180 / std::numbers::pi, given_torque_, rest_stiffness_);
+      curve_.form() == Curve::Form::formula ? "formula" : "table", given_twist_ * 180 / std::numbers::pi, given_torque_,
+      rest_stiffness_);
 }
 
 }  // namespace kurbel

@@ -1,6 +1,6 @@
 // progressive_coupling.h — coupling whose torque over its twist is given by points ("graphically"), with a damper.
 //     τ = M(θ) + c θ̇,   E = ∫ M dθ from 0 to θ                                           (theory 5.8)
-// M(0) = 0, M rises strictly; straight between the points or a monotone cubic (curve.h). Points for θ ≥ 0 alone count
+// M(0) = 0, M rises strictly; straight between the points, a monotone cubic or a formula (curve.h). Points for θ ≥ 0 alone count
 // for both senses: M(−θ) = −M(θ). Beyond the last point it goes on straight. The pieces are modes: points are events.
 #pragma once
 
@@ -25,6 +25,8 @@ class ProgressiveCoupling {
   // Torques in N·m over twists in rad, with the damping c [N·m·s/rad]. Throws std::invalid_argument in words.
   ProgressiveCoupling(const std::vector<double>& twist, const std::vector<double>& torque, Curve::Form form,
                       double damping = 0);
+
+  explicit ProgressiveCoupling(const Curve& formula);
 
   template <class T>
   T torque(const Twist<T>& x) const {
@@ -57,8 +59,10 @@ class ProgressiveCoupling {
   int piece_at(double twist) const {
     return std::clamp(curve_.piece(twist), 0, static_cast<int>(curve_.x().size()) - 2);
   }
-  // ∫ M dθ within one piece, a polynomial of degree 3 at most: two Gauss points are exact.
+  // ∫ M dθ within one piece: two Gauss points are exact for a polynomial of degree 3; a formula takes many panels.
   double area(int piece, double from, double to) const;
+
+  void sum_up();  // energies at the points, stiffness at rest
 
   Curve curve_;
   std::vector<double> energy_;  // at the points [J]

@@ -160,7 +160,7 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
     return;
   }
   try {
-    net.put(node, s.name, EngineTorque(Curve(data.x, data.y, data.form, cycle), *geometry, angles), e.window);
+    net.put(node, s.name, EngineTorque(data.curve(cycle), *geometry, angles), e.window);
   } catch (const std::invalid_argument& error) {
     e.refuse(diagram, error.what());
   }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "drivetrain/shared/shared_keys.h"
 #include "drivetrain/shared/torque_source.h"
 #include "engine/model/network.h"
@@ -115,10 +117,21 @@ void build_prescribed_speed(const Section& s, Network& net, Messages& messages) 
   given.frequency = source.frequency;
   given.phase = source.phase;
   if (source.table) {
-    if (source.table->form == Curve::Form::smooth || source.table->period > 0)
-      source.refuse(&SourceKeys::table, "only linear tables without a period are allowed");
-    given.time = source.table->x;
-    given.speed = source.table->y;
+    try {
+      given.law = source.table->curve();
+    } catch (const std::invalid_argument& error) {
+      source.refuse(&SourceKeys::table, error.what());
+      return;
+    }
+    if (given.law.jumps()) {
+      source.refuse(&SourceKeys::table, "a speed that jumps would take an infinite torque; let it rise within a time");
+      return;
+    }
+    if (given.law.form() == Curve::Form::linear && given.law.period() == 0) {
+      given.time = given.law.x();
+      given.speed = given.law.y();
+      given.law = {};
+    }
   } else if (source.ramp) {
     given.time = {0, *source.ramp};
     given.speed = {0, source.constant};

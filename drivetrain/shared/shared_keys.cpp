@@ -39,12 +39,10 @@ const std::vector<std::string>& any_abscissa() {
   return names;
 }
 
-Curve curve_of(const CurveData& data) { return Curve(data.x, data.y, data.form, data.period); }
-
 void put_curve(Network& net, int node, const std::string& component, const TorqueCurve& torque,
                const std::function<void(const std::string&)>& refuse) {
   const auto& [data, sign, account, window] = torque;
-  const Curve curve = curve_of(data);
+  const Curve curve = data.curve();
   if (data.over == "time") {
     net.put(node, component, TorqueOverTime{account, curve, sign}, window);
   } else if (data.over == "speed") {
@@ -60,7 +58,7 @@ void put_curve(Network& net, int node, const std::string& component, const Torqu
                       "period = \"720 deg\" for two turns",
                       span * 180 / std::numbers::pi, closed.period * 180 / std::numbers::pi));
     try {
-      net.put(node, component, TorqueOverAngle{account, curve_of(closed), sign}, window);
+      net.put(node, component, TorqueOverAngle{account, closed.curve(), sign}, window);
     } catch (const std::invalid_argument& error) {
       refuse(error.what());
     }

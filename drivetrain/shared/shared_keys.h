@@ -18,8 +18,6 @@ Key own_inertia_key();                                   // "0 kg*m2" unless giv
 const Fields<Window>& window_fields();                   // start, stop
 const std::vector<std::string>& any_abscissa();          // time, angle, speed
 
-Curve curve_of(const CurveData& data);
-
 // A torque over time, angle or speed as the element that suits it, and what is wrong with it goes to `refuse`.
 struct TorqueCurve {
   const CurveData& data;

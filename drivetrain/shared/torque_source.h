@@ -42,29 +42,15 @@ struct TorqueOverTime {
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    const double t = x.t - shift(x.t, x.mode);
-    return T(sign * curve.value_in(x.mode, t));
+    return T(sign * curve.value_in(x.mode, TimedPiece::near(curve, x.mode, x.t)));
   }
-  int mode_at(double t) const { return curve.piece(t + slack(t)); }
+  int mode_at(double t) const { return TimedPiece::at(curve, t); }
   bool uses_time() const { return true; }
   bool uses_speed() const { return false; }
-  double next_edge(double t) const {
-    const double here = t + slack(t), past = here - curve.within(here);  // whole periods
-    return past + curve.piece_end(mode_at(t));
-  }
+  double next_edge(double t) const { return TimedPiece::next_edge(curve, t); }
   Rated rated() const { return {curve.max_abs(), 0}; }
   double time_period() const { return curve.period(); }
-  double settled_from() const { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
-
- private:
-  // A time this close before a knot is on it: k · period rounds to either side.
-  double slack(double t) const { return 1e-12 * (curve.x().back() - curve.x().front()) + 1e-15 * std::abs(t); }
-  // Brings t near the piece in force, so that a period's end does not jump within a step.
-  double shift(double t, int piece) const {
-    if (curve.period() == 0) return 0;
-    const double middle = 0.5 * (curve.piece_begin(piece) + curve.piece_end(piece));
-    return curve.period() * std::round((t - middle) / curve.period());
-  }
+  double settled_from() const { return TimedPiece::settled_from(curve); }
 };
 
 // M = sign · f(φ)

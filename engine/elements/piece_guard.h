@@ -30,4 +30,21 @@ struct PieceGuard {
   static int first(const Curve& curve, double q) { return curve.piece(q); }
 };
 
+// The same of a law over time, whose edges are known beforehand.
+struct TimedPiece {
+  // A time this close before a knot is on it: k · period rounds to either side.
+  static double slack(const Curve& curve, double t) {
+    return 1e-12 * (curve.x().back() - curve.x().front()) + 1e-15 * std::abs(t);
+  }
+  static int at(const Curve& curve, double t) { return curve.piece(t + slack(curve, t)); }
+  static double next_edge(const Curve& curve, double t) {
+    const double here = t + slack(curve, t), past = here - curve.within(here);  // whole periods
+    return past + curve.piece_end(at(curve, t));
+  }
+  // t near the piece in force, so that a period's end does not jump within a step.
+  static double near(const Curve& curve, int piece, double t) { return PieceGuard::near_piece(curve, piece, t); }
+  // When it holds still.
+  static double settled_from(const Curve& curve) { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
+};
+
 }  // namespace kurbel

@@ -133,7 +133,8 @@ void Flow::look_at(double t, std::span<const double> y, Instant& now) {
     for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = prescribed_speed(m, modes_, s, t);
     speed = speed_.data();
   }
-  for (std::size_t c = 0; c < modes_.command.size(); ++c) command_value_[c] = modes_.command[c].at(t);
+  for (std::size_t c = 0; c < modes_.command.size(); ++c)
+    command_value_[c] = modes_.command[c].at(t, model_->scene.sequence);
   now.t = t;
   now.angle = y.data();
   now.twist = y.data() + twists_begin();

@@ -4,7 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/scene.h"
+
 namespace kurbel {
+
+double Command::at(double t, const Sequence& sequence) const {
+  if (law < 0) return value + rate * (t - from);
+  return sequence.steps[static_cast<std::size_t>(law)].law.value_in(piece, t - from);
+}
 namespace {
 
 // 4π as two doubles: 10⁶ wraps lose no digit.

@@ -10,10 +10,15 @@
 
 namespace kurbel {
 
-// What a motor, a clutch or a brake is told by the operating sequence: value + rate (t − from) until its ramp ends.
+struct Sequence;
+
+// What a motor, a clutch or a brake is told by the operating sequence: value + rate (t − from) until its ramp ends, or
+// the law over t − from of a step, piece by piece.
 struct Command {
   double value = 1, rate = 0, from = 0, until = -1e300, to = 1;
-  double at(double t) const { return value + rate * (t - from); }
+  int law = -1, piece = 0;  // the step whose law it follows; −1: none
+  double at(double t, const Sequence& sequence) const;
+  bool holds_still() const { return rate == 0 && law < 0; }
   bool operator==(const Command&) const = default;
 };
 

@@ -16,6 +16,28 @@ constexpr double never = 1e300;
 // A ramp that ends at the moment at which it begins is a jump.
 bool takes_time(double over, double t) { return over > 1e-13 * std::max(1.0, std::abs(t)); }
 
+// The law of a step from t on.
+Command follow(int step, const Curve& law, double t) {
+  Command command{.from = t, .law = step, .piece = law.piece(0)};
+  if (law.period() > 0) command.from = t - law.within(0);
+  command.until = command.from + law.piece_end(command.piece);
+  return command;
+}
+
+// Behind its last piece it begins again, or stays what it is.
+void pass_piece(Command& command, const Curve& law) {
+  const int pieces = static_cast<int>(law.x().size()) - 1;
+  if (++command.piece == pieces && law.period() == 0) {
+    command = {.value = law.y().back(), .to = law.y().back()};
+    return;
+  }
+  if (command.piece == pieces) {
+    command.piece = 0;
+    command.from += law.period();
+  }
+  command.until = command.from + law.piece_end(command.piece);
+}
+
 }  // namespace
 
 bool OperatingSequence::begin(Modes& modes, double t, std::span<const double> y) const {
@@ -50,12 +72,16 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
       const auto is = [&](const CommandTarget& target) { return target.component == component; };
       const auto c = std::find_if(model_->commands.begin(), model_->commands.end(), is) - model_->commands.begin();
       Command& command = modes.command[static_cast<std::size_t>(c)];
-      const double value = command.at(t);
-      if (takes_time(step.over, t) && value != step.to)
+      const double value = command.at(t, sequence);
+      if (!step.law.empty())
+        command = follow(static_cast<int>(modes.next_step), step.law, t);
+      else if (takes_time(step.over, t) && value != step.to)
         command = {value, (step.to - value) / step.over, t, t + step.over, step.to};
       else
         command = {.value = step.to, .to = step.to};
-      if (log) log->push_back(command_event(t, component, value, step.to, step.over));
+      const double to = step.law.empty() ? step.to : step.law.y().back();
+      const double over = step.law.empty() ? step.over : step.law.x().back();
+      if (log) log->push_back(command_event(t, component, value, to, over));
     }
     modes.last_step_time = t;
     ++modes.next_step;
@@ -81,13 +107,18 @@ double OperatingSequence::guard(const Modes& modes, std::span<const double> y, c
 double OperatingSequence::next_edge(const Modes& modes) const {
   double next = modes.armed_time;
   for (const Command& command : modes.command)
-    if (command.rate != 0) next = std::min(next, command.until);
+    if (!command.holds_still()) next = std::min(next, command.until);
   return next;
 }
 
 void OperatingSequence::end_ramps(Modes& modes, double t) const {
-  for (Command& command : modes.command)
-    if (command.rate != 0 && command.until <= t) command = {.value = command.to, .to = command.to};
+  for (Command& command : modes.command) {
+    if (command.holds_still() || command.until > t) continue;
+    if (command.law < 0)
+      command = {.value = command.to, .to = command.to};
+    else
+      pass_piece(command, model_->scene.sequence.steps[at(command.law)].law);
+  }
 }
 
 }  // namespace kurbel

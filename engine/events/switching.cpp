@@ -21,8 +21,8 @@ void Switching::set_timed_modes(double t) {
     const auto switch_off = [&](const std::vector<int>& elements) {
       for (const int e : elements) modes.active[static_cast<std::size_t>(e)] = 0;
     };
-    if (modes.command[c].at(t) <= 0.5) switch_off(m.commands[c].switched);
-    if (modes.command[c].value == 0 && modes.command[c].rate == 0) switch_off(m.commands[c].opened);
+    if (modes.command[c].at(t, m.scene.sequence) <= 0.5) switch_off(m.commands[c].switched);
+    if (modes.command[c].value == 0 && modes.command[c].holds_still()) switch_off(m.commands[c].opened);
   }
   for (std::size_t p = 0; p < modes.prescribed_piece.size(); ++p)
     modes.prescribed_piece[p] = m.network.prescribed[p].piece(t);

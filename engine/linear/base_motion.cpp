@@ -23,6 +23,8 @@ double common_time(const Model& m) {
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->time_period > 0) periods.push_back(e.element->time_period);
   for (const PrescribedSpeed& p : m.network.prescribed)
+    if (p.period() > 0) periods.push_back(p.period());
+  for (const PrescribedSpeed& p : m.network.prescribed)
     if (p.amplitude != 0 && p.frequency > 0) periods.push_back(1 / p.frequency);
   return periods.empty() ? 0 : common_period(periods).value;
 }

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/elements/piece_guard.h"
+#include "engine/numerics/dual.h"
+
 namespace kurbel {
 
 int Network::add_node(const std::string& component, const std::string& label, double inertia) {
@@ -26,33 +29,65 @@ void Network::prescribe(int node, PrescribedSpeed speed) {
 }
 
 int PrescribedSpeed::piece(double t) const {
+  if (!law.empty()) return TimedPiece::at(law, t);
   return static_cast<int>(std::upper_bound(time.begin(), time.end(), t) - time.begin()) - 1;
 }
 
 double PrescribedSpeed::value(double t, int piece) const {
+  const double sine = amplitude * std::sin(2 * M_PI * frequency * t + phase);
+  if (!law.empty()) return law.value_in(piece, TimedPiece::near(law, piece, t)) + sine;
   const auto last = static_cast<int>(time.size()) - 1;
   const auto i = static_cast<std::size_t>(std::clamp(piece, 0, last));
   const double base = piece < 0 || piece >= last
                           ? speed[i]
                           : speed[i] + (t - time[i]) * (speed[i + 1] - speed[i]) / (time[i + 1] - time[i]);
-  return base + amplitude * std::sin(2 * M_PI * frequency * t + phase);
+  return base + sine;
 }
 
 double PrescribedSpeed::slope(double t, int piece) const {
   const auto last = static_cast<int>(time.size()) - 1;
   double base = 0;
-  if (piece >= 0 && piece < last) {
+  if (!law.empty())
+    base = law.value_in(piece, Dual<1>::input(TimedPiece::near(law, piece, t), 0)).d[0];
+  else if (piece >= 0 && piece < last) {
     const auto i = static_cast<std::size_t>(piece);
     base = (speed[i + 1] - speed[i]) / (time[i + 1] - time[i]);
   }
   return base + amplitude * 2 * M_PI * frequency * std::cos(2 * M_PI * frequency * t + phase);
 }
 
-bool PrescribedSpeed::is_nothing() const {
-  return amplitude == 0 && std::all_of(speed.begin(), speed.end(), [](double w) { return w == 0; });
+bool PrescribedSpeed::is_nothing() const { return amplitude == 0 && greatest() == 0; }
+
+double PrescribedSpeed::greatest() const {
+  double most = law.empty() ? 0 : law.max_abs();
+  for (const double w : speed) most = std::max(most, std::abs(w));
+  return most;
+}
+
+double PrescribedSpeed::settled_speed() const {
+  if (law.empty()) return speed.back();
+  if (law.period() == 0) return law.y().back();
+  // Mean over the period: two Gauss points are exact for a polynomial of degree 3, a formula takes many panels.
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < law.x().size(); ++i) {
+    constexpr int panels = 128;
+    const double width = (law.x()[i + 1] - law.x()[i]) / panels, offset = width / std::sqrt(12.0);
+    for (int k = 0; k < panels; ++k) {
+      const double middle = law.x()[i] + (k + 0.5) * width;
+      sum += 0.5 * width *
+             (law.value_in(static_cast<int>(i), middle - offset) + law.value_in(static_cast<int>(i), middle + offset));
+    }
+  }
+  return sum / law.period();
+}
+
+double PrescribedSpeed::settled_from() const {
+  if (!law.empty()) return TimedPiece::settled_from(law);
+  return time.empty() ? -HUGE_VAL : time.back();
 }
 
 double PrescribedSpeed::next_edge(double t) const {
+  if (!law.empty()) return TimedPiece::next_edge(law, t);
   if (time.size() < 2) return std::numeric_limits<double>::infinity();
   const auto after = std::upper_bound(time.begin(), time.end(), t);
   return after == time.end() ? std::numeric_limits<double>::infinity() : *after;

@@ -10,12 +10,14 @@
 #include "engine/elements/any_connection.h"
 #include "engine/elements/any_shaft_element.h"
 #include "engine/elements/gear_loss.h"
+#include "engine/numerics/curve.h"
 
 namespace kurbel {
 
 // A speed that is given as a function of time.
 struct PrescribedSpeed {
   std::vector<double> time, speed;                 // straight between the points; constant before and after [s, rad/s]
+  Curve law = {};                                  // in their place: smooth, a formula, what repeats [s] → [rad/s]
   double amplitude = 0, frequency = 0, phase = 0;  // + amplitude sin(2π f t + phase) [rad/s, Hz, rad]
   // The piece in force is a mode: within a step the law goes on smoothly beyond its end.
   int piece(double t) const;
@@ -23,6 +25,10 @@ struct PrescribedSpeed {
   double slope(double t, int piece) const;  // dω/dt
   double next_edge(double t) const;
   bool is_nothing() const;
+  double greatest() const;       // |ω| without the sine
+  double settled_speed() const;  // that it comes to; the mean of what repeats
+  double settled_from() const;   // [s]; −∞: from the first
+  double period() const { return law.empty() ? 0 : law.period(); }
 };
 
 class Network {

@@ -100,15 +100,22 @@ void place_on_shafts(Model& m, PoolSet& pools) {
 void check_sequence(Compilation& c) {
   for (const SequenceStep& step : c.model.scene.sequence.steps)
     for (const std::string& component : step.set) {
-      bool any = false, reversible = true;
+      bool any = false, reversible = true, switched = false;
       for (const Network::ShaftElement& e : c.net().elements)
-        if (e.component == component) any = true, reversible = reversible && e.element->is.reversible;
+        if (e.component == component) {
+          any = true, reversible = reversible && e.element->is.reversible;
+          switched = switched || !e.element->is.commanded;
+        }
       for (const Network::Joint& joint : c.net().joints)
         if (joint.component == component && joint.element && joint.element->is.commanded)
           any = true, reversible = false;
       if (!any)
         c.messages.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
                                             "clutch or a brake",
+                                            component));
+      else if (switched && !step.law.empty())
+        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" is on or off and can follow no law; give its torque "
+                                            "over time in its own table",
                                             component));
       else if (step.to < 0 && !reversible)
         c.messages.add(step.at, fmt::format("[sequence]: \"{}\" cannot be reversed, to = {:g}; must be ≥ 0 (only "

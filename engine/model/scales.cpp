@@ -41,7 +41,7 @@ void add_given_speeds(const Model& m, Size& size) {
   for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
     if (m.network.nodes[n].prescribed < 0) continue;
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[n].prescribed)];
-    for (const double s : given.speed) size.reaches(s / m.scale_ratio[n]);
+    size.reaches(given.greatest() / m.scale_ratio[n]);
     size.reaches(given.amplitude / m.scale_ratio[n]);
   }
   const StartSettings& start = m.scene.run.start;

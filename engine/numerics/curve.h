@@ -1,33 +1,45 @@
-// curve.h — a characteristic given by points ("graphically"): torque over time, angle or speed, force over travel.
+// curve.h — a characteristic given by points ("graphically") or a formula: torque over time, angle or speed, force over
+// travel.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "engine/numerics/dual.h"
+#include "engine/numerics/formula.h"
 #include "engine/numerics/period.h"
 
 namespace kurbel {
 
-// Piecewise polynomial through the points (x, y), x strictly ascending: straight between points, or smooth
-// (monotone cubic: Fritsch & Carlson 1980, no overshoot). Outside the points the end values hold, unless periodic.
-// Pieces are numbered −1 (before the first point), 0 … n−2, n−1 (after the last).
+// Piecewise polynomial through the points (x, y), x ascending: straight between points, or smooth (monotone cubic:
+// Fritsch & Carlson 1980, no overshoot). Two points at one x are a jump, which at x itself has happened. Outside the
+// points the end values hold, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2, n−1 (after the
+// last), points at one x counted once. Of a formula the places between its pieces take the part of the points.
 class Curve {
  public:
-  enum class Form { linear, smooth };
+  enum class Form { linear, smooth, formula };
 
   Curve() = default;
   // period > 0: the points lie within one period and the curve closes itself. Throws std::invalid_argument on
-  // fewer than 2 points, x not ascending, or points that span more than the period.
-  Curve(std::vector<double> x, std::vector<double> y, Form form, double period = 0);
+  // fewer than 2 points, x not ascending, three points at one x, or points that span more than the period.
+  Curve(const std::vector<double>& x, const std::vector<double>& y, Form form, double period = 0);
+  // A program for each piece between ascending knots, which span the period where there is one. Throws
+  // std::invalid_argument where a value or a slope at the end of a piece is not finite.
+  Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period = 0);
 
   bool empty() const { return x_.empty(); }
   Form form() const { return form_; }
   double period() const { return period_; }
   const std::vector<double>& x() const { return x_; }
-  const std::vector<double>& y() const { return y_; }
-  double max_abs() const;
+  const std::vector<double>& y() const { return y_; }  // at x, behind a jump
+  double before() const { return before_; }            // the value up to the first point
+  double end_value(std::size_t piece) const { return value_in(static_cast<int>(piece), x_[piece + 1]); }
+  bool jumps() const;
+  const std::vector<FormulaProgram>& programs() const { return *programs_; }  // of a formula
+  double max_abs() const { return max_abs_; }
 
   // x brought into [first point, first point + period) by whole periods; x itself without a period.
   double within(double x) const {
@@ -51,28 +63,36 @@ class Curve {
   // Value of one piece, continued beyond its ends: between events a right-hand side stays smooth.
   template <class T>
   T value_in(int piece, const T& x) const {
-    if (piece < 0) return T(y_.front());
+    if (piece < 0) return T(before_);
     if (piece + 1 >= static_cast<int>(x_.size())) return T(y_.back());
     const auto i = static_cast<std::size_t>(piece);
+    if (programs_) return by_formula(i, x);
     const T s = x - x_[i];
     return ((c3_[i] * s + c2_[i]) * s + c1_[i]) * s + y_[i];
   }
   template <class T>
   T value(const T& x) const {
+    using kurbel::value_of;
     const double here = value_of(x), there = within(here);
     return value_in(piece(there), x + (there - here));
   }
 
  private:
-  static double value_of(double x) { return x; }
+  // Beyond the ends of the piece by its tangent there: trial steps stay within the domain of the formula.
   template <class T>
-  static double value_of(const T& x) {
-    return x.value;
+  T by_formula(std::size_t i, const T& x) const {
+    using kurbel::value_of;
+    const double here = value_of(x);
+    if (here < x_[i]) return y_[i] + c1_[i] * (x - x_[i]);
+    if (here > x_[i + 1]) return c2_[i] + c3_[i] * (x - x_[i + 1]);
+    return (*programs_)[i](x);
   }
 
-  std::vector<double> x_, y_, c1_, c2_, c3_;
+  std::vector<double> x_, y_, c1_, c2_, c3_;  // of a formula: slope at the begin, value and slope at the end of a piece
   Form form_ = Form::linear;
   double period_ = 0;
+  double before_ = 0, max_abs_ = 0;
+  std::shared_ptr<const std::vector<FormulaProgram>> programs_;  // null: by points
 };
 
 }  // namespace kurbel

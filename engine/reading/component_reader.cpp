@@ -15,7 +15,7 @@ using Type = DocumentValue::Type;
 
 const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = {"title",   "description", "line", "branch",
-                                                 "effects", "sequence",    "run"};
+                                                 "effects", "sequence",    "run",  "constants"};
   return names;
 }
 
@@ -54,6 +54,18 @@ void read_on(SceneReading& r, const Section& section, const DocumentValue& value
                                           section.kind->name, section.name, value.describe()));
   }
   r.scene.lines.push_back({value.text, {section.name}, value.at, {value.at}});
+}
+
+// Each of [table] is used by name; else it is a component that lacks its kind.
+bool tables_are_tables(SceneReading& r, const DocumentEntry& tables) {
+  bool any = false;
+  for (const DocumentEntry& entry : tables.value.entries) any = any || entry.value.type == Type::table;
+  if (!any && !tables.value.entries.empty()) return false;
+  for (const DocumentEntry& entry : tables.value.entries)
+    if (entry.value.type != Type::table)
+      r.refuse(entry.at, fmt::format("[table] holds tables that are used by name, as [table.gas]; {} = {} is none",
+                                     entry.key, entry.value.describe()));
+  return true;
 }
 
 bool read_component(SceneReading& r, const DocumentEntry& entry) {
@@ -102,6 +114,7 @@ void read_components(SceneReading& r) {
       continue;
     }
     if (std::count(reserved_names().begin(), reserved_names().end(), entry.key)) continue;
+    if (entry.key == "table" && is_table_of_tables(entry.value) && tables_are_tables(r, entry)) continue;
     const bool good_name = !entry.key.empty() &&
                            entry.key.find_first_not_of(
                                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;

@@ -87,6 +87,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   SceneReading r{.kinds = kinds, .messages = Messages(file), .allowed = allowed, .document = parse_toml(text, file)};
   r.scene.file = file;
   r.scene.text = text;
+  prepare_document(r);
   read_components(r);
   read_lines(r);
   check_connections(r);

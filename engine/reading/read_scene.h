@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/reading/data_files.h"
 #include "engine/reading/settings.h"
 #include "engine/scene/scene.h"
+#include "engine/values/data_files.h"
 
 namespace kurbel {
 

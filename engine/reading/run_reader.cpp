@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
-#include "engine/reading/quantity_reader.h"
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/section_reader.h"
+#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/reading/data_files.h"
 #include "engine/scene/document.h"
 #include "engine/scene/scene.h"
+#include "engine/values/data_files.h"
 
 namespace kurbel {
 
@@ -31,6 +31,10 @@ struct SceneReading {
   bool explains() const;
   std::string no_component(const std::string& name, const std::vector<std::string>& names) const;
 };
+
+// preparation.cpp: constants, formulas of them, tables used by name
+void prepare_document(SceneReading& r);
+bool is_table_of_tables(const DocumentValue& value);  // [table.gas], and no component named "table"
 
 void read_components(SceneReading& r);         // component_reader.cpp
 void read_lines(SceneReading& r);              // line_reader.cpp

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/reading/curve_reader.h"
-#include "engine/reading/quantity_reader.h"
+#include "engine/values/curve_reader.h"
+#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {

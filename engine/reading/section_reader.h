@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/reading/data_files.h"
 #include "engine/scene/document.h"
 #include "engine/scene/keys.h"
+#include "engine/values/data_files.h"
 
 namespace kurbel {
 

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "engine/reading/quantity_reader.h"
 #include "engine/reading/section_reader.h"
+#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {
@@ -34,6 +35,7 @@ class StepReader {
     SequenceStep step;
     step.to = section.number("to");
     step.over = section.number("over");
+    read_law(section, step, what);
     step.at = table.at;
     read_trigger(section, step, what);
     const DocumentEntry* set = table.find("set");
@@ -51,6 +53,24 @@ class StepReader {
   }
 
  private:
+  void read_law(const Section& section, SequenceStep& step, const std::string& what) {
+    if (!section.given("law") || !section.sound) return;
+    const auto refuse = [&](const std::string& text) { messages_.add(section.where("law"), what + ": law: " + text); };
+    for (const char* key : {"to", "over"})
+      if (section.given(key)) return refuse(fmt::format("\"law\" and \"{}\" both given; keep one", key));
+    try {
+      step.law = section["law"].curve.curve();
+    } catch (const std::invalid_argument& error) {
+      return refuse(error.what());
+    }
+    double least = std::min(step.law.before(), step.law.y().back());
+    for (std::size_t i = 0; i + 1 < step.law.x().size(); ++i)
+      for (int k = 0; k <= 100; ++k)
+        least = std::min(least, step.law.value_in(static_cast<int>(i),
+                                                  step.law.x()[i] + (step.law.x()[i + 1] - step.law.x()[i]) * k / 100));
+    step.to = least;  // what it must be able to be told
+    if (step.law.max_abs() > 10 || least < -1) refuse("its values must lie within −1 … 10");
+  }
   void check(const std::string& name, Location at, const std::string& what) {
     if (!is_component_(name))
       messages_.add(at, fmt::format("{}: \"{}\" is no component{}; allowed: {}", what, name,
@@ -106,6 +126,11 @@ const std::vector<Key>& sequence_step_keys() {
        .fallback = "1",
        .domain = {.low = -1, .high = 10},
        .doc = "1 on, 0 off, between them part (pressure of a clutch, voltage of a motor), −1 a motor reversed"},
+      {.name = "law",
+       .type = KeyType::curve,
+       .unit = "1",
+       .doc = "in place of to and over: the value over the time since the step, as clutch pressure over rated pressure",
+       .choices = {"time"}},
       {.name = "over", .unit = "s", .fallback = "\"0 s\"", .domain = not_negative, .doc = "ramp from the value before"},
   };
   return keys;

@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Command, value, rate, from, until, to)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Command, value, rate, from, until, to, law, piece)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, direction, slip, loss_direction, loss_sign,
                                    regularised, carries, capacity, turns, first_two_turns, command, next_step,
                                    armed_time, armed_angle, last_step_time)
@@ -52,11 +52,17 @@ void check(const Checkpoint& c, const Equations& equations) {
     constexpr int most = 10'000'000;  // of a table's rows
     return std::all_of(list.begin(), list.end(), [](int v) { return v >= -most && v <= most; });
   };
+  const auto follows = [&](const Command& c) {
+    const auto& steps = equations.model().scene.sequence.steps;
+    if (c.law < 0) return c.law == -1;
+    return c.law < static_cast<int>(steps.size()) && !steps[static_cast<std::size_t>(c.law)].law.empty();
+  };
   const auto senses = [](const std::vector<int>& list) {
     return std::all_of(list.begin(), list.end(), [](int v) { return v >= -1 && v <= 1; });
   };
-  if (!sound || !pieces(m.piece) || !pieces(m.prescribed_piece) || !senses(m.direction) || !senses(m.slip) ||
-      !senses(m.loss_direction) || !senses(m.loss_sign))
+  if (!sound || !std::all_of(m.command.begin(), m.command.end(), follows) || !pieces(m.piece) ||
+      !pieces(m.prescribed_piece) || !senses(m.direction) || !senses(m.slip) || !senses(m.loss_direction) ||
+      !senses(m.loss_sign))
     throw UnfitCheckpoint("holds values that no run leaves behind");
 }
 

@@ -3,14 +3,24 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/scene/messages.h"
+#include "engine/scene/units.h"
 
 namespace kurbel {
 
 struct DocumentEntry;
+
+// What a text is that says how it is computed: "= 2*p0".
+struct Computed {
+  Quantity quantity;
+  bool faulty = false;  // something was said about it already
+  bool zero = false;    // just 0, of any dimension
+};
 
 struct DocumentValue {
   enum class Type { flag, integer, number, text, list, table, other };
@@ -20,8 +30,10 @@ struct DocumentValue {
   std::int64_t integer = 0;
   double number = 0;
   std::string text = {};
-  std::vector<DocumentValue> items = {};  // of a list
-  std::vector<DocumentEntry> entries;     // of a table, in the order of the file
+  std::vector<DocumentValue> items = {};                                  // of a list
+  std::vector<DocumentEntry> entries;                                     // of a table, in the order of the file
+  std::shared_ptr<const Computed> computed = {};                          // of such a text
+  std::shared_ptr<const std::map<std::string, Quantity>> constants = {};  // that a table's formula may use
 
   const DocumentEntry* find(std::string_view key) const;
   std::string describe() const;  // as in the file: 12, "abc", true; "a list", "a table"

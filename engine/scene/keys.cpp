@@ -10,6 +10,15 @@
 
 namespace kurbel {
 
+Curve CurveData::curve(double other_period) const {
+  return by_formula.empty() ? Curve(x, y, form, other_period > 0 ? other_period : period) : by_formula;
+}
+
+Curve CurveData::back() const {
+  if (x_back.empty()) return {};
+  return by_formula_back.empty() ? Curve(x_back, y_back, form) : by_formula_back;
+}
+
 std::string Domain::describe(const std::string& unit) const {
   const bool bounded_low = std::isfinite(low), bounded_high = std::isfinite(high);
   if (bounded_low && bounded_high)

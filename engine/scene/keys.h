@@ -77,13 +77,19 @@ struct Kind {
   std::vector<std::string> further_shafts = {};
 };
 
-// A characteristic as read, in SI; made into a Curve by the component that owns it.
+// A characteristic as read, in SI; made into a Curve by the component that owns it. Of a formula the points are those
+// between its pieces.
 struct CurveData {
   std::string over;  // "time", "angle", "speed", "travel"
   std::vector<double> x, y;
   std::vector<double> x_back, y_back;  // branch of the return stroke, where one was given
   Curve::Form form = Curve::Form::linear;
   double period = 0;
+  Curve by_formula = {}, by_formula_back = {};  // empty: by points
+
+  // Throws std::invalid_argument in words; with another period than its own where one is given.
+  Curve curve(double other_period = 0) const;
+  Curve back() const;  // of the return stroke
 };
 
 // One value of a section.

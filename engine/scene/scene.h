@@ -48,6 +48,7 @@ struct SequenceStep {
   std::vector<std::string> set;  // components
   double to = 1;                 // 1 on, 0 off, between: part; −1: reversed
   double over = 0;               // ramp [s]
+  Curve law = {};                // in their place: the value over the time since the step [s] → [1]; empty: none
   Location at = {};
 };
 struct Sequence {

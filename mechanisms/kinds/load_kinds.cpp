@@ -34,7 +34,8 @@ bool put_rounding(const Reading<Keys>& s, const Mechanism& mechanism, SliderLoad
       wrong = over_angle ? "the table is over the crank angle; give \"rounding_angle\""
                          : "the table is over the travel; give \"rounding\"";
     else if (!load.can_be_rounded())
-      wrong = fmt::format("\"{}\" is for straight pieces, and the table is smooth; drop it", s.key(member));
+      wrong =
+          fmt::format("\"{}\" is for straight pieces, and the table is smooth or a formula; drop it", s.key(member));
     else if (2 * load.rounding > most)
       wrong = fmt::format("{} = {:g} {}; must be ≤ {} of {:g} {}", s.key(member), 2 * load.rounding, unit,
                           over_angle ? "half the period"
@@ -74,15 +75,15 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
   try {
     if (data.over != "angle") {
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
-      TravelForce law{end, Curve(data.x, data.y, data.form), {}, mechanism.stroke()};
-      if (!data.x_back.empty()) law.retreat = Curve(data.x_back, data.y_back, data.form);
+      TravelForce law{end, data.curve(), {}, mechanism.stroke()};
+      if (!data.x_back.empty()) law.retreat = data.back();
       load.law = std::move(law);
     } else {
       if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
       if (data.period == 0)
         data.period = data.x.back() - data.x.front() > 2 * std::numbers::pi * 1.0001 ? 4 * std::numbers::pi
                                                                                      : 2 * std::numbers::pi;
-      load.law = AngleForce{end, Curve(data.x, data.y, data.form, data.period)};
+      load.law = AngleForce{end, data.curve()};
     }
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());

@@ -40,11 +40,13 @@ class RoundedProfile {
   // A table of straight pieces; a period repeats it.
   RoundedProfile(const Curve& curve, double width) : width_(width), period_(curve.period()) {
     const std::vector<double>&x = curve.x(), &y = curve.y();
-    std::vector<double> left(y.begin(), y.end() - 1), right(y.begin() + 1, y.end());
-    *this = RoundedProfile(x, left, right, y.front(), y.back(), width);
+    std::vector<double> left(y.begin(), y.end() - 1), right;
+    for (std::size_t i = 0; i < left.size(); ++i) right.push_back(curve.end_value(i));
+    *this = RoundedProfile(x, left, right, curve.before(), y.back(), width);
     period_ = curve.period();
     if (period_ == 0) return;
     // The last point is the first again: one knot, and the pieces next to it seen from both sides.
+    knots_.front().jump = left.front() - right.back();
     knots_.front().kink = knots_.front().slope - (right.back() - left.back()) / (x.back() - x[x.size() - 2]);
     knots_.pop_back();
   }

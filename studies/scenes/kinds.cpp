@@ -201,7 +201,15 @@ std::string keys_in_markdown() {
       "written\n"
       "`{ over = \"angle\", unit = [\"deg\", \"N*m\"], points = [[0, 0], [90, 12]] }` or with `file = \"data.csv\"` "
       "(two columns,\n"
-      "`columns = [1, 2]`), `interpolation = \"linear\"` or `\"smooth\"`, and `period` where it repeats.\n\n"
+      "`columns = [1, 2]`), `interpolation = \"linear\"` (straight between the points) or `\"smooth\"` (a monotone "
+      "cubic: no kinks,\n"
+      "no overshoot), and `period` where it repeats. Two points at one x are a jump. Outside of the points the end values "
+      "hold.\n"
+      "In place of points it may have a formula: `{ over = \"travel\", formula = \"p0*A*(s0/(s0 + x))^1.3\", range = "
+      "[\"0 mm\", \"200 mm\"],\n"
+      "with = { s0 = \"20 mm\" } }`; see [formulas.md](formulas.md). `use = \"table.gas\"` takes what is not given from "
+      "`[table.gas]`. Any\n"
+      "quantity may be a formula of `[constants]`: `stiffness = \"= G*pi*d^4/(32*l)/1 rad\"`.\n\n"
       "Values of SI units are 0 or of a size of 1e-30 … 1e30 (angles up to 1e9 rad, as small as they like), so that "
       "products of\nten of them are numbers. At most: 16 MB for a scene, 64 MB and 1000000 rows for a table, 100000 "
       "values in a list,\n1000000 shaft ends, and 1000 gears with losses, planetary gears and gears in housings.\n\n"
@@ -213,6 +221,8 @@ std::string keys_in_markdown() {
       "ends "
       "there and closes a loop |\n"
       "| `[effects]` | `elasticity = true`, `false` or a list of components; the effects below, `true` or `false` |\n"
+      "| `[constants]` | names with their values, which formulas may use: `p0 = \"1 bar\"` |\n"
+      "| `[table.NAME]` | a table that others take by `use = \"table.NAME\"` |\n"
       "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n\n"
       "## `[effects]`\n\n"
       "| effect | what it adds | needs | states, events | matters | unless mentioned |\n|---|---|---|---|---|---|\n"
@@ -227,7 +237,8 @@ std::string keys_in_markdown() {
       "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "
       "of = "
       "\"press\", set = \"brake\" }]`. `set` names the components: clutches, brakes and motors take any value of `to`, "
-      "everything else is on above one half.\n\n";
+      "everything else is on above one half. With `law` in place of `to` and `over` a command follows a table or a "
+      "formula of the time since its step.\n\n";
   text += rows(sequence_step_keys());
   text += "\n## `[run]`\n\n" + rows(run_keys());
   text +=

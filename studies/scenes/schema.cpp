@@ -37,17 +37,24 @@ void bound(Json& number, const Domain& domain) {
   if (std::isfinite(domain.high)) number[domain.high_open ? "exclusiveMaximum" : "maximum"] = domain.high;
 }
 
+// "4 kN*m", or "= 2*M0" of the [constants].
+Json given_quantity() {
+  return {{"anyOf", {{{"type", "string"}, {"pattern", number_with_unit}}, {{"type", "string"}, {"pattern", "^="}}}}};
+}
+
 Json quantity(const std::string& unit, const Domain& domain) {
-  if (!unit.empty()) return {{"type", "string"}, {"pattern", number_with_unit}};
+  if (!unit.empty()) return given_quantity();
   Json number = {{"type", "number"}};
   bound(number, domain);
-  return {{"anyOf", {number, {{"type", "string"}, {"pattern", number_or_percent}}}}};
+  return {{"anyOf",
+           {number, {{"type", "string"}, {"pattern", number_or_percent}}, {{"type", "string"}, {"pattern", "^="}}}}};
 }
 
 // { over = "angle", unit = ["deg", "N*m"], points = [[0, 0], [90, 12]] }
 Json curve(const Key& key) {
   const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
   const Json points = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  const Json use = {{"type", "string"}, {"pattern", "^table\\."}, {"description", "takes its keys from [table.NAME]"}};
   const Json properties = {
       {"over", {{"enum", key.choices}, {"description", "what the first column is"}}},
       {"unit",
@@ -64,10 +71,14 @@ Json curve(const Key& key) {
       {"columns",
        {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 1}}}, {"minItems", 2}, {"maxItems", 2}}},
       {"interpolation", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}},
-      {"period", {{"type", "string"}, {"pattern", number_with_unit}}},
+      {"period", given_quantity()},
+      {"formula", {{"type", "string"}, {"description", "in place of the points; its variable is what it is over"}}},
+      {"return_formula", text()},
+      {"range", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"description", "where the formula holds"}}},
+      {"with", {{"type", "object"}, {"description", "constants of the formula: p0 = \"1 bar\""}}},
+      {"use", use},
   };
-  return table_of(properties, key.choices.size() == 1 ? std::vector<std::string>{"unit"}
-                                                      : std::vector<std::string>{"over", "unit"});
+  return table_of(properties);
 }
 
 Json kind_schema(const Kind& kind, bool kind_required);
@@ -145,9 +156,9 @@ Json kind_schema(const Kind& kind, bool kind_required) {
 }
 
 Json start_schema() {
-  const Json angle = {{"type", "string"}, {"pattern", number_with_unit}, {"description", "e.g. " + examples_of("rad")}};
-  const Json speed = {
-      {"type", "string"}, {"pattern", number_with_unit}, {"description", "e.g. " + examples_of("rad/s")}};
+  Json angle = given_quantity(), speed = given_quantity();
+  angle["description"] = "e.g. " + examples_of("rad");
+  speed["description"] = "e.g. " + examples_of("rad/s");
   Json table = table_of(
       {{"speed", speed},
        {"angle", angle},
@@ -212,6 +223,10 @@ std::string scene_schema() {
                    {"description", text()},
                    {"line", line},
                    {"branch", list_of(branch)},
+                   {"constants",
+                    {{"type", "object"},
+                     {"additionalProperties", {{"type", {"number", "string"}}}},
+                     {"description", "names that formulas may use, with their units: p0 = \"1 bar\""}}},
                    {"effects", table_of(effects)},
                    {"sequence", sequence_schema()},
                    {"run", run_schema()}}},

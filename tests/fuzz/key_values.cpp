@@ -91,10 +91,33 @@ DocumentValue points(const std::string& unit, const Domain& domain, Random& rand
   return list_value(std::move(list));
 }
 
+// A law by formula: pieces that fit together more often than not.
+DocumentValue formula_table(const Key& key, const std::string& over, const std::string& first, Random& random,
+                            double wild) {
+  static const std::vector<std::string> parts = {
+      "x",   "time", "angle", "speed", "sin(", "abs(",  "max(0, ", "if(x < ", ")",        ", ",
+      " + ", " - ",  "*",     "/",     "^",    "^1.3",  "sqrt(",   "log(",    "-",        "(",
+      "2",   "0.5",  "pi",    "c0",    "1 mm", "[N*m]", "1/0",     "1e300",   "tan(phi)", "exp(-t/1 s)"};
+  DocumentValue table = table_value();
+  put(table, "over", text_value(over));
+  std::string text = fmt::format("{} [{}]*(1 + 0.5*sin({}/1 [{}]))", usual_size(key.unit) * random.uniform(),
+                                 key.unit.empty() ? "1" : key.unit, over == "speed ratio" ? "nu" : over, first);
+  if (random.chance(wild))
+    for (std::size_t n = random.index(6); n > 0; --n) text.insert(random.index(text.size() + 1), random.one_of(parts));
+  put(table, "formula", text_value(text));
+  if (over != "angle" || random.chance(0.1 * wild))
+    put(table, "range",
+        list_value({text_value(fmt::format("{} {}", random.uniform(), first)),
+                    text_value(fmt::format("{} {}", 1 + random.uniform() * random.factor(10), first))}));
+  if (random.chance(0.3)) put(table, "with", table_value());
+  return table;
+}
+
 DocumentValue curve(const Key& key, Random& random, double wild) {
   DocumentValue table = table_value();
   const std::string over = random.chance(0.1 * wild) ? "nothing" : random.one_of(key.choices);
   const std::string first = unit_of_first_column(over);
+  if (random.chance(0.2)) return formula_table(key, over, first, random, wild);
   put(table, "over", text_value(over));
   put(table, "unit",
       list_value({text_value(random.chance(0.1 * wild) ? random.one_of(units()) : first),

@@ -24,16 +24,17 @@ constexpr std::size_t longest = 100'000;
 // --- bytes, words, lines ---
 
 const std::vector<std::string>& words() {
-  static const std::vector<std::string> list = {"\"",         "'",       "\"\"\"",  "[",        "]",
-                                                "[[",         "]]",      "{",       "}",        "=",
-                                                ",",          ".",       "#",       "\n",       "\r\n",
-                                                "\t",         "-",       "+",       "_",        "e",
-                                                "1e999",      "nan",     "inf",     "0x1F",     "1979-05-27",
-                                                "true",       "kind",    "line",    "[run]",    "[effects]",
-                                                "[[branch]]", "from",    "points",  "file",     "period",
-                                                "over",       "unit",    "until",   "\xC2\xB2", "\xE2\x88\x92",
-                                                "\xFF",       "\x1B[2J", "\\u0000", "\\",       std::string(1, '\0'),
-                                                "5",          "9",       "0"};
+  static const std::vector<std::string> list = {"\"",          "'",       "\"\"\"",  "[",        "]",
+                                                "[[",          "]]",      "{",       "}",        "=",
+                                                ",",           ".",       "#",       "\n",       "\r\n",
+                                                "\t",          "-",       "+",       "_",        "e",
+                                                "1e999",       "nan",     "inf",     "0x1F",     "1979-05-27",
+                                                "true",        "kind",    "line",    "[run]",    "[effects]",
+                                                "[[branch]]",  "from",    "points",  "file",     "period",
+                                                "over",        "unit",    "until",   "\xC2\xB2", "\xE2\x88\x92",
+                                                "\xFF",        "\x1B[2J", "\\u0000", "\\",       std::string(1, '\0'),
+                                                "5",           "9",       "0",       "formula",  "= 2*c0",
+                                                "[constants]", "use",     "table.a", "abs(",     "^1.3"};
   return list;
 }
 

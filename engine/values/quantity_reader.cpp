@@ -1,5 +1,5 @@
 // quantity_reader.cpp — what is wrong with a number, told with what it should be.
-#include "engine/reading/quantity_reader.h"
+#include "engine/values/quantity_reader.h"
 
 #include <fmt/format.h>
 
@@ -58,6 +58,14 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
       return refuse(value.at,
                     fmt::format("{} has no unit; write it with one, e.g. {}", value.describe(), examples_of(unit)));
     result = value.number;
+  } else if (value.computed) {
+    if (value.computed->faulty) return false;
+    UnitError error;
+    const auto wanted = parse_unit(unit, error);
+    const Quantity& got = value.computed->quantity;
+    if (got.dimension != wanted->dimension && !value.computed->zero)
+      return refuse(value.at, wrong_dimension(value, got, *wanted, unit));
+    result = got.value;
   } else if (value.type == Type::text) {
     UnitError error;
     const auto wanted = parse_unit(unit, error);
@@ -83,6 +91,29 @@ bool read_quantity(const DocumentValue& value, const std::string& unit, const Do
     return refuse(value.at,
                   fmt::format("{}; must be {}; check its unit and power of ten", pretty_quantity(value), allowed));
   return true;
+}
+
+Quantity read_constant(const DocumentValue& value, const std::string& what, Messages& messages) {
+  const auto refuse = [&](Location at, const std::string& text) {
+    messages.add(at, fmt::format("{} = {}", what, text));
+    return Quantity{1, {}};
+  };
+  if (value.computed) return value.computed->faulty ? Quantity{1, {}} : value.computed->quantity;
+  Quantity got;
+  if (is_number(value)) {
+    got.value = value.number;
+  } else if (value.type == Type::text) {
+    UnitError error;
+    const auto quantity = parse_quantity(value.text, error);
+    if (!quantity)
+      return refuse(place_within(value, error.column), fmt::format("{}: {}", value.describe(), error.text));
+    got = *quantity;
+  } else {
+    return refuse(value.at, fmt::format("{}; must be a number, with its unit in quotes", value.describe()));
+  }
+  if (!(std::abs(got.value) <= greatest_size))
+    return refuse(value.at, fmt::format("{}; must be within ± {:g} in SI units", value.describe(), greatest_size));
+  return got;
 }
 
 std::string size_allowed(double value, const Dimension& dimension, const Domain& domain) {

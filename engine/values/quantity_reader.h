@@ -23,6 +23,9 @@ inline bool is_whole(const DocumentValue& v) { return is_number(v) && v.number =
 bool read_quantity(const DocumentValue& value, const std::string& unit, const Domain& domain, const std::string& what,
                    Messages& messages, double& result);
 
+// A value with whatever unit it has; 1, with a message, if it is none.
+Quantity read_constant(const DocumentValue& value, const std::string& what, Messages& messages);
+
 // What must hold of a value in SI besides its domain, for its use to neither over- nor underflow; empty: it does.
 std::string size_allowed(double value, const Dimension& dimension, const Domain& domain);
 

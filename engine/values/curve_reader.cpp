@@ -1,5 +1,5 @@
 // curve_reader.cpp — what it is given over, in which units, point by point.
-#include "engine/reading/curve_reader.h"
+#include "engine/values/curve_reader.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/reading/quantity_reader.h"
 #include "engine/scene/csv.h"
+#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {
@@ -32,7 +32,8 @@ class CurveReader {
              false;
     for (const DocumentEntry& e : table_.entries) {
       static const std::vector<std::string> known = {
-          "over", "unit", "points", "file", "return_points", "return_file", "columns", "interpolation", "period"};
+          "over",          "unit",   "points",  "file",           "return_points", "return_file", "columns",
+          "interpolation", "period", "formula", "return_formula", "range",         "with"};
       if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
       const auto near = nearest(e.key, known);
       if (near) meant_.push_back(*near);
@@ -41,11 +42,17 @@ class CurveReader {
     }
     const std::size_t before = messages_.all().size();
     if (!read_over(curve)) return false;
+    if (table_.find("formula") || table_.find("return_formula"))
+      return read_curve_formula(table_, key_, what_, messages_, curve) && messages_.all().size() == before;
+    for (const char* key : {"range", "with"})
+      if (const DocumentEntry* entry = table_.find(key))
+        refuse(entry->at, fmt::format("\"{}\" belongs to \"formula\", which is not given", key));
     // Each says itself what is wrong with it; a mistyped key was named above, and what it should hold is missing.
     const bool units = read_units(curve.over), form = read_form(curve),
                points = read_points("points", "file", true, curve.x, curve.y),
                back = read_points("return_points", "return_file", false, curve.x_back, curve.y_back);
-    return units && form && points && back && messages_.all().size() == before && check_period(curve);
+    return units && form && points && back && messages_.all().size() == before && check_period(curve) &&
+           check_points(curve);
   }
 
  private:
@@ -130,7 +137,8 @@ class CurveReader {
     if (points) return read_inline(points->value, inline_key, x, y);
     if (file) return read_file(file->value, x, y);
     if (is_meant(inline_key) || is_meant(file_key)) return false;
-    return required ? refuse(table_.at, "no data; give points = [[x, y], …] or file = \"data.csv\"") : true;
+    return required ? refuse(table_.at, "no data; give points = [[x, y], …], file = \"data.csv\" or formula = \"…\"")
+                    : true;
   }
   bool read_inline(const DocumentValue& list, const char* name, std::vector<double>& x, std::vector<double>& y) {
     if (list.type != Type::list)
@@ -138,7 +146,7 @@ class CurveReader {
     if (list.items.size() < 2)
       return refuse(list.at, fmt::format("{} has {} point{}; must be two or more", name, list.items.size(),
                                          list.items.size() == 1 ? "" : "s"));
-    double last = -HUGE_VAL;
+    double last = -HUGE_VAL, before_last = -HUGE_VAL;
     int number = 0;
     for (const DocumentValue& pair : list.items) {
       ++number;
@@ -148,8 +156,11 @@ class CurveReader {
       if (!std::isfinite(pair.items[0].number) || !std::isfinite(pair.items[1].number))
         return refuse(pair.at,
                       fmt::format("the point [{}, {}] is not finite", pair.items[0].number, pair.items[1].number));
-      if (!(pair.items[0].number > last)) return refuse(pair.items[0].at, not_ascending(pair.items[0].number, last));
-      last = pair.items[0].number;
+      const double here = pair.items[0].number;
+      if (const std::string wrong = not_ascending(here, last, before_last); !wrong.empty())
+        return refuse(pair.items[0].at, wrong);
+      before_last = last;
+      last = here;
       if (!add_point(pair.items[0].number, pair.items[1].number, messages_.file(), pair.at, x, y)) return false;
     }
     return true;
@@ -162,7 +173,7 @@ class CurveReader {
     if (!(std::abs(x_si) <= greatest_size) || !(std::abs(y_si) <= greatest_size))
       wrong =
           fmt::format("the point [{}, {}] is too large; in SI units both must be within ± {:g}", x, y, greatest_size);
-    else if (!all_x.empty() && !(x_si - all_x.back() > least_size))
+    else if (!all_x.empty() && x_si != all_x.back() && !(x_si - all_x.back() > least_size))
       wrong = fmt::format(
           "x = {} lies so near to the point before it that no slope can be computed between them; set "
           "them farther apart",
@@ -177,9 +188,12 @@ class CurveReader {
     all_y.push_back(y_si);
     return true;
   }
-  static std::string not_ascending(double x, double last) {
-    return x == last ? fmt::format("x = {} stands twice; must ascend (write a jump as two points close together)", x)
-                     : fmt::format("x = {} follows {}; the first column must ascend", x, last);
+  // Two points at one place are a jump; empty: they ascend.
+  static std::string not_ascending(double x, double last, double before_last) {
+    if (x < last) return fmt::format("x = {} follows {}; the first column must ascend", x, last);
+    if (x == last && x == before_last)
+      return fmt::format("x = {} stands three times; two points at one x are a jump, from the first to the second", x);
+    return {};
   }
   bool read_file(const DocumentValue& value, std::vector<double>& x, std::vector<double>& y) {
     if (value.type != Type::text)
@@ -209,8 +223,9 @@ class CurveReader {
         return refuse(value.at, fmt::format("file {} has {} row{} of numbers; must be two or more", value.describe(),
                                             data.x.size(), data.x.size() == 1 ? "" : "s"));
       for (std::size_t i = 1; i < data.x.size(); ++i)
-        if (!(data.x[i] > data.x[i - 1])) {
-          messages_.add_in(path.string(), {data.line[i], 1}, not_ascending(data.x[i], data.x[i - 1]));
+        if (const std::string wrong = not_ascending(data.x[i], data.x[i - 1], i > 1 ? data.x[i - 2] : -HUGE_VAL);
+            !wrong.empty()) {
+          messages_.add_in(path.string(), {data.line[i], 1}, wrong);
           return false;
         }
       for (std::size_t i = 0; i < data.x.size(); ++i)
@@ -219,6 +234,17 @@ class CurveReader {
       return refuse(value.at, fmt::format("file {}: {}", value.describe(), error.messages.front().text));
     }
     return true;
+  }
+
+  // What else points may have against them: all of them at one place.
+  bool check_points(const CurveData& curve) {
+    try {
+      static_cast<void>(curve.curve());
+      static_cast<void>(curve.back());
+      return true;
+    } catch (const std::invalid_argument& error) {
+      return refuse(table_.at, error.what());
+    }
   }
 
   // The points fit into the period, and the curve closes.
@@ -240,7 +266,7 @@ class CurveReader {
     if (closing_point && std::abs(curve.y.back() - curve.y.front()) >
                              1e-9 * std::max(std::abs(curve.y.back()), std::abs(curve.y.front())))
       return refuse(at, fmt::format("the last point lies one period after the first, but {} is not {}; make them "
-                                    "equal, or drop the last point",
+                                    "equal, drop the last point, or let it jump back: a second point at this place",
                                     with_unit(curve.y.back() / y_factor_, y_unit_),
                                     with_unit(curve.y.front() / y_factor_, y_unit_)));
     try {
