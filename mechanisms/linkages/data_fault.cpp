@@ -130,7 +130,7 @@ void check_crank_turns(const CrankRockerLoop& l, DataChecks& checks) {
                            Sums{least, rocker, coupler, other}}) {
     if (same_length(sums.a.length + sums.b.length, sums.c.length + sums.d.length)) continue;  // a change point
     if (sums.nearly_equal())
-      add_fault(sums, "equal to, or shorter than,",
+      add_fault(sums, "equal to, or clearly less than,",
                 fmt::format("but differs from it by {:.1e} of itself: links that lie in one line so nearly follow no "
                             "branch that rounding would not choose",
                             std::fabs(sums.excess()) / (sums.c.length + sums.d.length)),
