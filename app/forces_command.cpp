@@ -42,8 +42,9 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
   command.add_option("--speed", arguments->speed,
                      "speed of the crank in the first problem, e.g. \"300 rpm\" (default: the scene's start speed)");
-  command.add_option("--mechanism", arguments->mechanism,
-                     "which slider-crank, four-bar, quick-return or knuckle press (default: the first)");
+  command.add_option(
+      "--mechanism", arguments->mechanism,
+      "which slider-crank, four-bar, quick-return, inverted slider-crank or knuckle press (default: the first)");
   command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
   command.callback([&code, arguments] { code = forces(*arguments); });
 }

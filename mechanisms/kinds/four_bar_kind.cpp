@@ -32,7 +32,9 @@ Fields<FourBar> linkage() {
            &FourBar::ground)
       .add({.name = "branch",
             .fallback = "\"open\"",
-            .doc = "how the loop is assembled: rocker left of the line from crank axis to its bearing, or right"},
+            .doc = "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or "
+                   "right; of links "
+                   "that pass change points, for 0 < φ < 180 deg"},
            &FourBar::crossed, {{"open", false}, {"crossed", true}})
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &FourBar::crank_body)
       .add(floating_link("coupler", "from the crank pin"), &FourBar::coupler_body, in_the_middle_of(&FourBar::coupler))
@@ -60,8 +62,8 @@ void build_four_bar(const Section& s, Network& net, Messages& messages) {
 Kind four_bar_kind() {
   return {.name = "four-bar",
           .doc =
-              "crank, coupler and rocker on the ground link (crank–rocker); the loads act on the rocker; φ = 0 with "
-              "the crank towards the rocker's bearing",
+              "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; "
+              "the loads act on the rocker; φ = 0 with the crank towards the rocker's bearing",
           .keys = four_bar_fields().keys(),
           .build = build_four_bar};
 }

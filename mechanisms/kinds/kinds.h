@@ -14,5 +14,6 @@ Kind four_bar_kind();
 Kind knuckle_press_kind();
 Kind quick_return_kind();
 Kind slider_crank_kind();
+Kind slotted_lever_kind();
 
 }  // namespace kurbel

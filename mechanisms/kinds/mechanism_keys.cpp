@@ -112,6 +112,13 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
                                    s.kind->name, s.name, masses_of(s)));
     return;
   }
+  if (mechanism->stroke() == 0 && !mounting.loads.empty()) {
+    messages.add(s.where("load"),
+                 fmt::format("{} \"{}\": load: its output stands still on this branch, so that no load "
+                             "on it does work; leave the load out, or choose the other branch",
+                             s.kind->name, s.name));
+    return;
+  }
   mechanism->phase = mounting.phase;
   mechanism->joints = std::move(joints);
   mechanism->clearances = std::move(deformation.clearances);

@@ -13,15 +13,34 @@ namespace {
 
 using Crank = SliderCrankData;
 
+// Where a crank whose rod is too short rocks: its pin is as far from the slider's line as the rod is long at the ends.
+std::string rocking_of(const SliderCrankData& d) {
+  const double pi = std::acos(-1.0), low = (d.offset - d.rod_length) / d.radius,
+               high = (d.offset + d.rod_length) / d.radius;
+  if (low > 1 || high < -1) return "the rod cannot even reach the slider's line";
+  const auto degrees = [&](double angle) { return fmt::format("{:.4g}°", angle * 180 / pi); };
+  if (high >= 1)
+    return fmt::format("the crank rocks between φ = {} and {}", degrees(std::asin(low)), degrees(pi - std::asin(low)));
+  if (low <= -1)
+    return fmt::format("the crank rocks between φ = {} and {}", degrees(-pi - std::asin(high)),
+                       degrees(std::asin(high)));
+  return fmt::format("the crank rocks between φ = {} and {}", degrees(std::asin(low)), degrees(std::asin(high)));
+}
+
 // The rod must pass both dead centres, and no body may have less inertia than its mass demands.
 DataFaults faults_of(const SliderCrankData& d) {
   DataFaults faults;
   const double reach = d.radius + std::abs(d.offset);
-  if (!(d.rod_length > reach))
+  if (!(d.rod_length > reach) && !d.changes())
     faults.push_back(
-        {"rod", fmt::format("rod = {}; must be > radius + |offset| = {} + {} = {}, else the crank cannot turn fully; "
-                            "lengthen the rod or shorten the crank",
-                            in_mm(d.rod_length), in_mm(d.radius), in_mm(std::abs(d.offset)), in_mm(reach))});
+        {"rod",
+         fmt::format("rod = {}; must be ≥ radius + |offset| = {} + {} = {}, else the crank cannot turn fully "
+                     "({}); lengthen the rod or shorten the crank",
+                     in_mm(d.rod_length), in_mm(d.radius), in_mm(std::abs(d.offset)), in_mm(reach), rocking_of(d))});
+  else if (d.folds && !d.changes())
+    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a change point, rod = radius + |offset| = {}; "
+                                            "the rod is {} long: leave the branch out",
+                                            in_mm(reach), in_mm(d.rod_length))});
   const double least = d.crank_mass * d.crank_com * d.crank_com;
   if (d.crank_inertia < least * (1 - 1e-12))
     faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
@@ -46,11 +65,17 @@ Fields<Crank> linkage() {
       .add({.name = "rod",
             .unit = "m",
             .domain = positive,
-            .doc = "rod length l, > radius + |offset|",
+            .doc = "rod length l, ≥ radius + |offset|; equal to it, crank and rod pass change points",
             .required = true},
            &Crank::rod_length)
       .add({.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
            &Crank::offset)
+      .add({.name = "branch",
+            .fallback = "\"follows\"",
+            .doc =
+                "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; folds: "
+                "it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is"},
+           &Crank::folds, {{"follows", false}, {"folds", true}})
       .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
       .add({.name = "crank_com",
             .unit = "m",
@@ -94,10 +119,19 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   const auto mechanism = slider_crank_fields().read(s, messages);
   const bool sound = messages.all().size() == before;
   const SliderCrankData& d = mechanism.linkage;
-  const DataFaults faults = faults_of(d);
+  DataFaults faults = faults_of(d);
+  const bool friction = !mechanism.joints.frictionless();
+  const bool deforms = !mechanism.deformation.clearances.empty() || mechanism.deformation.flexibility;
+  if (sound && faults.empty() && d.changes() && (friction || deforms))
+    faults.push_back(
+        {"rod", fmt::format("rod = radius + |offset| = {}, so that crank and rod pass change points, where "
+                            "{}; lengthen the rod, or leave out {}",
+                            in_mm(d.rod_length),
+                            friction ? "reactions have no bound and friction by them jams the crank"
+                                     : "gaps and bending decide which way the rod goes on",
+                            friction ? "friction of the joints" : "clearance and rod_flexibility")});
   std::shared_ptr<const SliderCrankStatics> joints;
-  if (sound && faults.empty() && !mechanism.joints.frictionless())
-    joints = std::make_shared<SliderCrankStatics>(d, mechanism.joints);
+  if (sound && faults.empty() && friction) joints = std::make_shared<SliderCrankStatics>(d, mechanism.joints);
   build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),
                   deformation_of(mechanism.deformation, d, s, messages));
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mechanisms/loops/loops.h"
+
 namespace kurbel {
 
 namespace {
@@ -54,6 +56,50 @@ void DataChecks::floating(const std::string& name, const LinkBody& link, double 
                                        name, link.inertia));
 }
 
+namespace {
+
+std::string in_degrees(double angle) { return fmt::format("{:.4g}°", angle * 180 / std::acos(-1.0)); }
+
+// Where a crank that cannot turn fully rocks; coupler and rocker lie in one line at the ends.
+std::string rocking_of(const CrankRockerLoop& l) {
+  const double pi = std::acos(-1.0), sum = l.coupler + l.rocker, gap = std::fabs(l.coupler - l.rocker);
+  if (sum < std::fabs(l.crank - l.ground) || gap > l.crank + l.ground) return "the loop cannot even be closed";
+  // Crank angle at which its pin is that far from the rocker's bearing.
+  const auto angle = [&](double far) {
+    return std::acos((l.crank * l.crank + l.ground * l.ground - far * far) / (2 * l.crank * l.ground));
+  };
+  const bool stops_outside = sum<l.crank + l.ground, stops_inside = gap> std::fabs(l.crank - l.ground);
+  const double inner = stops_inside ? angle(gap) : 0, outer = stops_outside ? angle(sum) : pi;
+  const std::string where = fmt::format("where {} and {} lie in one line", l.coupler_name, l.rocker_name);
+  if (!stops_inside)
+    return fmt::format("{} rocks between φ = {} and {}, {}", l.crank_name, in_degrees(-outer), in_degrees(outer),
+                       where);
+  return fmt::format("{} rocks between φ = {} and {}, {}", l.crank_name, in_degrees(inner),
+                     in_degrees(stops_outside ? outer : 2 * pi - inner), where);
+}
+
+struct NamedLength {
+  double length;
+  const char* name;
+};
+
+// Two links whose sum must not be longer than that of the two others.
+struct Sums {
+  NamedLength a, b, c, d;
+  double excess() const { return a.length + b.length - (c.length + d.length); }
+  bool nearly_equal() const { return std::fabs(excess()) <= 1e-12 * (c.length + d.length); }
+};
+
+void add_fault(const Sums& s, const char* relation, const std::string& consequence, DataChecks& checks) {
+  checks.add(s.a.name, fmt::format("{0} + {1} = {2} + {3} = {4}; must be {5} {6} + {7} = {8} + {9} = {10}, {11}; "
+                                   "shorten {0} or {1}, or lengthen {6} or {7}",
+                                   s.a.name, s.b.name, in_mm(s.a.length), in_mm(s.b.length),
+                                   in_mm(s.a.length + s.b.length), relation, s.c.name, s.d.name, in_mm(s.c.length),
+                                   in_mm(s.d.length), in_mm(s.c.length + s.d.length), consequence));
+}
+
+}  // namespace
+
 void check_crank_rocker(const CrankRockerLoop& l, DataChecks& checks) {
   if (is_drag_link(l)) {
     checks.add(l.ground_name,
@@ -62,21 +108,37 @@ void check_crank_rocker(const CrankRockerLoop& l, DataChecks& checks) {
                            l.ground_name, in_mm(l.ground), l.rocker_name, l.crank_name, in_mm(l.crank), l.ground_name));
     return;
   }
-  const struct {
-    double length;
-    const char* name;
-  } links[] = {{l.coupler, l.coupler_name}, {l.rocker, l.rocker_name}, {l.ground, l.ground_name}};
+  const NamedLength crank = {l.crank, l.crank_name};
+  const NamedLength links[] = {{l.coupler, l.coupler_name}, {l.rocker, l.rocker_name}, {l.ground, l.ground_name}};
   for (int k = 0; k < 3; ++k) {
-    const auto &with = links[k], &b = links[(k + 1) % 3], &c = links[(k + 2) % 3];
-    const double short_side = l.crank + with.length, long_side = b.length + c.length;
-    if (short_side < long_side * (1 - 1e-12)) continue;
-    const double excess = short_side - long_side;
-    checks.add(l.crank_name,
-               fmt::format("{0} + {1} = {3} + {4} = {5}; must be < {2} + {6} = {7} + {8} = {9}, else the crank cannot "
-                           "turn fully against a rocking link: {10}; shorten {0} or {1}, or lengthen {2} or {6}",
-                           l.crank_name, with.name, b.name, in_mm(l.crank), in_mm(with.length), in_mm(short_side),
-                           c.name, in_mm(b.length), in_mm(c.length), in_mm(long_side),
-                           excess > 1e-9 * long_side ? in_mm(excess) + " too long" : "all links fall into one line"));
+    const Sums sums = {crank, links[k], links[(k + 1) % 3], links[(k + 2) % 3]};
+    if (sums.excess() < 0 && !sums.nearly_equal()) continue;
+    add_fault(sums, "<",
+              "else the crank cannot turn fully against a rocking link: " +
+                  (sums.nearly_equal() ? "all links fall into one line"
+                                       : in_mm(sums.excess()) + " too long (" + rocking_of(l) + ")"),
+              checks);
+  }
+}
+
+void check_crank_turns(const CrankRockerLoop& l, DataChecks& checks) {
+  const NamedLength crank = {l.crank, l.crank_name}, ground = {l.ground, l.ground_name};
+  const NamedLength coupler = {l.coupler, l.coupler_name}, rocker = {l.rocker, l.rocker_name};
+  const bool drag = l.crank > l.ground;
+  const NamedLength &least = drag ? ground : crank, &other = drag ? crank : ground;
+  for (const Sums& sums : {Sums{crank, ground, coupler, rocker}, Sums{least, coupler, rocker, other},
+                           Sums{least, rocker, coupler, other}}) {
+    if (same_length(sums.a.length + sums.b.length, sums.c.length + sums.d.length)) continue;  // a change point
+    if (sums.nearly_equal())
+      add_fault(sums, "equal to, or clearly less than,",
+                fmt::format("but differs from it by {:.1e} of itself: links that lie in one line so nearly follow no "
+                            "branch that rounding would not choose",
+                            std::fabs(sums.excess()) / (sums.c.length + sums.d.length)),
+                checks);
+    else if (sums.excess() > 0)
+      add_fault(sums, "≤",
+                fmt::format("else the crank cannot turn fully: {} too long ({})", in_mm(sums.excess()), rocking_of(l)),
+                checks);
   }
 }
 

@@ -26,7 +26,7 @@ DataFaults faults_of(const FourBarData& d) {
   checks.not_negative("gravity", d.gravity, "m/s2");
   checks.finite("ground_angle", d.ground_angle, "rad");
   if (checks.sound())
-    check_crank_rocker({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
+    check_crank_turns({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
   return checks.take();
 }
 
@@ -58,6 +58,12 @@ std::unique_ptr<PlanarSystem> planar_system(const FourBarData& d) {
     const PlanePoint b = meeting_point(a, d.coupler, {d.ground, 0}, d.rocker, !d.crossed);
     return std::vector<double>{within_a_turn(std::atan2(b.y - a.y, b.x - a.x) - phi), std::atan2(b.y, b.x - d.ground)};
   };
+  if (d.loop().changes())
+    m->follow = [d](double phi) {
+      const Meeting b = meet(d.loop(), phi, !d.crossed);
+      return PlanarSystem::Followed{{b.coupler.series() - Taylor::variable(phi), b.follower.series()}, -b.sine};
+    };
+  if (d.loop().folds(!d.crossed)) m->stands_at = std::acos(-1.0);
   m->add_weight(d.crank_body.mass, crank, Vec3(d.crank_body.com, 0, 0));
   m->add_weight(d.coupler_body.mass, coupler, Vec3(d.coupler_body.com, 0, 0));
   m->add_weight(d.rocker_body.mass, rocker, Vec3(d.rocker_body.com, 0, 0));

@@ -1,4 +1,4 @@
-// four_bar.h — the four-bar linkage as a crank–rocker: crank, coupler, rocker on the ground link.
+// four_bar.h — the four-bar linkage: crank, coupler, rocker on the ground link; the crank turns fully.
 //
 //                B             O  crank axis, origin       A  crank pin, OA = crank
 //             ,·´ `.           D  rocker's bearing, OD = ground along +x
@@ -6,8 +6,14 @@
 //          ´. φ     ψ `.
 //            O──────────D── x  output: the rocker's angle ψ from +x, counter-clockwise
 //
-// φ is measured from +x to OA, counter-clockwise. Branches: open, B left of the line A → D (0 < ψ < π); crossed, B
-// right of it (−π < ψ < 0), which is the mirror image run backwards.
+// φ is measured from +x to OA, counter-clockwise. Branches: open, B left of the line A → D; crossed, B right of it, which
+// is the mirror image run backwards. The rocker rocks (the crank is the shortest link: crank–rocker, 0 < |ψ| < π) or goes
+// round with the crank (the ground is: drag link, double crank).
+//
+// Where two links are as long as the two others (crank + ground = coupler + rocker, …) all pass through one line: a
+// change point. The motion goes on smoothly there; the branch is that of 0 < φ < π. Open parallelogram: ψ = φ; crossed:
+// the antiparallelogram. Kites whose crank is as long as the ground (or with one change point a turn) come back after two
+// turns (mechanisms/loops).
 #pragma once
 
 #include <memory>
@@ -15,6 +21,7 @@
 
 #include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
+#include "mechanisms/loops/loops.h"
 
 namespace kurbel {
 
@@ -24,6 +31,8 @@ struct FourBarData {
   LinkBody crank_body, coupler_body, rocker_body;  // com from O towards A, from A towards B, from D towards B
   double gravity = 0;                              // [m/s²], ≥ 0
   double ground_angle = 0;                         // of +x above the horizontal [rad]; +y is 90° ahead of +x
+
+  FourBarLoop loop() const { return {crank, coupler, rocker, ground}; }
 };
 
 DataFaults faults_of(const FourBarData& data);

@@ -26,9 +26,9 @@ class SampledBodies final : public MechanismBodies {
   explicit SampledBodies(std::unique_ptr<PlanarSystem> planar)
       : planar_(std::move(planar)), state_(planar_->realize_topology()) {}
 
-  ReducedSample sample(double phi) override { return sample_of(reduce_at(phi)); }
+  ReducedSample sample(double phi) override { return sample_of(reduce_at(phi), phi); }
   ReducedSample sample_from(double phi, const std::vector<double>& start) override {
-    return sample_of(planar_->reduce_at(state_, within_a_turn(phi), start));
+    return sample_of(planar_->reduce_at(state_, planar_->within_a_cycle(phi), start), phi);
   }
 
   double kinetic_energy(double phi, double omega) override {
@@ -62,14 +62,14 @@ class SampledBodies final : public MechanismBodies {
   }
 
  private:
-  Reduction reduce_at(double phi) { return planar_->reduce_at(state_, within_a_turn(phi)); }
+  Reduction reduce_at(double phi) { return planar_->reduce_at(state_, planar_->within_a_cycle(phi)); }
 
-  ReducedSample sample_of(const Reduction& reduced) const {
+  ReducedSample sample_of(const Reduction& reduced, double phi) const {
     ReducedSample sample{};
     sample.inertia = reduced.inertia;
     sample.inertia_slope = reduced.slope;
     sample.inertia_curvature = reduced.curvature;
-    sample.closure_determinant = planar_->determinant_sign * reduced.determinant;
+    sample.closure_determinant = planar_->sign_at(planar_->within_a_cycle(phi)) * reduced.determinant;
     if (const int q = planar_->output_coordinate; q >= 0) {
       sample.output_position = state_.getQ()[q];
       sample.output_velocity_ratio = reduced.q1[q];
@@ -79,6 +79,10 @@ class SampledBodies final : public MechanismBodies {
       sample.output_position = output.position[0];
       sample.output_velocity_ratio = output.velocity_ratio[0];
       sample.output_acceleration_ratio = output.acceleration_ratio[0];
+    }
+    if (planar_->stands_at) {
+      sample.output_position = *planar_->stands_at;
+      sample.output_velocity_ratio = sample.output_acceleration_ratio = 0;
     }
     // Power of the weights at ω = 1 (theory 2.2).
     const Vec3 weight_per_mass = -planar_->gravity * planar_->up();
@@ -122,19 +126,54 @@ State PlanarSystem::realize_topology() {
   return state;
 }
 
-Reduction PlanarSystem::reduce_at(State& state, double phi) const { return reduce_at(state, phi, start(phi)); }
+Reduction PlanarSystem::reduce_at(State& state, double phi) const {
+  return follow ? reduce_through(state, phi) : reduce_at(state, phi, start(phi));
+}
 
 Reduction PlanarSystem::reduce_at(State& state, double phi, const std::vector<double>& start_from) const {
   state.updQ()[0] = phi;
   for (std::size_t k = 0; k < start_from.size(); ++k) state.updQ()[int(k) + 1] = start_from[k];
   reduction->close(state);
   Reduction reduced = reduction->reduce(state);
-  if (!(determinant_sign * reduced.determinant > 0))
-    throw std::runtime_error(
-        fmt::format("{} on the wrong branch at phi = {:.17g} rad: determinant of its closures = {:.6g}, must be > 0 "
-                    "(closure error {:.3g} m)",
-                    kind, phi, determinant_sign * reduced.determinant, reduced.closure_error));
+  check_branch(phi, reduced, sign_at(phi));
   return reduced;
+}
+
+// So near to a change point the closures' first derivatives leave d³q/dφ³ fewer than fourteen digits.
+constexpr double hardly_closed = 0.3;
+
+Reduction PlanarSystem::reduce_through(State& state, double phi) const {
+  const Followed to = follow(phi);
+  std::vector<double> q;
+  for (const Taylor& t : to.coordinates) q.push_back(double(t.value()));
+  if (std::fabs(to.sine) > hardly_closed) return reduce_at(state, phi, q);
+  KnownMotion known{SimTK::Vector(int(q.size()) + 1, 0.0), SimTK::Vector(int(q.size()) + 1, 0.0),
+                    SimTK::Vector(int(q.size()) + 1, 0.0)};
+  known.q1[0] = 1;
+  state.updQ()[0] = phi;
+  for (int k = 1; k <= int(q.size()); ++k) {
+    const Taylor& t = to.coordinates[std::size_t(k) - 1];
+    state.updQ()[k] = q[std::size_t(k) - 1];
+    known.q1[k] = double(t.c[1]), known.q2[k] = double(2 * t.c[2]), known.q3[k] = double(6 * t.c[3]);
+  }
+  return reduction->reduce(state, &known);
+}
+
+void PlanarSystem::check_branch(double phi, const Reduction& reduced, double sign) const {
+  if (sign * reduced.determinant > 0) return;
+  throw std::runtime_error(
+      fmt::format("{} on the wrong branch at phi = {:.17g} rad: determinant of its closures = {:.6g}, must be > 0 "
+                  "(closure error {:.3g} m)",
+                  kind, phi, sign * reduced.determinant, reduced.closure_error));
+}
+
+double PlanarSystem::sign_at(double phi) const {
+  return follow ? std::copysign(1.0, double(follow(phi).sine)) : determinant_sign;
+}
+
+double PlanarSystem::within_a_cycle(double phi) const {
+  const long double turn = 2 * std::acos(-1.0L);
+  return follow ? double(std::remainder(static_cast<long double>(phi), 2 * turn)) : within_a_turn(phi);
 }
 
 std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {

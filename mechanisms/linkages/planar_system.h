@@ -7,11 +7,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/linkages/simbody_reduction.h"
+#include "mechanisms/loops/taylor.h"
 
 namespace kurbel {
 
@@ -31,6 +33,17 @@ struct PlanarSystem {
   double determinant_sign = 1;  // of the closures' determinant on the right branch
   // Coordinates after the crank's near the right branch: where Newton's method starts.
   std::function<std::vector<double>(double phi)> start;
+  // Of a mechanism that passes change points, else empty: the coordinates after the crank's on the branch that the
+  // motion follows, and a sine with the sign of the closures' determinant there. Newton's method starts from there;
+  // near a change point, where the closures leave open which way it goes, they and their derivatives are taken as they
+  // are, and the closures have to agree.
+  struct Followed {
+    std::vector<Taylor> coordinates;
+    long double sine;
+  };
+  std::function<Followed(double phi)> follow;
+  // Where the output stands still for good on this branch, which by rounding alone it would not.
+  std::optional<double> stands_at;
 
   // A mass whose weight acts at a body's station.
   void add_weight(double mass, const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
@@ -45,6 +58,8 @@ struct PlanarSystem {
   // Closes the loops at φ and reduces; throws std::runtime_error with the numbers on any but the right branch.
   Reduction reduce_at(SimTK::State& state, double phi) const;
   Reduction reduce_at(SimTK::State& state, double phi, const std::vector<double>& start_from) const;
+  double sign_at(double phi) const;         // of the determinant on the right branch
+  double within_a_cycle(double phi) const;  // one or, with change points, two turns; as near to 0 as can be
   SimTK::Vec3 up() const { return {std::sin(elevation), std::cos(elevation), 0}; }
 
   struct Weight {
@@ -59,6 +74,8 @@ struct PlanarSystem {
   std::unique_ptr<SimbodyReduction> reduction;  // made by realize_topology()
 
  private:
+  Reduction reduce_through(SimTK::State& state, double phi) const;
+  void check_branch(double phi, const Reduction& reduced, double sign) const;
   std::size_t track(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
 };
 
@@ -66,6 +83,7 @@ struct PlanarSystem {
 std::unique_ptr<PlanarSystem> planar_system(const struct FourBarData& data);
 std::unique_ptr<PlanarSystem> planar_system(const struct QuickReturnData& data);
 std::unique_ptr<PlanarSystem> planar_system(const struct KnucklePressData& data);
+std::unique_ptr<PlanarSystem> planar_system(const struct SlottedLeverData& data);
 
 // Samples any system that a mechanism has filled.
 std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar);

@@ -223,7 +223,18 @@ std::vector<PointMotion> SimbodyReduction::point_motions(const State& state,
   return points;
 }
 
-Reduction SimbodyReduction::reduce(State& state) const {
+// The given solution of G · x + bias = 0, 0 at the reduction coordinate. Throws std::runtime_error where it is none.
+Vector SimbodyReduction::kept(const Matrix& g, const Vector& bias, const Vector& given, double phi) const {
+  Vector dependent_part = given;
+  dependent_part[coordinate_] = 0;
+  const double error = (g * dependent_part + bias).normInf(), size = size_ * (1 + std::pow(given.normInf(), 3));
+  if (!(error <= 1e-11 * size))
+    throw std::runtime_error(
+        fmt::format("the closures are left at phi = {:.17g} rad: their derivative by phi is {:.3g} m", phi, error));
+  return dependent_part;
+}
+
+Reduction SimbodyReduction::reduce(State& state, const KnownMotion* known) const {
   Reduction result;
 
   // Position: the loops are closed, and on which branch.
@@ -239,7 +250,9 @@ Reduction SimbodyReduction::reduce(State& state) const {
     for (int j = 0; j < g.ncol() - 1; ++j) g_dependent(i, j) = g(i, dependent(j));
   const Eigen::PartialPivLU<Eigen::MatrixXd> factors(g_dependent);
   result.determinant = factors.determinant();
-  const auto solve = [&](const Vector& bias) {  // G · solution + bias = 0 with 0 at the reduction coordinate
+  // G · solution + bias = 0 with 0 at the reduction coordinate.
+  const auto solve = [&](const Vector& bias, const Vector* given) {
+    if (given) return kept(g, bias, *given, state.getQ()[coordinate_]);
     const Eigen::VectorXd solution = factors.solve(-Eigen::Map<const Eigen::VectorXd>(&bias[0], bias.size()));
     Vector all(g.ncol(), 0.0);
     for (int j = 0; j < g.ncol() - 1; ++j) all[dependent(j)] = solution[j];
@@ -247,7 +260,7 @@ Reduction SimbodyReduction::reduce(State& state) const {
   };
 
   // Velocity: G u = 0 with u = 1 at the reduction coordinate; I_r = uᵀ M u.
-  result.q1 = solve(Vector(g.col(coordinate_)));
+  result.q1 = solve(Vector(g.col(coordinate_)), known ? &known->q1 : nullptr);
   result.q1[coordinate_] = 1;
   state.updU() = result.q1;
   system_.realize(state, Stage::Velocity);
@@ -258,7 +271,7 @@ Reduction SimbodyReduction::reduce(State& state) const {
   // Acceleration at constant speed: G u̇ + b = 0; the inertia forces then do I_r′ = 2 uᵀ (M u̇ + c), theory 2.4.
   Vector bias, residual;
   matter_.calcBiasForAccelerationConstraints(state, bias);
-  result.q2 = solve(bias);
+  result.q2 = solve(bias, known ? &known->q2 : nullptr);
   matter_.calcResidualForceIgnoringConstraints(state, Vector(), Vector_<SpatialVec>(), result.q2, residual);
   result.slope = 2 * (~result.q1 * residual);
 
@@ -266,7 +279,7 @@ Reduction SimbodyReduction::reduce(State& state) const {
   Vector_<SpatialVec> acceleration, jerk;
   matter_.calcBodyAccelerationFromUDot(state, result.q2, acceleration);
   const std::vector<BodyMotion> motion = motion_without_q3(state, result.q2, acceleration);
-  result.q3 = solve(closure_jerks(state, motion));
+  result.q3 = solve(closure_jerks(state, motion), known ? &known->q3 : nullptr);
   matter_.multiplyBySystemJacobian(state, result.q3, jerk);
 
   result.curvature = curvature(state, motion, jerk);

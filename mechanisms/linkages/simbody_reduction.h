@@ -36,6 +36,11 @@ struct Reduction {
   double closure_error = 0;  // Simbody's own, largest [m]
 };
 
+// dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates, known from elsewhere.
+struct KnownMotion {
+  SimTK::Vector q1, q2, q3;
+};
+
 // A planar vector in precision T.
 template <class T>
 struct Planar {
@@ -64,8 +69,9 @@ class SimbodyReduction {
   void close(SimTK::State& state) const;
 
   // The reduction at a closed state, whose speeds are set to the velocity ratios (dφ/dt = 1). Throws std::runtime_error
-  // if Simbody finds the loops open.
-  Reduction reduce(SimTK::State& state) const;
+  // if Simbody finds the loops open. In a change point, where the closures do not say how the motion goes on, it is
+  // given: they then only have to be kept by it.
+  Reduction reduce(SimTK::State& state, const KnownMotion* known = nullptr) const;
 
  private:
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -91,6 +97,7 @@ class SimbodyReduction {
   SimTK::Vector closure_jerks(const SimTK::State& state, const std::vector<BodyMotion>& motion) const;
   double curvature(const SimTK::State& state, const std::vector<BodyMotion>& motion,
                    const SimTK::Vector_<SimTK::SpatialVec>& jerk) const;
+  SimTK::Vector kept(const SimTK::Matrix& g, const SimTK::Vector& bias, const SimTK::Vector& given, double phi) const;
   std::vector<PointMotion> point_motions(const SimTK::State& state,
                                          const SimTK::Vector_<SimTK::SpatialVec>& acceleration) const;
 

@@ -8,7 +8,11 @@
 //
 // φ is measured from the +x stroke axis to OA, counter-clockwise, with and without offset. For e = 0, φ = 0 is the
 // extended dead centre and φ = π the folded one; for e ≠ 0 they lie at extended_angle() and folded_angle(). The rod
-// always points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
+// points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
+//
+// At l = r + |e| crank and rod pass upright, a change point, and the motion goes on smoothly (mechanisms/loops). Without
+// offset β = −φ and x = 2 r cos φ (the branch that follows), or β = φ + π and x = 0 (the rod folds onto the crank); with
+// an offset cos β changes its sign once a turn, so that two turns are the cycle, and the branch is how φ = 0 finds it.
 #pragma once
 
 #include <cmath>
@@ -16,11 +20,13 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "mechanisms/loops/loops.h"
+
 namespace kurbel {
 
 struct SliderCrankData {
   double radius = 0;         // r [m], > 0
-  double rod_length = 0;     // l [m], > r + |e|
+  double rod_length = 0;     // l [m], ≥ r + |e|
   double offset = 0;         // e [m], the slider moves on the line y = e
   double crank_mass = 0;     // [kg], ≥ 0
   double crank_com = 0;      // from the axis towards the pin [m], < 0: counterweighted
@@ -31,6 +37,11 @@ struct SliderCrankData {
   double slider_mass = 0;    // [kg], ≥ 0
   double gravity = 0;        // [m/s²]
   double stroke_angle = 0;   // of +x above the horizontal [rad]; +y is 90° ahead of +x
+  bool folds = false;        // of l = r + |e|: the rod points towards −x at φ = 0
+
+  SliderLoop loop() const { return {radius, rod_length, offset}; }
+  bool changes() const { return loop().changes(); }           // passes change points
+  bool stands_still() const { return folds && offset == 0; }  // the slider, with the rod on the crank
 };
 
 // A function of φ with its first two derivatives by φ.
@@ -57,7 +68,9 @@ inline void validate(const SliderCrankData& d) {
                            d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
   for (const double value : values) require(std::isfinite(value), "a value", value, "finite");
   require(d.radius > 0, "radius", d.radius, "> 0 m");
-  require(d.rod_length > d.radius + std::fabs(d.offset), "rod_length", d.rod_length, "> radius + |offset|");
+  require(d.rod_length > d.radius + std::fabs(d.offset) || d.changes(), "rod_length", d.rod_length,
+          ">= radius + |offset|");
+  require(!d.folds || d.changes(), "rod_length", d.rod_length, "= radius + |offset| for a rod that folds");
   require(d.crank_mass >= 0, "crank_mass", d.crank_mass, ">= 0 kg");
   require(d.rod_mass >= 0, "rod_mass", d.rod_mass, ">= 0 kg");
   require(d.slider_mass >= 0, "slider_mass", d.slider_mass, ">= 0 kg");
@@ -70,7 +83,10 @@ inline void validate(const SliderCrankData& d) {
 // Closed form over T = double, long double or a dual number with sin, cos, sqrt, + − · / and comparison by value.
 class SliderCrankGeometry {
  public:
-  explicit SliderCrankGeometry(const SliderCrankData& data) : d_(data) { validate(data); }
+  explicit SliderCrankGeometry(const SliderCrankData& data) : d_(data), changes_(data.changes()) {
+    validate(data);
+    if (changes_) d_.rod_length = d_.radius + std::fabs(d_.offset);
+  }
   const SliderCrankData& data() const { return d_; }
 
   // Closure r sin φ + l sin β = e, cos β > 0, and its first three derivatives by φ.
@@ -84,17 +100,35 @@ class SliderCrankGeometry {
     }
     T sin_phi, cos_phi, sin_beta, cos_beta, beta1, beta2, beta3, x, x1, x2, x3;
 
-    Pose(const SliderCrankData& d, T phi) {
+    // Of one that passes no change point.
+    Pose(const SliderCrankData& d, T phi) : Pose(d, false, phi) {}
+    Pose(const SliderCrankData& d, bool changes, T phi) {
       using std::cos;
       using std::sin;
       using std::sqrt;
       const T r = d.radius, l = d.rod_length, e = d.offset;
       sin_phi = sin(phi), cos_phi = cos(phi);
       sin_beta = (e - r * sin_phi) / l;
+      if (changes)
+        pass_upright(d, phi);
+      else
+        keep_side(d);
+      const T lever = l * cos_beta, rise = l * sin_beta;
+      const T beta1_squared = beta1 * beta1;
+      x = r * cos_phi + lever;
+      x1 = -r * sin_phi - rise * beta1;
+      x2 = -r * cos_phi - lever * beta1_squared - rise * beta2;
+      x3 = r * sin_phi + rise * (beta1 * beta1_squared - beta3) - T(3) * lever * beta1 * beta2;
+    }
+
+   private:
+    void keep_side(const SliderCrankData& d) {
+      using std::sqrt;
+      const T r = d.radius, l = d.rod_length, e = d.offset;
       // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
       // keep every digit.
       const T cos_squared = cos_phi * cos_phi;
-      const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;   // 1 + sin φ
+      const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;  // 1 + sin φ
       const T above = is_negative(-sin_phi) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
       cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
       const T lever = l * cos_beta, rise = l * sin_beta;
@@ -102,23 +136,44 @@ class SliderCrankGeometry {
       const T beta1_squared = beta1 * beta1;
       beta2 = (r * sin_phi + rise * beta1_squared) / lever;
       beta3 = beta1 * (beta1_squared - T(1)) + T(3) * sin_beta / cos_beta * beta1 * beta2;
-      x = r * cos_phi + lever;
-      x1 = -r * sin_phi - rise * beta1;
-      x2 = -r * cos_phi - lever * beta1_squared - rise * beta2;
-      x3 = r * sin_phi + rise * (beta1 * beta1_squared - beta3) - T(3) * lever * beta1 * beta2;
+    }
+
+    // l = r + |e|. With h = (φ + π/2)/2, k = √r cos h and m = √r sin h (e < 0: the two exchanged), l cos β =
+    // 2 m √(|e| + k²) and r cos φ = 2 k m: m is gone from β′ = −k/√(|e| + k²).
+    void pass_upright(const SliderCrankData& d, T phi) {
+      using std::cos;
+      using std::sin;
+      using std::sqrt;
+      const T side = d.folds ? -1 : 1, e = d.offset, gap = std::fabs(d.offset), root = sqrt(T(d.radius));
+      if (d.offset == 0) {
+        cos_beta = side * cos_phi, beta1 = -side, beta2 = beta3 = T(0);
+        return;
+      }
+      const T h = T(0.5) * (phi + T(std::acos(-1.0L) / 2)), c = root * cos(h), s = root * sin(h);
+      const T k = d.offset > 0 ? c : s, m = d.offset > 0 ? s : c, q = gap + k * k, cube = q * sqrt(q);
+      cos_beta = side * T(2) * m * sqrt(q) / (d.radius + gap);
+      beta1 = -side * k / sqrt(q);
+      beta2 = side * e * m / (T(2) * cube);
+      beta3 = side * gap * k / (T(4) * cube) * (T(1) + T(3) * m * m / q);
     }
   };
 
   // The rod in line with the crank: sin φ = e/(l + r), and sin(φ − π) = e/(l − r).
   double extended_angle() const { return std::asin(d_.offset / (d_.rod_length + d_.radius)); }
-  double folded_angle() const { return std::acos(-1.0) + std::asin(d_.offset / (d_.rod_length - d_.radius)); }
-  double x_max() const { return leg(d_.rod_length + d_.radius); }
-  double x_min() const { return leg(d_.rod_length - d_.radius); }
+  // Of one that passes its change points: the other end of the stroke, where the rod is extended towards −x.
+  double folded_angle() const {
+    const double pi = std::acos(-1.0);
+    if (!changes_) return pi + std::asin(d_.offset / (d_.rod_length - d_.radius));
+    const bool next_turn = d_.offset != 0 && (d_.offset > 0) != d_.folds;
+    return pi - extended_angle() + (next_turn ? 2 * pi : 0);
+  }
+  double x_max() const { return d_.stands_still() ? 0 : leg(d_.rod_length + d_.radius); }
+  double x_min() const { return changes_ ? -x_max() : leg(d_.rod_length - d_.radius); }
 
   // Slider position x [m], velocity ratio x′ = v/ω [m/rad], acceleration ratio x″ = (a − x′ε)/ω² [m/rad²].
   template <class T>
   ValueSlopeCurvature<T> slider(T phi) const {
-    const Pose<T> p(d_, phi);
+    const Pose<T> p(d_, changes_, phi);
     return {p.x, p.x1, p.x2};
   }
 
@@ -126,14 +181,14 @@ class SliderCrankGeometry {
   template <class T>
   ValueSlopeCurvature<T> rod(T phi) const {
     using std::atan2;
-    const Pose<T> p(d_, phi);
+    const Pose<T> p(d_, changes_, phi);
     return {atan2(p.sin_beta, p.cos_beta), p.beta1, p.beta2};
   }
 
   // Reduced inertia I_r [kg·m²] (theory 2.1) with I_r′ and I_r″.
   template <class T>
   ValueSlopeCurvature<T> inertia(T phi) const {
-    const Pose<T> p(d_, phi);
+    const Pose<T> p(d_, changes_, phi);
     const T r = d_.radius, c = d_.rod_com;
     // The rod's centre of mass: v_C²/ω² = r² + c² β′² + 2 r c f with f = β′ cos(φ − β).
     const T turn = T(1) - p.beta1;  // (φ − β)′
@@ -162,7 +217,7 @@ class SliderCrankGeometry {
   ValueAndSlope<T> gravity_torque(T phi) const {
     using std::cos;
     using std::sin;
-    const Pose<T> p(d_, phi);
+    const Pose<T> p(d_, changes_, phi);
     // Static moments about O of all that turns with the crank and of the rod about A.
     const T crank = T(d_.crank_mass) * d_.crank_com + T(d_.rod_mass) * d_.radius, rod = T(d_.rod_mass) * d_.rod_com;
     const T x1 = -crank * p.sin_phi - rod * p.sin_beta * p.beta1 + d_.slider_mass * p.x1;
@@ -179,7 +234,7 @@ class SliderCrankGeometry {
   T potential_energy(T phi) const {
     using std::cos;
     using std::sin;
-    const Pose<T> p(d_, phi);
+    const Pose<T> p(d_, changes_, phi);
     const T crank = T(d_.crank_mass) * d_.crank_com + T(d_.rod_mass) * d_.radius, rod = T(d_.rod_mass) * d_.rod_com;
     const T x = crank * p.cos_phi + rod * p.cos_beta + d_.slider_mass * p.x;
     const T y = crank * p.sin_phi + rod * p.sin_beta + T(d_.slider_mass) * d_.offset;
@@ -191,6 +246,7 @@ class SliderCrankGeometry {
   double leg(double hypotenuse) const { return std::sqrt((hypotenuse - d_.offset) * (hypotenuse + d_.offset)); }
 
   SliderCrankData d_;
+  bool changes_;
 };
 
 }  // namespace kurbel

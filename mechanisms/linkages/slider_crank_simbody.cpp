@@ -36,6 +36,12 @@ SliderCrankSystem::SliderCrankSystem(const SliderCrankData& d, double shaft_iner
   gravity = d.gravity;
   elevation = d.stroke_angle;
   start = [this](double phi) { return std::vector<double>{rod_angle(data, phi) - phi}; };
+  if (d.changes())
+    follow = [d](double phi) {
+      const Direction beta = rod_to_line(d.loop(), phi, d.folds);
+      return Followed{{beta.series() - Taylor::variable(phi)}, beta.cos.value()};
+    };
+  if (d.stands_still()) stands_at = 0;
   add_weight(d.crank_mass, crank, Vec3(d.crank_com, 0, 0));
   add_weight(d.rod_mass, rod, Vec3(d.rod_com, 0, 0));
   add_weight(d.slider_mass, rod, pin);
@@ -46,8 +52,8 @@ SliderCrankSystem::SliderCrankSystem(const SliderCrankData& d, double shaft_iner
 }
 
 std::vector<double> values_of(const SliderCrankData& d) {
-  return {d.radius,   d.rod_length, d.offset,      d.crank_mass,  d.crank_com, d.crank_inertia,
-          d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
+  return {d.radius,  d.rod_length,  d.offset,      d.crank_mass, d.crank_com,    d.crank_inertia, d.rod_mass,
+          d.rod_com, d.rod_inertia, d.slider_mass, d.gravity,    d.stroke_angle, double(d.folds)};
 }
 
 LinkageDrawing drawing_of(const SliderCrankData& d) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "mechanisms/loops/loops.h"
 #include "mechanisms/reduced/mechanism_data.h"
-#include "mechanisms/reduced/taylor.h"
 
 namespace kurbel {
 namespace {
@@ -55,50 +55,6 @@ void add_slider(PlanarLinkage& to, const char* name, double mass, const char* pi
   to.output[0] = at.x.value(), to.output[1] = at.x.slope(), to.output[2] = at.x.curvature();
 }
 
-// 1 + cos α = 2 cos²(α/2) and 1 − cos α = 2 sin²(α/2), which cos α itself would lose near π and 0.
-struct CosineSums {
-  explicit CosineSums(long double angle) {
-    const Direction half = Direction::of_variable(angle, 0.5L);
-    plus = Taylor(2) * half.cos * half.cos;
-    minus = Taylor(2) * half.sin * half.sin;
-  }
-  Taylor plus, minus;
-};
-
-// Direction from A = a (cos α, sin α) along the coupler b, and from D = (d, 0) along the follower c, that meet.
-struct Meeting {
-  Direction coupler, follower;
-};
-
-// By the triangle A, D, B with s = AD: the coupler's direction is that of AD turned by the angle at A. Twice its area
-// is ½ √((b+c+s)(b+c−s)(s+b−c)(s−b+c)) (Heron), whose differences vanish at a change point: with s² = (a+d)² −
-// 2 a d (1 + cos α) = (a−d)² + 2 a d (1 − cos α) they come from the lengths alone.
-Meeting meet(long double a, long double b, long double c, long double d, long double angle, bool left) {
-  const Direction crank = Direction::of_variable(angle);
-  const CosineSums cosine(angle);
-  const Taylor product(2 * a * d);
-  const Path ad = Path{Taylor(d), Taylor()} - along(crank, Taylor(a));
-  const long double difference = std::fabs(a - d), gap = std::fabs(b - c);
-  const Taylor s = sqrt(Taylor(difference * difference) + product * cosine.minus);
-  const Taylor below = Taylor(b + c - a - d) + product * cosine.plus / (Taylor(a + d) + s);           // b + c − s
-  const Taylor above = Taylor(difference - gap) + product * cosine.minus / (s + Taylor(difference));  // s − |b − c|
-  const Taylor height = sqrt((Taylor(b + c) + s) * below * above * (s + Taylor(gap))) / (Taylor(2) * s);
-  // Feet of the height on AD, seen from A and from D.
-  const Taylor from_a = (s * s + Taylor((b - c) * (b + c))) / (Taylor(2) * s), from_d = s - from_a;
-  const Direction line = {ad.x / s, ad.y / s};
-  const Taylor side(left ? 1 : -1);
-  const Path foot = along(line, from_a), aside = {-(side * height * line.sin), side * height * line.cos};
-  const Path ab = foot + aside, db = aside - along(line, from_d);
-  return {{ab.x / Taylor(b), ab.y / Taylor(b)}, {db.x / Taylor(c), db.y / Taylor(c)}};
-}
-
-// Direction of a link of this length from `joint` to the line y = height, towards +x or −x.
-Direction to_line(const Path& joint, long double height, long double length, bool backward) {
-  const Taylor rise = Taylor(height) - joint.y;
-  const Taylor cosine = sqrt((Taylor(length) - rise) * (Taylor(length) + rise)) / Taylor(length);
-  return {backward ? -cosine : cosine, rise / Taylor(length)};
-}
-
 }  // namespace
 
 ClosedForm closed_form(const SliderCrankData& d, long double phi) {
@@ -117,7 +73,7 @@ ClosedForm closed_form(const SliderCrankData& d, long double phi) {
 PlanarLinkage linkage_of(const SliderCrankData& d, long double phi) {
   const Direction crank = Direction::of_variable(phi);
   const Path pin = along(crank, Taylor(d.radius));
-  const Direction rod = to_line(pin, d.offset, d.rod_length, false);
+  const Direction rod = rod_to_line(d.loop(), phi, d.folds);
   PlanarLinkage l;
   l.gravity = d.gravity, l.elevation = d.stroke_angle;
   l.add(pivoted("crank", {d.crank_mass, d.crank_com, d.crank_inertia}, {}, crank));
@@ -125,12 +81,13 @@ PlanarLinkage linkage_of(const SliderCrankData& d, long double phi) {
   l.join({"main bearing", PlanarLinkage::frame, 0, {}});
   l.join({"crank pin", 0, 1, pin});
   add_slider(l, "slider", d.slider_mass, "slider pin", pin + along(rod, Taylor(d.rod_length)));
+  if (d.changes()) l.sine = rod.cos.value();
   return l;
 }
 
 PlanarLinkage linkage_of(const FourBarData& m, long double phi) {
   const Direction crank = Direction::of_variable(phi);
-  const Meeting meeting = meet(m.crank, m.coupler, m.rocker, m.ground, phi, !m.crossed);
+  const Meeting meeting = meet(m.loop(), phi, !m.crossed);
   const Path pin = along(crank, Taylor(m.crank)), bearing = {Taylor(m.ground), Taylor()};
   PlanarLinkage l;
   l.gravity = m.gravity, l.elevation = m.ground_angle, l.rocks = true;
@@ -142,8 +99,10 @@ PlanarLinkage linkage_of(const FourBarData& m, long double phi) {
   l.join({"coupler pin", 1, 2, bearing + along(meeting.follower, Taylor(m.rocker))});
   l.join({"rocker bearing", PlanarLinkage::frame, 2, bearing});
   l.load_at = bearing;
+  if (m.loop().changes()) l.sine = meeting.sine;
   const Taylor rate = meeting.follower.rate();
-  l.output[0] = meeting.follower.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
+  l.output[0] = meeting.follower.angle();
+  if (!m.loop().folds(!m.crossed)) l.output[1] = rate.value(), l.output[2] = rate.slope();
   return l;
 }
 
@@ -173,7 +132,7 @@ PlanarLinkage linkage_of(const QuickReturnData& m, long double phi) {
 // The loop crank – rod – upper link is a four-bar in axes turned towards the bearing.
 PlanarLinkage linkage_of(const KnucklePressData& m, long double phi) {
   const long double x = m.bearing_x, y = m.bearing_y, ground = std::hypot(x, y), tilt = std::atan2(y, x);
-  const Meeting meeting = meet(m.radius, m.rod, m.upper, ground, phi - tilt, !m.knee_right);
+  const Meeting meeting = meet({m.radius, m.rod, m.upper, ground}, phi - tilt, !m.knee_right);
   const Direction back = Direction::constant(tilt), crank = Direction::of_variable(phi);
   const Direction upper = meeting.follower + back, rod = meeting.coupler + back;
   const Path pin = along(crank, Taylor(m.radius)), bearing = {Taylor(x), Taylor(y)};
@@ -194,9 +153,30 @@ PlanarLinkage linkage_of(const KnucklePressData& m, long double phi) {
   return l;
 }
 
+PlanarLinkage linkage_of(const SlottedLeverData& m, long double phi) {
+  const Direction crank = Direction::of_variable(phi);
+  const Path pin = along(crank, Taylor(m.crank)), bearing = {Taylor(m.ground), Taylor()};
+  const Slot slot = slot_to_pin(m.loop(), phi);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.ground_angle, l.rocks = true;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("block", {m.block_mass, 0, m.block_inertia}, pin, slot.along));
+  l.add(pivoted("lever", m.lever_body, bearing, slot.along));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"slot", 1, 2, pin, true, slot.along});
+  l.join({"lever bearing", PlanarLinkage::frame, 2, bearing});
+  l.load_at = bearing;
+  if (m.loop().changes()) l.sine = slot.reach.value() / (m.crank + m.ground);
+  const Taylor rate = slot.along.rate();
+  l.output[0] = slot.along.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
+  return l;
+}
+
 ClosedForm closed_form(const FourBarData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
 ClosedForm closed_form(const QuickReturnData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
 ClosedForm closed_form(const KnucklePressData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const SlottedLeverData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
 
 ReducedSample closed_sample(const MechanismData& data, double phi) {
   const ClosedForm f = data.closed_form(phi);

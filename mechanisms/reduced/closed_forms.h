@@ -10,7 +10,8 @@
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/linkages/quick_return.h"
 #include "mechanisms/linkages/slider_crank_simbody.h"
-#include "mechanisms/reduced/taylor.h"
+#include "mechanisms/linkages/slotted_lever.h"
+#include "mechanisms/loops/taylor.h"
 
 namespace kurbel {
 
@@ -41,6 +42,8 @@ struct PlanarLinkage {
   Path load_at;                       // … this point of it
   double gravity = 0, elevation = 0;  // [m/s²]; of +x above the horizontal [rad]
   long double output[3] = {0, 0, 0};  // position and its derivatives by φ: [m] or [rad]
+  // Of a linkage that passes change points: what is 0 there and of one sign between them; reactions go with its inverse.
+  long double sine = 1;
 
   void add(const Body& body) { bodies[body_count++] = body; }
   void join(const Joint& joint) { joints[joint_count++] = joint; }
@@ -51,6 +54,7 @@ PlanarLinkage linkage_of(const SliderCrankData& data, long double phi);
 PlanarLinkage linkage_of(const FourBarData& data, long double phi);
 PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
 PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
+PlanarLinkage linkage_of(const SlottedLeverData& data, long double phi);
 
 // As a ReducedSample, which says what is what.
 struct ClosedForm {
@@ -65,5 +69,6 @@ ClosedForm closed_form(const SliderCrankData& data, long double phi);
 ClosedForm closed_form(const FourBarData& data, long double phi);
 ClosedForm closed_form(const QuickReturnData& data, long double phi);
 ClosedForm closed_form(const KnucklePressData& data, long double phi);
+ClosedForm closed_form(const SlottedLeverData& data, long double phi);
 
 }  // namespace kurbel

@@ -24,14 +24,26 @@ double reversal_between(const ReducedMechanism& reduced, double from, double to)
   return 0.5 * (from + to);
 }
 
+// "; change points at 90° and 270°; …" of a mechanism that has something to say of its cycle.
+std::string words_of(const CrankCycle& cycle) {
+  std::string text;
+  for (const double phi : cycle.change_points())
+    text += fmt::format("{}{:.6g}°", text.empty() ? "; passes change points at " : ", ", phi * 180 / std::numbers::pi);
+  if (cycle.turns() > 1) text += "; its links come back after two turns of the crank";
+  if (cycle.winding() != 0)
+    text += fmt::format("; its output goes round {:g} times as often as the crank", cycle.winding());
+  return text;
+}
+
 }  // namespace
 
 // I_r is least where the output stands still or near a sample.
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
-  constexpr int n = 1024;
-  constexpr double turn = 2 * std::numbers::pi, shift = 0.37;  // no symmetric angle is a sample
-  const auto angle = [](int i) { return turn * (i + shift) / n; };
+  const int n = 1024 * reduced.cycle().turns();
+  const double cycle = reduced.cycle().angle(), shift = 0.37;  // no symmetric angle is a sample
+  const auto angle = [&](int i) { return cycle * (i + shift) / n; };
   TravelOfTurn travel;
+  travel.winding = reduced.cycle().winding();
   travel.least_inertia = travel.least = HUGE_VAL;
   travel.greatest = -HUGE_VAL;
   const auto visit = [&](double phi) {
@@ -47,7 +59,7 @@ TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
     if (grows == (reduced.output_velocity(angle(i + 1)).value > 0)) continue;
     const double phi = reversal_between(reduced, angle(i), angle(i + 1));
     visit(phi);
-    travel.reversals.push_back(phi < turn ? phi : phi - turn);
+    travel.reversals.push_back(phi < cycle ? phi : phi - cycle);
   }
   std::sort(travel.reversals.begin(), travel.reversals.end());
   return travel;
@@ -105,7 +117,7 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
   uses_speed = mechanism_.joint_friction || any([](const SliderLoad& l) { return l.uses_speed(); });
   mean_inertia = mechanism_.travel.mean_inertia;
   least_inertia = mechanism_.travel.least_inertia;
-  cycle = 2 * std::numbers::pi;
+  cycle = mechanism_.cycle();
   double force = 0;
   for (const SliderLoad& load : loads) {
     force = std::max(force, load.greatest_force());
@@ -126,7 +138,8 @@ std::string MechanismElement::describe() const {
   for (const TableReport::Channel& channel : report.channels)
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';
-  return text + (report.converged ? "(relative)" : " the tolerance was not reached");
+  return text + (report.converged ? "(relative)" : " the tolerance was not reached") +
+         words_of(mechanism_.reduced->cycle());
 }
 
 // A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.

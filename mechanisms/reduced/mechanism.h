@@ -19,11 +19,12 @@
 
 namespace kurbel {
 
-// What a turn of the crank does, read off the tables.
+// What a cycle of the crank does, one turn or two, read off the tables.
 struct TravelOfTurn {
   double least = 0, greatest = 0;              // of the output's position [m] or [rad]
   std::vector<double> reversals;               // crank angles where the output turns round, ascending [rad]
   double mean_inertia = 0, least_inertia = 0;  // of I_r [kg·m²]
+  double winding = 0;                          // turns of the output in one of the crank; 0: it slides or rocks
 };
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);
 
@@ -50,7 +51,9 @@ struct Mechanism {
   bool rocks() const { return data.rocks(); }  // the output is an angle
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
-  double output_scale() const { return 0.5 * stroke(); }  // of x′
+  // Of x′: half the stroke; what goes round does so like the crank; what stands still has none of its own.
+  double output_scale() const { return travel.winding != 0 || stroke() == 0 ? 1 : 0.5 * stroke(); }
+  double cycle() const { return reduced->cycle().angle(); }  // crank angle after which the links come back [rad]
 
   // The same with its tables, its travel and the ends that its loads count from taken from there.
   Mechanism extracted_from(Extraction from) const;

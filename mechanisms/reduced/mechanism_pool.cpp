@@ -11,7 +11,7 @@ namespace {
 
 // The end of the travel that the output has just left.
 const char* name_of_reversal(const Mechanism& m, bool now_growing) {
-  if (m.travel.reversals.size() > 2) return "output turns round";
+  if (m.travel.reversals.size() > 2 || !m.reduced->cycle().change_points().empty()) return "output turns round";
   if (m.rocks()) return now_growing ? "least angle" : "greatest angle";
   return now_growing ? "folded dead centre" : "extended dead centre";
 }
@@ -62,8 +62,8 @@ MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
   if (m.in_the_loop) {
     const ReducedSample s = m.extraction == Extraction::first ? m.bodies->sample(phi) : closed_sample(m.data, phi);
     const bool mean = m.mean_inertia;
-    return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope, s.output_position,
-            s.output_velocity_ratio, s.gravity_torque};
+    return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope,
+            m.reduced->cycle().unwound(phi, s.output_position), s.output_velocity_ratio, s.gravity_torque};
   }
   const auto here = m.reduced->at(phi);
   Reduced at{m.travel.mean_inertia, 0, 0, 0, 0};

@@ -6,7 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
+
+#include "mechanisms/reduced/crank_cycle.h"
 
 namespace kurbel {
 namespace {
@@ -189,6 +192,49 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
   f.load_power = state.load * f.output_velocity;
   f.residual = equations.residual(x, mixture);
   return f;
+}
+
+double beside_change_point(const MechanismData& data, double phi) {
+  constexpr double least = 1e-3;  // of the sine
+  const long double here = data.linkage(phi).sine;
+  if (std::abs(here) >= least) return phi;
+  // The sine has a simple zero: two secants lead to the place.
+  double at = phi;
+  const long double wanted = std::copysign(least, here);
+  for (int i = 0; i < 3; ++i) {
+    const long double sine = data.linkage(at).sine, slope = (data.linkage(at + 1e-5).sine - sine) / 1e-5L;
+    at += static_cast<double>((wanted - sine) / slope);
+  }
+  return at;
+}
+
+std::string words_on_unbounded_reactions(const MechanismData& data,
+                                         const std::function<LinkageState(double phi)>& state_at) {
+  constexpr double far = 1e-2, near = 1e-3, grown = 5;
+  std::string places, forces;
+  for (const double phi : CrankCycle(data).change_points()) {
+    const auto at = [&](double beside) {
+      LinkageState state = state_at(phi);
+      state.phi = phi + beside;
+      return forces_in(data.linkage(state.phi), state);
+    };
+    const LinkageForces there = at(far), nearer = at(near);
+    std::string grow;
+    for (std::size_t k = 0; k < there.joints.size(); ++k) {
+      const double before = there.joints[k].force.magnitude(), now = nearer.joints[k].force.magnitude();
+      if (now > grown * before)
+        grow += fmt::format("{}{} {:.4g} N and {:.4g} N", grow.empty() ? "" : ", ", there.joints[k].name, before, now);
+    }
+    if (grow.empty()) continue;
+    const std::string angle = fmt::format("{:.6g}°", phi * 180 / std::numbers::pi);
+    places += (places.empty() ? "" : ", ") + angle;
+    forces += fmt::format("{}{}: {}", forces.empty() ? "" : "; ", angle, grow);
+  }
+  if (places.empty()) return {};
+  return fmt::format(
+      "at the change point{} φ = {} reactions have no bound: they go with the inverse of the distance "
+      "({:.3g} rad and {:.3g} rad beside {}); positions nearer to it than that are told by the place there",
+      places.find(',') == std::string::npos ? "" : "s", places, far, near, forces);
 }
 
 }  // namespace kurbel

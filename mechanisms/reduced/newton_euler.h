@@ -10,9 +10,12 @@
 // unit load; every reaction is linear in these.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
@@ -61,5 +64,13 @@ struct LinkageForces {
 // Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
 // cannot be moved by its crank.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);
+
+// Of a mechanism that passes change points: φ itself, or if it lies nearer to one than a thousandth of what the sine there
+// changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.
+double beside_change_point(const MechanismData& data, double phi);
+
+// Says which reactions have no bound at which change points, by positions at two distances from each; empty: none.
+std::string words_on_unbounded_reactions(const MechanismData& data,
+                                         const std::function<LinkageState(double phi)>& state_at);
 
 }  // namespace kurbel

@@ -28,7 +28,7 @@ std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& nois
           {"inertia_curvature", own_maximum, noise.inertia},
           {"output_position", own_maximum, 0},
           {"output_velocity_ratio", own_maximum, 0},
-          {"output_acceleration_ratio", own_maximum, 0},
+          {"output_acceleration_ratio", own_maximum, noise.output},
           {"gravity_torque", own_maximum, noise.gravity_torque},
           {"gravity_torque_slope", own_maximum, noise.gravity_torque}};
 }
@@ -47,13 +47,16 @@ void write_channels(const ReducedSample& sample, std::span<double> values) {
 
 // Rounding leaves 1e-16 of the inertia in I_r′ and of the weights' torques in M_g even where these vanish identically
 // (masses balanced, weights carried by the guide).
-ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler) {
+ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler,
+                                           const CrankCycle& cycle) {
   constexpr int n = 16;
+  const double part = cycle.change_points().empty() ? 1e-4 : 0.1;  // beside those derivatives have fewer digits
   ReducedMechanism::NoiseScales noise;
   for (int i = 0; i < n; ++i) {
-    const ReducedSample sample = sampler(PeriodicTable::period * (i + 0.5) / n);
-    noise.inertia += 1e-4 * sample.inertia / n;
+    const ReducedSample sample = sampler(cycle.angle() * (i + 0.5) / n);
+    noise.inertia += part * sample.inertia / n;
     noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
+    noise.output += part * std::abs(sample.output_velocity_ratio) / n;
   }
   return noise;
 }
@@ -126,17 +129,29 @@ constexpr std::size_t rough_pieces = 16;
 void take_rough_tables(bool rough) { rough_tables = rough; }
 
 ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
-                                   double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut)
-    : table_(PeriodicTable::build([&](double phi, std::span<double> values) { write_channels(sampler(phi), values); },
-                                  channel_specs(noise), tolerance, max_pieces, cut)) {}
+                                   double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut,
+                                   CrankCycle cycle)
+    : cycle_(std::move(cycle)),
+      part_(1.0 / cycle_.turns()),
+      winding_(cycle_.winding()),
+      table_(PeriodicTable::build(
+          [&](double part, std::span<double> values) {
+            const double phi = cycle_.turns() * part;
+            write_channels(sampler(phi), values);
+            double& output = values[output_position_channel];
+            output = cycle_.periodic_part(phi, output);
+          },
+          channel_specs(noise), tolerance, max_pieces, cut)) {}
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
   const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();  // finds the data's faults in either case
   const bool first = extraction == Extraction::first;
   const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
-  return ReducedMechanism(sampler, noise_scales(sampler), first ? tolerance : second_tolerance * tolerance, max_pieces,
-                          first ? PeriodicTable::Cut() : second_cut);
+  CrankCycle cycle(data);
+  const auto noise = noise_scales(sampler, cycle);
+  return ReducedMechanism(sampler, noise, first ? tolerance : second_tolerance * tolerance, max_pieces,
+                          first ? PeriodicTable::Cut() : second_cut, std::move(cycle));
 }
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,

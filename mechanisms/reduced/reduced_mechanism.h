@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "mechanisms/reduced/crank_cycle.h"
 #include "mechanisms/reduced/extraction.h"
 #include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/reduced/periodic_table.h"
@@ -34,31 +35,41 @@ class ReducedMechanism {
   struct NoiseScales {
     double inertia = 0;  // for I_r′ and I_r″; ten times it for I_r, which may vanish in a dead centre [kg·m²]
     double gravity_torque = 0;  // for M_g and M_g′ [N·m]
+    double output = 0;          // for x″, which an output that goes round evenly does not have [m/rad²]
   };
 
   // The mechanism at one angle; each pair costs two polynomials.
   class At {
    public:
-    At(const PeriodicTable& table, double phi) : cursor_(table.locate(phi)) {}
-    double value(Channel channel) const { return PeriodicTable::value(cursor_, channel); }
-    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }                  // I_r, I_r′
-    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }         // I_r′, I_r″
-    ValueAndSlope<double> output_position() const { return pair(output_position_channel); }  // x, x′
-    ValueAndSlope<double> output_velocity() const { return pair(output_velocity_ratio); }    // x′, x″
-    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }    // M_g, M_g′
+    // Of the cycle a turn's part: ½ where it takes two turns; what an output that goes round has wound.
+    At(const PeriodicTable& table, double part, double winding, double phi)
+        : cursor_(table.locate(part * phi)), wound_(winding * phi) {}
+    double value(Channel channel) const {
+      return PeriodicTable::value(cursor_, channel) + (channel == output_position_channel ? wound_ : 0);
+    }
+    ValueAndSlope<double> inertia() const { return pair(inertia_channel); }           // I_r, I_r′
+    ValueAndSlope<double> inertia_derivative() const { return pair(inertia_slope); }  // I_r′, I_r″
+    ValueAndSlope<double> output_position() const {                                   // x, x′
+      const auto [value, slope] = pair(output_position_channel);
+      return {value + wound_, slope};
+    }
+    ValueAndSlope<double> output_velocity() const { return pair(output_velocity_ratio); }  // x′, x″
+    ValueAndSlope<double> gravity_torque() const { return pair(gravity_torque_channel); }  // M_g, M_g′
 
    private:
     ValueAndSlope<double> pair(std::size_t first) const {
       return {PeriodicTable::value(cursor_, first), PeriodicTable::value(cursor_, first + 1)};
     }
     PeriodicTable::Cursor cursor_;
+    double wound_;
   };
 
   // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report().
   ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
-                   std::size_t max_pieces, const PeriodicTable::Cut& cut = {});
+                   std::size_t max_pieces, const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {});
 
-  At at(double phi) const { return At(table_, phi); }
+  At at(double phi) const { return At(table_, part_, winding_, phi); }
+  const CrankCycle& cycle() const { return cycle_; }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
   ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
   ValueAndSlope<double> output_position(double phi) const { return at(phi).output_position(); }
@@ -71,7 +82,9 @@ class ReducedMechanism {
   const TableReport& report() const { return table_.report(); }
 
  private:
-  PeriodicTable table_;
+  CrankCycle cycle_;
+  double part_, winding_;
+  PeriodicTable table_;  // over part_ · φ
 };
 
 // Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what

@@ -25,7 +25,8 @@ constexpr int grid_of_turn = 720;  // peaks are sought on this grid, work is int
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 const std::vector<std::string>& mechanism_kinds() {
-  static const std::vector<std::string> kinds = {"slider-crank", "four-bar", "quick-return", "knuckle press"};
+  static const std::vector<std::string> kinds = {"slider-crank", "four-bar", "quick-return", "inverted slider-crank",
+                                                 "knuckle press"};
   return kinds;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
+#include "mechanisms/reduced/newton_euler.h"
 
 namespace kurbel {
 namespace {
@@ -32,6 +33,7 @@ CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads
 }
 
 CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
+  if (statics_.data().changes()) phi = beside_change_point(statics_.data(), phi);
   CyclePosition p;
   p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)};
   const auto slider = geometry_.slider(phi);

@@ -93,6 +93,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   MotionAlong motion = steady_motion(loads, speed.value, options.positions);
   out.prescribed = cycle_along(statics, loads, motion, &out.counterweights);
   out.prescribed->label = "prescribed";
+  note_unbounded_reactions(out.data, loads, speed.value, out.notes);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   std::optional<SimulatedMotion> simulated;
   if (options.simulate) {

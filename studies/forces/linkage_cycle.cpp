@@ -45,6 +45,7 @@ class Builder {
 
  private:
   LinkagePosition at(double phi, CrankMotion motion) {
+    phi = beside_change_point(data_, phi);
     LinkagePosition p;
     p.forces = forces_in(data_.linkage(phi), {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)});
     p.power = {.crank = p.forces.torque * motion.omega,
@@ -277,6 +278,14 @@ LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const 
   return cycle;
 }
 
+void note_unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed,
+                              std::vector<std::string>& notes) {
+  const std::string words = words_on_unbounded_reactions(data, [&](double phi) {
+    return LinkageState{phi, speed, 0, loads.force(phi, speed)};
+  });
+  if (!words.empty()) notes.push_back(words);
+}
+
 void add_errors(const LinkageCycle& loose, LinkageCycle& tight) {
   for (std::size_t k = 0; k < tight.reactions.size(); ++k)
     add_difference(loose.reactions[k].peak, tight.reactions[k].peak);
@@ -320,6 +329,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, at, speed.source));
   out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
   out.prescribed->label = "prescribed";
+  note_unbounded_reactions(data, loads, speed.value, out.notes);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   if (!options.simulate) return out;
   options.watch.say("second problem: running the rigid machine");

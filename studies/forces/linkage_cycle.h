@@ -68,6 +68,9 @@ struct LinkageCycle {
 
 // Along one motion. Throws std::runtime_error where the mechanism has no finite reactions.
 LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion);
+// Says where a mechanism that passes change points has reactions without bound, at this speed of its crank.
+void note_unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed,
+                              std::vector<std::string>& notes);
 // Adds to each error of `tight` its difference to `loose`.
 void add_errors(const LinkageCycle& loose, LinkageCycle& tight);
 

@@ -409,8 +409,9 @@
   // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
   function drawLinkage(m, front, ghosts, stage) {
     const g = m.linkage, c = Math.cos(g.direction), s = Math.sin(g.direction), steps = g.x[0].length - 1;
+    const turns = Math.max(1, Math.round(steps / 240));  // 240 places a turn, of which a cycle may have two
     const jointAt = (k, angle) => {
-      const place = ((angle / (2 * Math.PI)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
+      const place = ((angle / (2 * Math.PI * turns)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
       return [g.x, g.y].map(list => list[k][i] + share * (list[k][i + 1] - list[k][i]));
     };
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));

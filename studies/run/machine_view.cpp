@@ -82,7 +82,7 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism) {
                                .fixed = drawing.fixed,
                                .output = drawing.output};
   for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
-  for (int i = 0; i <= places_of_turn; ++i) {
+  for (int i = 0; i <= places_of_turn * mechanism.reduced->cycle().turns(); ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
     const std::vector<PlanePoint> joints = mechanism.bodies->joints(angle + mechanism.phase);
     linkage.x.resize(joints.size()), linkage.y.resize(joints.size());

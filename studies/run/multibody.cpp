@@ -92,6 +92,8 @@ const Mechanism& crank_of(const Model& model) {
   };
   if (!mechanism || !mechanism->mechanism().data.as<SliderCrankData>())
     refuse("needs exactly one slider-crank, and no other mechanism");
+  if (mechanism->mechanism().data.as<SliderCrankData>()->changes())
+    refuse("its crank and rod pass change points, where the closed loop leaves open which way they go on");
   if (mechanism->dynamics())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)

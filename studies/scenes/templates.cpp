@@ -26,6 +26,8 @@ KURBEL_SCENE(compressor, "compressor.toml")
 KURBEL_SCENE(shaper, "shaper.toml")
 KURBEL_SCENE(knuckle, "knuckle_press.toml")
 KURBEL_SCENE(rocker, "four_bar_rocker.toml")
+KURBEL_SCENE(feeder, "drag_link_feeder.toml")
+KURBEL_SCENE(saw, "straight_line_saw.toml")
 KURBEL_SCENE(chain, "six_inertia_chain.toml")
 KURBEL_SCENE(fan, "fan_star_delta.toml")
 KURBEL_SCENE(centrifugal, "centrifugal_pump.toml")
@@ -55,6 +57,8 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"shaper", "shaper: crank and slotted lever with quick return, cutting force on the slow stroke", shaper()},
       {"knuckle", "knuckle-joint press: toggle links fall into line at the lower end", knuckle()},
       {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
+      {"feeder", "drum feeder: drag link, whose output goes round unevenly", feeder()},
+      {"saw", "reciprocating saw: rod as long as the crank, through its change points", saw()},
       {"chain", "six inertias on couplings: start of a fan", chain()},
       {"fan", "fan started star–delta: cage motor by its catalogue's points", fan()},
       {"centrifugal", "centrifugal pump switched on directly: cage motor by its nameplate", centrifugal()},

@@ -60,7 +60,8 @@ std::string effects_table(const Scene& original, const Scene& scene, bool rigid,
 bool turns_a_mechanism(const Scene& scene) {
   return std::any_of(scene.components.begin(), scene.components.end(), [](const Section& s) {
     const std::string& kind = s.kind->name;
-    return kind == "slider-crank" || kind == "four-bar" || kind == "quick-return" || kind == "knuckle press";
+    return kind == "slider-crank" || kind == "four-bar" || kind == "quick-return" || kind == "inverted slider-crank" ||
+           kind == "knuckle press";
   });
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mechanisms/reduced/mechanism_data.h"
-#include "mechanisms/reduced/taylor.h"
+#include "mechanisms/loops/taylor.h"
 
 namespace kurbel::test {
 

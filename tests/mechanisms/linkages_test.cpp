@@ -179,18 +179,17 @@ TEST(FourBar, CrankThatCannotTurnIsRefusedWithTheExcess) {
   const DataFaults faults = faults_of(d);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].key, "crank");
-  EXPECT_NE(faults[0].text.find("crank + ground = 60 mm + 300 mm = 360 mm; must be < coupler + rocker = 200 mm + "
+  EXPECT_NE(faults[0].text.find("crank + ground = 60 mm + 300 mm = 360 mm; must be ≤ coupler + rocker = 200 mm + "
                                 "150 mm = 350 mm"),
             std::string::npos)
       << faults[0].text;
   EXPECT_NE(faults[0].text.find("10 mm too long"), std::string::npos);
   EXPECT_THROW(make_bodies(d), std::invalid_argument);
-  d.ground = 0.04, d.coupler = 0.16;  // a drag link: the crank would turn, but the rocker too
-  ASSERT_EQ(faults_of(d).size(), 1u);
-  EXPECT_EQ(faults_of(d)[0].key, "ground");
-  d.coupler = d.ground = 0.3, d.rocker = d.crank;  // the parallelogram falls into one line
+  d.ground = 0.04, d.coupler = 0.16;  // a drag link: the rocker turns, too
+  EXPECT_TRUE(faults_of(d).empty());
+  d.coupler = d.ground = 0.3, d.rocker = d.crank * (1 + 2e-12);  // hardly not a parallelogram
   ASSERT_FALSE(faults_of(d).empty());
-  EXPECT_NE(faults_of(d)[0].text.find("one line"), std::string::npos);
+  EXPECT_NE(faults_of(d)[0].text.find("one line so nearly"), std::string::npos) << faults_of(d)[0].text;
 }
 
 // --- quick-return ---

@@ -156,6 +156,48 @@ load = [
 ]
 )",
                       -1),
+      mechanism_scene("inverted slider-crank", R"(
+kind          = "inverted slider-crank"
+crank         = "90 mm"
+ground        = "260 mm"
+crank_mass    = "8 kg"
+crank_com     = "-15 mm"
+crank_inertia = "0.5 kg*m2"
+lever_mass    = "6 kg"
+lever_com     = "140 mm"
+lever_inertia = "0.3 kg*m2"
+block_mass    = "2 kg"
+block_inertia = "0.003 kg*m2"
+gravity       = "9.81 m/s2"
+ground_angle  = "<?25|155> deg"
+phase         = <a+ 0.4>
+load = [
+  { kind = "medium", viscous = "5 N*m*s/rad" },
+  { kind = "constant", torque = <M+ 20> },
+]
+)",
+                      -1),
+      mechanism_scene("drag link", R"(
+kind            = "four-bar"
+crank           = "180 mm"
+coupler         = "170 mm"
+rocker          = "200 mm"
+ground          = "60 mm"
+branch          = "<?open|crossed>"
+crank_mass      = "9 kg"
+crank_inertia   = "0.4 kg*m2"
+coupler_mass    = "4 kg"
+coupler_com     = "80 mm"
+coupler_inertia = "0.02 kg*m2"
+rocker_mass     = "12 kg"
+rocker_com      = "30 mm"
+rocker_inertia  = "0.5 kg*m2"
+gravity         = "9.81 m/s2"
+ground_angle    = "<?25|155> deg"
+phase           = <a+ 0.4>
+load = { kind = "medium", viscous = "6 N*m*s/rad" }
+)",
+                      -1),
       mechanism_scene("knuckle press", R"(
 kind          = "knuckle press"
 radius        = "70 mm"

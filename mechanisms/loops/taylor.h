@@ -81,6 +81,12 @@ struct Direction {
   }
   Taylor rate() const { return cos * sin.derivative() - sin * cos.derivative(); }  // of the angle, by φ
   long double angle() const { return std::atan2(sin.value(), cos.value()); }
+  Taylor series() const {  // of the angle
+    const Taylor r = rate();
+    Taylor t(angle());
+    for (int k = 0; k < Taylor::order; ++k) t.c[k + 1] = r.c[k] / (k + 1);
+    return t;
+  }
 };
 
 struct Path {

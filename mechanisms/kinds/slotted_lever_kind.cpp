@@ -1,0 +1,63 @@
+// slotted_lever_kind.cpp — the keys of the inverted slider-crank.
+#include "mechanisms/kinds/kinds.h"
+#include "mechanisms/kinds/mechanism_keys.h"
+
+namespace kurbel {
+namespace {
+
+using Lever = SlottedLeverData;
+
+Fields<Lever> linkage() {
+  return Fields<Lever>()
+      .add({.name = "crank",
+            .unit = "m",
+            .domain = positive,
+            .doc = "crank length r, from the crank axis to its pin, which carries the block",
+            .required = true,
+            .effect = "variable_inertia multibody"},
+           &Lever::crank)
+      .add({.name = "ground",
+            .unit = "m",
+            .domain = positive,
+            .doc = "distance d of the two bearings; > r: the lever rocks by 2 arcsin(r/d); < r: it goes round with the "
+                   "crank; = r: once in two turns of the crank, through a change point",
+            .required = true},
+           &Lever::ground)
+      .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Lever::crank_body)
+      .add(pivoted_link("lever", "from its bearing along the slot; negative: counterweighted"), &Lever::lever_body)
+      .add(mass_key("block_mass", "mass of the block on the crank pin"), &Lever::block_mass)
+      .add({.name = "block_inertia",
+            .unit = "kg*m2",
+            .fallback = "\"0 kg*m2\"",
+            .domain = not_negative,
+            .doc = "of the block about the pin; it turns with the lever"},
+           &Lever::block_inertia)
+      .add(gravity_key(), &Lever::gravity)
+      .add({.name = "ground_angle",
+            .unit = "rad",
+            .fallback = "\"0 deg\"",
+            .doc = "direction from the crank axis to the lever's bearing, above the horizontal"},
+           &Lever::ground_angle);
+}
+
+const Fields<Mounted<Lever>>& slotted_lever_fields() {
+  static const auto made = mounted(linkage(), mounting("torque on the lever, or a list of them", rocker_loads()));
+  return made;
+}
+
+void build_slotted_lever(const Section& s, Network& net, Messages& messages) {
+  build_mounted(slotted_lever_fields(), s, net, messages);
+}
+
+}  // namespace
+
+Kind slotted_lever_kind() {
+  return {.name = "inverted slider-crank",
+          .doc =
+              "crank, block on its pin and slotted lever, which the loads act on; φ = 0 with the crank towards the "
+              "lever's bearing",
+          .keys = slotted_lever_fields().keys(),
+          .build = build_slotted_lever};
+}
+
+}  // namespace kurbel
