@@ -41,7 +41,7 @@ std::string sentence(const ModesStudy& m, const SpotCheck& spot) {
   std::string text = begin + fmt::format("{} swings by {} in the nonlinear cycle, by {} in the linear response ({})",
                                          m.joint_names[spot.joint], torque_text(really(spot, spot.joint).peak), linear,
                                          difference_text(spot, spot.joint));
-  if (!spot.stable) text += "; the cycle is unstable: the machine does not keep it, and jumps to another motion";
+  if (!spot.stable) text += "; the cycle is unstable: a machine held at this speed leaves it";
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "engine/numerics/deadline.h"
@@ -363,14 +364,24 @@ class Search {
     judge_stability(n, k);
   }
 
-  // Of a machine whose mean speeds are held round by round: P_z − P_a (s_a)⁻¹ s_z.
+  // Of the round at constant torques, less the multipliers of the held speeds themselves: those by which torques move
+  // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
   void judge_stability(Index n, Index k) {
     if (n == 0) return;
-    const MatrixXd map = derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n);
-    const MatrixXd held = derivative_.topRightCorner(n, k) * derivative_.bottomRightCorner(k, k).inverse() *
-                          derivative_.bottomLeftCorner(k, n);
-    out_.uncertain = image_.grazed || !held.allFinite();
-    if (held.allFinite()) out_.multipliers = multipliers_of(map - held);
+    const Eigen::EigenSolver<MatrixXd> solver(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
+    const Eigen::MatrixXcd right = solver.eigenvectors(), left = right.fullPivLu().inverse();
+    out_.uncertain = image_.grazed || !left.allFinite();
+    if (out_.uncertain) return;
+    const VectorXd share = (left * derivative_.topRightCorner(n, k))
+                               .rowwise()
+                               .norm()
+                               .cwiseProduct((derivative_.bottomLeftCorner(k, n) * right).colwise().norm().transpose());
+    std::vector<Index> order(at(n));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return share[a] > share[b]; });
+    for (Index i = std::min(k, n); i < n; ++i) out_.multipliers.push_back(solver.eigenvalues()[order[at(i)]]);
+    std::stable_sort(out_.multipliers.begin(), out_.multipliers.end(),
+                     [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
   }
 
   const HeldMachine& machine_;

@@ -30,7 +30,7 @@ struct HeldMachine {
 };
 
 struct HeldCycleOptions {
-  double seconds = 10;  // of processor time, at most
+  double seconds = 5;  // of processor time, at most
   const std::atomic<bool>* interrupted = nullptr;
 };
 
@@ -39,7 +39,7 @@ struct HeldCycle {
   std::string why;          // in words, unless it was found
   double acceleration = 0;  // of the reduction link, that the torques stand for [rad/s²]
   std::optional<CycleSamples> samples;
-  std::vector<std::complex<double>> multipliers;  // with the mean speed held, largest first
+  std::vector<std::complex<double>> multipliers;  // but those of the held speeds, largest first
   bool uncertain = false;                         // these are
   double cost = 0;                                // [cycles]
   bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) <= 1 + 1e-6; }
