@@ -28,8 +28,9 @@ double amplitude_of_order(const ModesStudy& m, const SpotCheck& spot, std::size_
 std::string difference_text(const SpotCheck& spot, std::size_t j) {
   const double cycle = really(spot, j).peak, difference = spot.difference(j);
   if (!std::isfinite(difference)) return "unbounded";
-  return std::abs(difference) < 10 * cycle ? fmt::format("{:+.2g} %", 100 * difference / cycle)
-                                           : fmt::format("{:.3g} times that", spot.linear.joints[j].peak / cycle);
+  const double share = 100 * difference / cycle;
+  if (std::abs(share) < 10) return fmt::format("{:+.2g} %", share);
+  return share < 1000 ? fmt::format("{:+.0f} %", share) : fmt::format("{:.3g} times that", share / 100 + 1);
 }
 
 std::string sentence(const ModesStudy& m, const SpotCheck& spot) {
@@ -67,14 +68,14 @@ Rows spot_table(const ModesStudy& m) {
           fmt::format("speed [{}]", m.speed_unit.name), [](const Line& l) { return l.spot->speed; },
           ReadAs{.factor = m.speed_unit.of(1), .digits = 5})
       .only_for_people(
-          "peak of swing, linear [N·m]", [linear](const Line& l) { return linear(l).peak; }, torque)
+          "peak, linear [N·m]", [linear](const Line& l) { return linear(l).peak; }, torque)
       .only_for_people("in the cycle", of([](const SpotCheck& s, std::size_t j) { return really(s, j).peak; }), torque)
       .only_for_people("linear less that", of([](const SpotCheck& s, std::size_t j) { return s.difference(j); }),
                        ReadAs{.digits = 3, .otherwise = "unbounded"})
       .only_for_people(
           "mean, linear", [linear](const Line& l) { return linear(l).mean; }, torque)
       .only_for_people("in the cycle", of([](const SpotCheck& s, std::size_t j) { return really(s, j).mean; }), torque)
-      .only_for_people("strongest order",
+      .only_for_people("order",
                        [&m, linear](const Line& l) {
                          const double order = m.excitations.order(linear(l).dominant);
                          return order > 0 ? read_as(order, ReadAs{.digits = 4}) : std::string("—");

@@ -163,7 +163,7 @@ class Search {
     } catch (const OutOfTime& out) {
       if (out.budget() != options_.seconds) throw;
       out_.found = false;
-      out_.why = fmt::format("the search took more than {:g} s", options_.seconds);
+      out_.why = "the search took more time than it may" + on_the_way();
     }
     out_.cost = cost_;
     return std::move(out_);
@@ -290,15 +290,16 @@ class Search {
     const NewtonOutcome newton = solve(system, x, enough);
     x = newton.x;
     if (newton.found) return true;
-    out_.why = image_.end != ReturnMap::End::returned ? image_.why : newton.why;
+    out_.why = image_.end != ReturnMap::End::returned ? image_.why : newton.why + on_the_way();
     return false;
   }
+  std::string on_the_way() const { return broken_.empty() ? "" : "; of what was tried, " + broken_; }
 
   bool round(const VectorXd& x, double share, bool with_derivative, VectorXd& residual) {
     Deadline::check();
     if (cost_ > most_derivatives * (map_->derivative_cost() + static_cast<double>(free_.cols()))) {
       image_.end = ReturnMap::End::interrupted;
-      image_.why = fmt::format("no cycle was found within {:.0f} rounds", cost_);
+      image_.why = fmt::format("no cycle was found within {:.0f} rounds{}", cost_, on_the_way());
       return false;
     }
     const Index k = free_.cols(), n = x.size() - k;
@@ -307,7 +308,10 @@ class Search {
     MeanSpeeds mean(held_);
     image_ = map.image(x.head(n), with_derivative && by_link_, {&mean});
     cost_ += map.cost();
-    if (image_.end != ReturnMap::End::returned) return false;
+    if (image_.end != ReturnMap::End::returned) {
+      broken_ = image_.why;
+      return false;
+    }
     residual.resize(n + k);
     residual.head(n) = image_.z - x.head(n);
     for (Index f = 0; f < k; ++f) {
@@ -398,6 +402,7 @@ class Search {
   std::unique_ptr<ReturnMap> map_;
   ReturnMap::Image image_;
   MatrixXd derivative_;
+  std::string broken_;  // what became of the last round that did not come round
   double cost_ = 0;
   HeldCycle out_;
 };
