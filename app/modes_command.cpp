@@ -15,8 +15,8 @@ namespace {
 struct ModesArguments {
   StudyOptions study;
   std::string effects, speed, at, angle, torque;
-  std::vector<std::string> range;
-  int count = 20;
+  std::vector<std::string> range, spots;
+  int count = 20, spot_checks = 2;
   double orders = 0, barred = 1;
 };
 
@@ -31,6 +31,8 @@ int modes(const ModesArguments& arguments) {
   options.count = arguments.count;
   options.orders = arguments.orders;
   options.barred_factor = arguments.barred;
+  options.spot_checks = arguments.spot_checks;
+  for (const std::string& spot : arguments.spots) options.spots.push_back(speed_of("--spot", spot, positive));
   options.torque = arguments.torque;
   if (!arguments.speed.empty()) options.speed = speed_of("--speed", arguments.speed, any_number);
   options.at = moment_of(arguments.at, options.speed);
@@ -70,6 +72,11 @@ void set_up(CLI::App& command, int& code) {
       "--barred", arguments->barred,
       "bars speeds where a joint without limits swings by more than this times its mean or the rated torque "
       "(default: 1)");
+  command.add_option("--spot-checks", arguments->spot_checks,
+                     "speeds of the range, where most is borne, at which the nonlinear cycle is held against the "
+                     "response (default: 2; 0: none)");
+  command.add_option("--spot", arguments->spots, "another such speed, e.g. \"250 rpm\"; may be given again")
+      ->allow_extra_args(false);
   command.add_option("--torque", arguments->torque,
                      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
   command.callback([&code, arguments] { code = modes(*arguments); });
@@ -82,7 +89,7 @@ const Verb verb{
      .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
      .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
              "speeds, parametric zones, limits after DIN 740-2; spectrum of a simulated torque (`--count`, "
-             "`--speed`, `--range`, `--orders`, `--torque`)",
+             "`--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)",
      .set_up = set_up}};
 
 }  // namespace

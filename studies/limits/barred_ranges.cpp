@@ -139,6 +139,10 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
   return ranges;
 }
 
+double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double factor) {
+  return joint.limits.any() ? by_limits(joint, load).share() : by_rule(joint, load, factor).share();
+}
+
 const BarredRange* worst_of(const std::vector<BarredRange>& ranges) {
   const auto worse = [](const BarredRange& a, const BarredRange& b) {
     if (a.by != b.by) return a.by > b.by;

@@ -38,6 +38,9 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
                                        double factor,
                                        const std::function<std::vector<JointLoad>(double speed)>& at = {});
 
+// How much of what it may bear a joint bears at one speed: of the limit that is used most, without limits of the rule's.
+double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double factor);
+
 // The one that exceeds its limit most, those by limits first; null: none.
 const BarredRange* worst_of(const std::vector<BarredRange>& ranges);
 

@@ -14,6 +14,7 @@
 #include "engine/numerics/roots.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"
+#include "studies/modes/spot_checks.h"
 #include "studies/modes/torque_history.h"
 
 namespace kurbel {
@@ -59,6 +60,7 @@ class Study {
     find_barred_ranges(
         *model_, options_.barred_factor, [this](double speed) { return respond(drive_at(speed), found_.excitations); },
         found_);
+    if (!options_.angle) check_spots_of_range();
     if (!options_.torque.empty()) add_history();
     judge_all_limits();
     return std::move(found_);
@@ -77,6 +79,8 @@ class Study {
       throw std::invalid_argument(fmt::format("--orders {:g}: must be > 0 and ≤ 1000", options_.orders));
     if (options_.slowest < 0 || (options_.fastest != 0 && options_.fastest <= options_.slowest))
       throw std::invalid_argument("--range: give two speeds ≥ 0, the smaller one first, e.g. \"0 rpm\" \"3000 rpm\"");
+    if (options_.spot_checks < 0 || options_.spot_checks > 100)
+      throw std::invalid_argument(fmt::format("--spot-checks {}: must be from 0 to 100", options_.spot_checks));
     if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
@@ -334,6 +338,15 @@ class Study {
       }
       c.amplitude = std::abs(nearest->orders[c.joint][c.harmonic]);
     }
+  }
+
+  void check_spots_of_range() {
+    if (options_.spot_checks == 0 && options_.spots.empty()) return;
+    const Network network = network_as_of(scene_, options_.at);
+    check_spots(
+        {network, scene_, effects_, samples_ ? &*regime_ : nullptr},
+        [this](double speed) { return speed == std::abs(found_.drive.at.speed) ? found_.drive : drive_at(speed); },
+        options_, found_);
   }
 
   // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.

@@ -20,8 +20,8 @@
 #include "studies/findings/watch.h"
 #include "studies/limits/barred_ranges.h"
 #include "studies/limits/verdicts.h"
-#include "studies/modes/forced_response.h"
 #include "studies/modes/torque_history.h"
+#include "studies/response/forced_response.h"
 
 namespace kurbel {
 
@@ -35,6 +35,8 @@ struct ModesOptions {
   double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its
                                      // mean or rated torque (barred_ranges.h)
   std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
+  int spot_checks = 0;               // speeds of the range at which the nonlinear cycle is held against the response
+  std::vector<double> spots = {};    // and those [rad/s]
   Watch watch = {};
 };
 
@@ -62,6 +64,21 @@ struct Rattle {
   double stiffness = 0;  // of the linear spring that does most nearly the same: ⟨τ θ⟩/⟨θ²⟩ over the round [N·m/rad]
   double linear = 0;          // at the mean twist [N·m/rad]
   std::vector<double> omega;  // undamped frequencies with it, ascending [rad/s]
+};
+
+// The linear response at one speed beside the nonlinear cycle whose mean speed is held there (held_cycle.h).
+struct SpotCheck {
+  double speed = 0;                  // of the reduction link [rad/s]
+  std::optional<double> share = {};  // of what its joint may bear; none: the speed was asked for
+  std::size_t joint = 0;             // that is looked at: of that share, or with the largest swing
+  SpeedResponse linear = {};
+  std::optional<SpeedResponse> cycle = {};  // none: it was not found
+  std::string why = {};                     // in words, then
+  double cycle_order = 1;                   // of its first harmonic
+  double acceleration = 0;                  // that the holding torques stand for [rad/s²]
+  bool stable = true;                       // with its mean speed held
+  double difference(std::size_t j) const { return linear.joints[j].peak - cycle->joints[j].peak; }  // [N·m]
+  double error(std::size_t j) const { return 1e-5 * std::abs(cycle->joints[j].peak); }  // of 4096 samples of a round
 };
 
 struct CriticalSpeed {
@@ -102,6 +119,7 @@ struct ModesStudy {
   std::vector<SpeedResponse> sweep;   // over the range
   std::vector<LimitedJoint> limited;  // per joint: what it may bear
   std::vector<BarredRange> barred;
+  std::vector<SpotCheck> spots;  // by speed
   std::vector<Verdict> verdicts;
   std::optional<TorqueHistory> history;
   std::vector<std::string> notes;

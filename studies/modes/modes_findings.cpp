@@ -10,6 +10,7 @@
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/modes/modes_plots.h"
+#include "studies/modes/spot_findings.h"
 
 namespace kurbel {
 namespace {
@@ -408,6 +409,7 @@ Findings findings_of(const ModesStudy& m) {
   const bool is_shaken = is_forced(m);
   if (is_shaken) f.draw(campbell, [&m] { return campbell_plot(m); });
   f.say(forced, response_table(m));
+  say_spots(f, forced, m);
   if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
   f.say(campbell, critical_table(m));
   f.say(forced, barred_table(m.barred, m.limited, m.speed_unit));

@@ -8,6 +8,7 @@
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
+#include "studies/modes/spot_findings.h"
 
 namespace kurbel::modes {
 namespace {
@@ -121,6 +122,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
           curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
           dashed(curve("sum of amplitudes", Role::rigid, [](const JointResponse& r) { return r.amplitude_sum; })),
           dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
+  mark_spots(m, j, plot);
   if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0)
     plot.series.push_back(
         dashed(level(m, "allowed at 10 Hz", Role::vermillion, limits.vibratory / limits.temperature_factor)));

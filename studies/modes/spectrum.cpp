@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "studies/modes/excitation.h"
+#include "studies/response/excitation.h"
 
 namespace kurbel {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "studies/advise/advise_screens.h"
-#include "studies/modes/excitation.h"
+#include "studies/response/excitation.h"
 #include "studies/size/size.h"
 #include "tests/support/scenes.h"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "studies/accuracy/accuracy.h"
-#include "studies/modes/forced_response.h"
+#include "studies/response/forced_response.h"
 #include "studies/reduce/reduce.h"
 #include "studies/steady/steady.h"
 #include "studies/steady/steady_simulation.h"

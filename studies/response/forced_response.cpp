@@ -1,5 +1,5 @@
 // forced_response.cpp — one complex solve an order; the sum synthesised over the cycle and its peak located.
-#include "studies/modes/forced_response.h"
+#include "studies/response/forced_response.h"
 
 #include <Eigen/LU>
 #include <Eigen/SparseLU>

@@ -1,5 +1,5 @@
 // excitation.cpp — samples what the equations leave over, over the cycle and over time, and splits it into harmonics.
-#include "studies/modes/excitation.h"
+#include "studies/response/excitation.h"
 
 #include <fmt/format.h>
 

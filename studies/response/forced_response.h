@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "studies/modes/excitation.h"
+#include "studies/response/excitation.h"
 
 namespace kurbel {
 

@@ -1,0 +1,417 @@
+// held_cycle.cpp — from the linear response to the fixed point of the return map with its mean speed held.
+#include "studies/response/held_cycle.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double map_tolerance = 1e-11, enough = 1e-10;     // residual of the map, over the rated values
+constexpr double beside_by = 1e-5;                          // of unknowns of order one, for differences
+constexpr double most_derivatives = 40;                     // rounds with derivative that a search may take
+constexpr double first_part = 0.25, least_part = 1.0 / 64;  // of the way between two speeds
+constexpr std::size_t samples = 4096;                       // of a round
+
+// A constant torque; it sets no scale, so that all members of a search are measured alike.
+struct HoldingTorque {
+  static constexpr ShaftTraits is{.account = Account::driving};
+  double value = 0;  // [N·m]
+  template <class T>
+  T torque(const ShaftState<T>&) const {
+    return T(value);
+  }
+  bool uses_time() const { return false; }
+  bool uses_speed() const { return false; }
+  Rated rated() const { return {}; }
+};
+
+// Mean speeds of shafts over a round, integrated along its steps.
+class MeanSpeeds final : public Observer {
+ public:
+  explicit MeanSpeeds(std::vector<std::size_t> states) : states_(std::move(states)), sum_(states_.size(), 0.0) {}
+  void step(StepView& view) override {
+    constexpr double place[] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
+    const double begin = view.t_previous(), length = view.t() - begin;
+    for (int g = 0; g < 3; ++g) {
+      const std::span<const double> y = view.at(begin + place[g] * length);
+      for (std::size_t i = 0; i < states_.size(); ++i) sum_[i] += weight[g] * length * y[states_[i]];
+    }
+  }
+  double mean(std::size_t i, double time) const { return sum_[i] / time; }
+
+ private:
+  std::vector<std::size_t> states_;
+  std::vector<double> sum_;
+};
+
+// Motions of the coordinates in which no spring is twisted.
+MatrixXd free_motions(BaseMotion& base) {
+  SparseMatrix springs = base.twists();
+  for (std::size_t j = 0; j < base.model().elastic.size(); ++j)
+    if (!base.has_spring(j))
+      for (Index c = 0; c < springs.outerSize(); ++c)
+        for (SparseMatrix::InnerIterator it(springs, c); it; ++it)
+          if (it.row() == static_cast<Index>(j)) it.valueRef() = 0;
+  springs.prune(0.0);
+  return motions_without_twist(springs);
+}
+
+// The motion that the linear drive says, as a state of the machine where its link stands at the section.
+class LinearMotion {
+ public:
+  LinearMotion(const LinearDrive& drive, const Excitations& x, BaseMotion& base)
+      : drive_(drive), response_(drive), x_(x), base_(base), m_(base.model()), link_(at(m_.reduction_angle)) {
+    q_ = rate_ = VectorXd::Zero(drive.size());
+    own_ = VectorXd::Zero(drive.own_states());
+    twist_ = VectorXd::Zero(static_cast<Index>(drive.joints.size()));
+  }
+
+  State state() {
+    const MeanMotion* regime = base_.point().regime.get();
+    const double angle = regime ? regime->state.y[link_] : 0;
+    add_orders(angle);
+    const BaseMotion::Position position{angle, 0};
+    const std::span<const double> base = base_.at(position);
+    std::vector<double> y(base.begin(), base.end());
+    Equations& equations = base_.equations();
+    const VectorXd along = base_.coordinates().motion * rate_;
+    for (std::size_t s = 0; s < m_.free_shafts; ++s)
+      y[equations.speed_index(static_cast<int>(s))] += along[static_cast<Index>(s)];
+    for (Index k = 0; k < own_.size(); ++k) y[equations.own_begin() + at(k)] += own_[k];
+    VectorXd apart = VectorXd::Zero(twist_.size());
+    for (Index j = 0; j < twist_.size(); ++j) {
+      if (!base_.has_spring(at(j))) continue;
+      const std::size_t i = equations.twist_index(static_cast<int>(j));
+      y[i] += twist_[j];
+      apart[j] = y[i] - (regime ? regime->state.y[i] : 0);
+    }
+    turn_angles(apart, y, regime ? &regime->state.y : nullptr);
+    y.resize(m_.state_count());
+    return {base_.time(position), std::move(y), equations.modes()};
+  }
+
+ private:
+  void add(double omega, double phase, const Forcing& forcing) {
+    const FrequencyResponse::Motion motion = response_.motion(omega, forcing);
+    if (!motion.q.allFinite() || !motion.own.allFinite()) return;
+    const Complex turned = std::polar(1.0, phase);
+    q_ += (motion.q * turned).real();
+    rate_ += (motion.q * turned * Complex(0, omega)).real();
+    own_ += (motion.own * turned).real();
+    twist_ += ((drive_.twists * motion.q + forcing.twist) * turned).real();
+  }
+  void add_orders(double angle) {
+    const double speed = drive_.at.speed, sense = speed < 0 ? -1 : 1;
+    for (std::size_t r = 1; r <= x_.harmonics && !x_.at_speed(speed).empty(); ++r) {
+      if (!x_.is_looked_at(r)) continue;
+      Forcing forcing = Forcing::none(drive_);
+      for (const OrderSource& s : x_.at_speed(speed)) forcing.add(s.kind, s.index, s.at(r, speed));
+      add(x_.order(r) * std::abs(speed), x_.order(r) * sense * angle, forcing);
+    }
+    for (const FrequencySource& s : x_.by_frequency) {
+      Forcing forcing = Forcing::none(drive_);
+      forcing.add(s.kind, s.index, s.amplitude);
+      add(s.omega, 0, forcing);
+    }
+  }
+  // Angles are bound to twists: they turn from where they are known by what the twists differ from there; the link's
+  // stays.
+  void turn_angles(const VectorXd& apart, std::vector<double>& y, const std::vector<double>* known) const {
+    const MatrixXd twists = MatrixXd(base_.twists());
+    VectorXd turn = twists.completeOrthogonalDecomposition().solve(apart);
+    const VectorXd whole = base_.rates();
+    const auto turned = [&](const TrackedAngle& a, const VectorXd& by) {
+      return a.gain * (base_.coordinates().motion * by)[a.shaft];
+    };
+    const double link = turned(m_.angles[link_], whole);
+    if (link != 0) turn -= whole * (turned(m_.angles[link_], turn) / link);
+    for (std::size_t i = 0; i < m_.angles.size(); ++i) y[i] = (known ? (*known)[i] : y[i]) + turned(m_.angles[i], turn);
+  }
+
+  const LinearDrive& drive_;
+  FrequencyResponse response_;
+  const Excitations& x_;
+  BaseMotion& base_;
+  const Model& m_;
+  std::size_t link_;
+  VectorXd q_, rate_, own_, twist_;
+};
+
+class Search {
+ public:
+  Search(const HeldMachine& machine, const LinearDrive& drive, const Excitations& x, const HeldCycleOptions& options)
+      : machine_(machine), drive_(drive), x_(x), options_(options), base_(drive.model, drive.at), m_(base_.model()) {}
+
+  HeldCycle run() {
+    if (!is_free()) return std::move(out_);
+    const Deadline deadline(options_.seconds, options_.interrupted);
+    try {
+      search();
+    } catch (const OutOfTime& out) {
+      if (out.budget() != options_.seconds) throw;
+      out_.found = false;
+      out_.why = "the search took more time than it may" + on_the_way();
+    }
+    out_.cost = cost_;
+    return std::move(out_);
+  }
+
+ private:
+  // --- what is held ---
+
+  bool is_free() {
+    const Periodicity period = periodicity_of(m_);
+    const bool own_period = machine_.regime && machine_.regime->map->periodicity().by_time && !period.by_time;
+    free_ = free_motions(base_);
+    if (free_.cols() == 0)
+      out_.why = "a prescribed speed drives the machine, so that its mean speed cannot be held at another";
+    else if (own_period)
+      out_.why = "its own motion has a period that no law gives, which is known only where it is kept";
+    else if (period.by_time && period.angle_matters)
+      out_.why = "what hangs on time and what hangs on an angle have no common period at this speed";
+    return out_.why.empty();
+  }
+
+  void choose_scales() {
+    by_link_ = free_.cols() == 1 && !periodicity_of(m_).by_time;
+    const Coordinates& c = base_.coordinates();
+    for (Index f = 0; f < free_.cols(); ++f) {
+      Index names = 0;
+      free_.col(f).cwiseAbs().maxCoeff(&names);
+      const auto shaft = at(c.shaft[at(names)]);
+      unit_.push_back(m_.shafts[shaft].torque_scale / free_.col(f).cwiseAbs2().dot(base_.inertia()));
+      held_.push_back(base_.equations().speed_index(static_cast<int>(shaft)));
+      speed_.push_back((c.motion * base_.rates())[static_cast<Index>(shaft)]);
+      scale_.push_back(m_.shafts[shaft].speed_scale);
+    }
+    if (by_link_) speed_ = {drive_.at.speed}, scale_ = {m_.speed_scale};
+  }
+
+  // The machine with the torques of an acceleration F a.
+  std::shared_ptr<const Model> model_with(const VectorXd& a) const {
+    VectorXd scaled = a;
+    for (Index f = 0; f < a.size(); ++f) scaled[f] *= unit_[at(f)];
+    const VectorXd shafts = base_.coordinates().motion * (free_ * scaled);
+    Network network = machine_.network;
+    for (std::size_t s = 0; s < m_.free_shafts; ++s) {
+      const auto i = static_cast<Index>(s);
+      const int node = m_.shafts[s].reference;
+      if (base_.coordinates().motion.row(i).norm() == 0) continue;
+      network.put(node, network.nodes[at(node)].component,
+                  HoldingTorque{-base_.shaft_inertia()[i] * shafts[i] / m_.gain_of_node[at(node)]});
+    }
+    return compile_network(std::move(network), machine_.scene, machine_.effects);
+  }
+  ReturnMapOptions map_options() const {
+    return {.tolerance = map_tolerance,
+            .method = machine_.scene.run.method == "work" ? "auto" : machine_.scene.run.method,
+            .cycles = 1,
+            .budget = options_.seconds,
+            .interrupted = options_.interrupted};
+  }
+  // The same modes, with the holding torques among the elements.
+  static State on(const Model& model, State state) {
+    state.modes.active.resize(model.network.elements.size(), 1);
+    return state;
+  }
+
+  // --- the search ---
+
+  void search() {
+    choose_scales();
+    const VectorXd a = first_acceleration();
+    const auto model = model_with(a);
+    map_ = std::make_unique<ReturnMap>(model, map_options());
+    const State begin = LinearMotion(drive_, x_, base_).state();
+    const ReturnMap::Image guess = map_->approach_from(on(*model, begin));
+    cost_ += map_->cost();
+    out_.why = guess.why;
+    if (guess.end == ReturnMap::End::returned) {
+      VectorXd x(guess.z.size() + a.size());
+      x << guess.z, a;
+      if (solve_at(1, x)) return settle(x);
+    }
+    if (image_.end != ReturnMap::End::interrupted && machine_.regime) along_the_speeds();
+  }
+
+  VectorXd first_acceleration() const {
+    VectorXd a = free_.colPivHouseholderQr().solve(base_.acceleration());
+    for (Index f = 0; f < a.size(); ++f) a[f] /= unit_[at(f)];
+    return a;
+  }
+
+  // From the motion that the machine keeps, in steps.
+  void along_the_speeds() {
+    const Regime& regime = *machine_.regime;
+    const double from = drive_.at.regime->speed / drive_.at.speed;  // of the speeds to be held
+    const auto model = model_with(VectorXd::Zero(free_.cols()));
+    map_ = std::make_unique<ReturnMap>(model, map_options());
+    const PoincareSection& section = regime.map->section();
+    map_->go_through(on(*model, section.state()), section.options().sticks_throughout, drive_.at.regime->speed);
+    if (section.size() != map_->size()) return;
+    VectorXd x = VectorXd::Zero(regime.point.z.size() + free_.cols());
+    x.head(regime.point.z.size()) = regime.point.z;
+    double way = 0;
+    for (double part = first_part; way < 1;) {
+      VectorXd next = x;
+      const double to = std::min(1.0, way + part);
+      if (solve_at(from + to * (1 - from), next)) {
+        x = next, way = to, part = std::min(2 * part, 0.5);
+        continue;
+      }
+      part *= 0.5;
+      if (part < least_part || image_.end == ReturnMap::End::interrupted) return;
+    }
+    settle(x);
+  }
+
+  // At so much of the speeds to be held.
+  bool solve_at(double share, VectorXd& x) {
+    NewtonSystem system;
+    system.evaluate = [this, share](const VectorXd& at, VectorXd& residual, MatrixXd* derivative) {
+      return derivative ? round_with_derivative(at, share, residual, *derivative) : round(at, share, false, residual);
+    };
+    system.stopped = [this] { return image_.end == ReturnMap::End::interrupted; };
+    system.derivative_cost = map_->derivative_cost() + static_cast<double>(free_.cols());
+    system.magnitude = std::max(system.magnitude, map_->section().magnitude());
+    const NewtonOutcome newton = solve(system, x, enough);
+    x = newton.x;
+    if (newton.found) return true;
+    out_.why = image_.end != ReturnMap::End::returned ? image_.why : newton.why + on_the_way();
+    return false;
+  }
+  std::string on_the_way() const { return broken_.empty() ? "" : "; of what was tried, " + broken_; }
+
+  bool round(const VectorXd& x, double share, bool with_derivative, VectorXd& residual) {
+    Deadline::check();
+    if (cost_ > most_derivatives * (map_->derivative_cost() + static_cast<double>(free_.cols()))) {
+      image_.end = ReturnMap::End::interrupted;
+      image_.why = fmt::format("no cycle was found within {:.0f} rounds{}", cost_, on_the_way());
+      return false;
+    }
+    const Index k = free_.cols(), n = x.size() - k;
+    ReturnMap map(model_with(x.tail(k)), map_options());
+    map.follow(*map_);
+    MeanSpeeds mean(held_);
+    image_ = map.image(x.head(n), with_derivative && by_link_, {&mean});
+    cost_ += map.cost();
+    if (image_.end != ReturnMap::End::returned) {
+      broken_ = image_.why;
+      return false;
+    }
+    residual.resize(n + k);
+    residual.head(n) = image_.z - x.head(n);
+    for (Index f = 0; f < k; ++f) {
+      const double speed = by_link_ ? link_speed() : mean.mean(at(f), image_.time);
+      residual[n + f] = (speed - share * speed_[at(f)]) / scale_[at(f)];
+    }
+    return true;
+  }
+
+  bool round_with_derivative(const VectorXd& x, double share, VectorXd& residual, MatrixXd& derivative) {
+    const Index k = free_.cols(), n = x.size() - k;
+    MatrixXd beside(n + k, n + k);
+    for (Index j = by_link_ ? n : 0; j < n + k; ++j) {
+      VectorXd value;
+      if (!round(x + beside_by * VectorXd::Unit(n + k, j), share, false, value)) return false;
+      beside.col(j) = value;
+    }
+    if (!round(x, share, true, residual)) return false;
+    derivative = (beside.colwise() - residual) / beside_by;
+    if (by_link_) {
+      derivative.topLeftCorner(n, n) = image_.derivative - MatrixXd::Identity(n, n);
+      derivative.row(n).head(n) = -link_speed() / (image_.time * scale_[0]) * image_.slowing;
+    }
+    derivative_ = derivative;
+    return true;
+  }
+  // Mean, of the last round, which is one of the link's angle.
+  double link_speed() const { return std::copysign(map_->periodicity().angle / image_.time, drive_.at.speed); }
+
+  // --- what was found ---
+
+  void settle(const VectorXd& x) {
+    const Index k = free_.cols(), n = x.size() - k;
+    const auto model = model_with(x.tail(k));
+    Regime held;
+    held.kind = Regime::Kind::cycle;
+    held.map = std::make_shared<ReturnMap>(model, map_options());
+    held.map->follow(*map_);
+    held.point.found = true;
+    held.point.z = x.head(n);
+    held.point.time = image_.time;
+    try {
+      out_.samples = sample_cycle(held, samples);
+    } catch (const std::invalid_argument& refused) {
+      out_.why = refused.what();
+      return;
+    }
+    out_.found = true;
+    out_.why.clear();
+    VectorXd scaled = x.tail(k);
+    for (Index f = 0; f < k; ++f) scaled[f] *= unit_[at(f)];
+    const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
+    out_.acceleration = link.gain * (base_.coordinates().motion * (free_ * scaled))[link.shaft];
+    judge_stability(n, k);
+  }
+
+  // Of the round at constant torques, less the multipliers of the held speeds themselves: those by which torques move
+  // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
+  void judge_stability(Index n, Index k) {
+    if (n == 0) return;
+    const Eigen::EigenSolver<MatrixXd> solver(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
+    const Eigen::MatrixXcd right = solver.eigenvectors(), left = right.fullPivLu().inverse();
+    out_.uncertain = image_.grazed || !left.allFinite();
+    if (out_.uncertain) return;
+    const VectorXd share = (left * derivative_.topRightCorner(n, k))
+                               .rowwise()
+                               .norm()
+                               .cwiseProduct((derivative_.bottomLeftCorner(k, n) * right).colwise().norm().transpose());
+    std::vector<Index> order(at(n));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return share[a] > share[b]; });
+    for (Index i = std::min(k, n); i < n; ++i) out_.multipliers.push_back(solver.eigenvalues()[order[at(i)]]);
+    std::stable_sort(out_.multipliers.begin(), out_.multipliers.end(),
+                     [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  }
+
+  const HeldMachine& machine_;
+  const LinearDrive& drive_;
+  const Excitations& x_;
+  const HeldCycleOptions& options_;
+  BaseMotion base_;
+  const Model& m_;
+  MatrixXd free_;
+  // Per motion: unit of a [rad/s²]; speed to be held, its scale [rad/s]; the shaft that has it, as a state.
+  std::vector<double> unit_, speed_, scale_;
+  std::vector<std::size_t> held_;
+  bool by_link_ = false;  // all turns as one, and a round is one of the link: its time tells the mean speed
+  std::unique_ptr<ReturnMap> map_;
+  ReturnMap::Image image_;
+  MatrixXd derivative_;
+  std::string broken_;  // what became of the last round that did not come round
+  double cost_ = 0;
+  HeldCycle out_;
+};
+
+}  // namespace
+
+HeldCycle find_held_cycle(const HeldMachine& machine, const LinearDrive& drive, const Excitations& excitations,
+                          const HeldCycleOptions& options) {
+  return Search(machine, drive, excitations, options).run();
+}
+
+}  // namespace kurbel
