@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "app/command_line.h"
 #include "app/terminal.h"
@@ -16,6 +17,7 @@
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
 #include "studies/run/run_findings.h"
+#include "studies/trials/trials_findings.h"
 
 namespace kurbel::app {
 namespace {
@@ -26,7 +28,7 @@ struct RunArguments {
   StudyOptions study;
   std::string effects, against, method, until, setting, from_state, save_state;
   std::optional<double> accuracy;
-  bool no_error = false, explain = false;
+  bool no_error = false, no_trials = false, explain = false;
 };
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
@@ -41,6 +43,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
                      "multibody one of Simbody's integrators");
   command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
+  command.add_flag("--no-trials", arguments.no_trials,
+                   "skip the runs that try, one by one, the effects that are off (made behind short runs only)");
 }
 
 SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
@@ -118,7 +122,8 @@ int run(const RunArguments& arguments) {
     throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
   }
   if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
-  return present(output_of(result), arguments.study);
+  if (arguments.no_trials) return present(output_of(result), arguments.study);
+  return present(output_of(with_trials(std::move(result), options)), arguments.study);
 }
 
 int compare(const RunArguments& arguments) {
@@ -130,8 +135,10 @@ int compare(const RunArguments& arguments) {
   check_arguments(arguments, scene);
   const ModelPair models = models_to_compare(scene, asked(arguments.effects), asked(arguments.against));
   Progress progress(arguments.study.quiet);
-  const Comparison c = kurbel::compare(scene, models, options_of(arguments, progress));
-  return present(output_of(c), arguments.study);
+  const SimulateOptions options = options_of(arguments, progress);
+  Comparison c = kurbel::compare(scene, models, options);
+  if (arguments.no_trials) return present(output_of(c), arguments.study);
+  return present(output_of(with_trials(std::move(c), options)), arguments.study);
 }
 
 void set_up_run(CLI::App& command, int& code) {
@@ -164,7 +171,8 @@ const Verb run_verb{
      .arguments = "scene.toml",
      .help = "simulate a scene",
      .does = "simulates; prints figures with units and measured errors, writes `report.html`, `summary.json` and "
-             "`trajectory.csv` into `results/SCENE/run`",
+             "`trajectory.csv` into `results/SCENE/run`; short "
+             "runs try the effects that are off, and tell which would move a key figure",
      .set_up = set_up_run,
      .more = {
          "scene.toml --explain | what was merged, the coordinates and their inertias, and why",

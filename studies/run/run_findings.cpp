@@ -41,20 +41,6 @@ Rows figures_table(const Result& r, bool on_terminal) {
       "at [s]", [](F f) { return f.at ? with_error(*f.at, f.at_error, "") : std::string(); });
 }
 
-void add_key_figures(Findings& f, const Result& r) {
-  if (const Figure* peak = largest_peak(r)) f.figures.push_back(key_of(*peak, at_time(*peak), speed_unit_of(r)));
-  using enum QuantityKind;
-  for (const QuantityKind what : {delta, cycle_fluctuation, mid_speed, peak_force, run_up_time})
-    if (const Figure* figure = first_of(r, what)) f.figures.push_back(key_of(*figure, "", speed_unit_of(r)));
-  f.figures.push_back({"coordinates",
-                       static_cast<double>(r.coordinates),
-                       "",
-                       {},
-                       fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds),
-                       0,
-                       "coordinates"});
-}
-
 // --- two models ---
 
 // A row's figure of one model, as people read it.
@@ -113,35 +99,6 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
   }
 }
 
-void add_key_figures(Findings& f, const Comparison& c) {
-  const auto add = [&](const Figure* figure) {
-    if (!figure) return;
-    const Figure* other = c.a.find(figure->name);
-    const SpeedUnit speed = speed_unit_of(c.b);
-    std::string note;
-    if (other) {
-      const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
-      note = fmt::format(
-          "{}: {}{}", c.a.label,
-          with_error(factor * other->value, other->error ? std::optional(factor * *other->error) : std::nullopt, ""),
-          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
-    }
-    f.figures.push_back(key_of(*figure, note, speed));
-  };
-  for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
-    if (f.figures.size() < 3) add(c.b.find("peak_torque." + joint));
-  add(first_of(c.b, QuantityKind::delta));
-  add(first_of(c.b, QuantityKind::cycle_fluctuation));
-  add(first_of(c.b, QuantityKind::mid_speed));
-  f.figures.push_back({"processor time of a run",
-                       1e3 * c.b.statistics.cpu_seconds,
-                       "ms",
-                       {},
-                       fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
-                       3,
-                       "processor_time"});
-}
-
 // As it is told of a run alone.
 Record model_record(const Result& r) {
   Record record = {{"title", r.title}, {"scene", r.scene_file}, {"complete", r.complete}};
@@ -163,6 +120,53 @@ void judge_completion(Findings& f, const Comparison& c) {
 
 }  // namespace
 
+std::vector<KeyFigure> key_figures_of(const Result& r) {
+  std::vector<KeyFigure> figures;
+  if (const Figure* peak = largest_peak(r)) figures.push_back(key_of(*peak, at_time(*peak), speed_unit_of(r)));
+  using enum QuantityKind;
+  for (const QuantityKind what : {delta, cycle_fluctuation, mid_speed, peak_force, run_up_time})
+    if (const Figure* figure = first_of(r, what)) figures.push_back(key_of(*figure, "", speed_unit_of(r)));
+  figures.push_back({"coordinates",
+                     static_cast<double>(r.coordinates),
+                     "",
+                     {},
+                     fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds),
+                     0,
+                     "coordinates"});
+  return figures;
+}
+
+std::vector<KeyFigure> key_figures_of(const Comparison& c) {
+  std::vector<KeyFigure> figures;
+  const auto add = [&](const Figure* figure) {
+    if (!figure) return;
+    const Figure* other = c.a.find(figure->name);
+    const SpeedUnit speed = speed_unit_of(c.b);
+    std::string note;
+    if (other) {
+      const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
+      note = fmt::format(
+          "{}: {}{}", c.a.label,
+          with_error(factor * other->value, other->error ? std::optional(factor * *other->error) : std::nullopt, ""),
+          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
+    }
+    figures.push_back(key_of(*figure, note, speed));
+  };
+  for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
+    if (figures.size() < 3) add(c.b.find("peak_torque." + joint));
+  add(first_of(c.b, QuantityKind::delta));
+  add(first_of(c.b, QuantityKind::cycle_fluctuation));
+  add(first_of(c.b, QuantityKind::mid_speed));
+  figures.push_back({"processor time of a run",
+                     1e3 * c.b.statistics.cpu_seconds,
+                     "ms",
+                     {},
+                     fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
+                     3,
+                     "processor_time"});
+  return figures;
+}
+
 Findings findings_of(const Result& r) {
   Findings f{
       .title = r.title,
@@ -177,9 +181,11 @@ Findings findings_of(const Result& r) {
       .opening = Findings::Opening::title,
       .tells_conclusion = false,
       .footer = report_footer()};
-  add_key_figures(f, r);
+  f.figures = key_figures_of(r);
   show_motion(f, {&r});
-  const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
+  const Chapter figures = f.chapter("Figures");
+  f.chapter(chapter_of_trials);
+  const Chapter notes = f.chapter("Notes");
   f.say(figures, Sentences{.lines = model_words(r), .page = false});
   f.say(figures, figures_table(r, true));
   f.say(figures, Sentences{.lines = balance_words(r), .page = false});
@@ -207,9 +213,11 @@ Findings findings_of(const Comparison& c) {
              .tells_complete = false,
              .footer = report_footer()};
   judge_completion(f, c);
-  add_key_figures(f, c);
+  f.figures = key_figures_of(c);
   show_motion(f, results);
-  const Chapter figures = f.chapter("Figures"), notes = f.chapter("Notes");
+  const Chapter figures = f.chapter("Figures");
+  f.chapter(chapter_of_trials);
+  const Chapter notes = f.chapter("Notes");
   for (const Result* r : results) {
     f.say(figures, Sentences{.lines = model_words(*r), .page = false, .apart = r == &c.a});
     f.say(figures, Sentences{.lines = balance_words(*r), .page = false});

@@ -1,0 +1,189 @@
+// trials_findings.cpp — effects that are off, by what they would move.
+#include "studies/trials/trials_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "studies/findings/figure_text.h"
+#include "studies/run/run_findings.h"
+
+namespace kurbel {
+namespace {
+
+// A change as people read it.
+struct MovedFigure {
+  std::string effect, name, figure, off, on, change;
+};
+
+std::string words_of(const OffEffect& effect) {
+  return effect.gives_way.empty() ? effect.words : fmt::format("{} (in place of {})", effect.words, effect.gives_way);
+}
+
+// About four digits, and none behind the error.
+std::string in_short(double value, double error, const std::string& unit, const SpeedUnit& speed) {
+  const double factor = unit == "rad/s" ? speed.of(1) : 1, shown = factor * value;
+  const std::string text = figure_text(shown, std::max(std::abs(factor * error), 1e-3 * std::abs(shown))).value;
+  const std::string its = unit == "rad/s" ? speed.name : pretty_unit(unit);
+  return its.empty() ? text : text + " " + its;
+}
+
+std::string percent(double relative) {
+  const double size = std::abs(100 * relative);
+  return size >= 10  ? fmt::format("{:+.0f} %", 100 * relative)
+         : size >= 1 ? fmt::format("{:+.1f} %", 100 * relative)
+                     : fmt::format("{:+.1g} %", 100 * relative);
+}
+
+std::string change_in_words(const TrialChange& c) {
+  if (c.gone) return "none then";
+  if (c.change.from_nothing) return "from zero";
+  return c.relative > 9 ? fmt::format("{:.3g} ×", std::abs(c.change.without / c.change.full)) : percent(c.relative);
+}
+
+bool moves(const TrialChange& c) { return c.gone || c.change.told(); }
+bool worth_a_line(const TrialChange& c) {
+  return c.gone || (c.change.told() && c.change.relative > least_worth_a_line);
+}
+
+template <class Which>
+bool any(const Trial& trial, const Which& which) {
+  return std::any_of(trial.changes.begin(), trial.changes.end(), which);
+}
+
+std::string in_words(const FigureChange& change, const Trial& trial) {
+  const Figure* figure = trial.result.find(change.figure);
+  return figure ? in_words(*figure) : change.figure;
+}
+
+std::vector<MovedFigure> moved_by(const Trial& trial, const SpeedUnit& speed) {
+  std::vector<MovedFigure> list;
+  for (const TrialChange& c : trial.changes) {
+    if (!worth_a_line(c)) continue;
+    const double size = std::abs(c.change.full), error = c.change.error * size;
+    list.push_back({words_of(trial.effect), c.change.figure, in_words(c.change, trial),
+                    in_short(c.change.full, error, c.change.unit, speed),
+                    c.gone ? "—" : in_short(c.change.without, c.error_on.value_or(0), c.change.unit, speed),
+                    change_in_words(c)});
+  }
+  return list;
+}
+
+std::string one_line(const MovedFigure& moved) {
+  if (moved.on == "—") return fmt::format("{}: on, the run would have no {}", moved.effect, moved.figure);
+  return fmt::format("{}: on would move {} from {} to {} ({})", moved.effect, moved.figure, moved.off, moved.on,
+                     moved.change);
+}
+
+std::string listed_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : "; ") + word;
+  return text;
+}
+
+// What moves no key figure worth a line, what failed, what was not tried: by the reason.
+std::vector<std::string> other_words(const Trials& trials) {
+  std::vector<std::string> lines, slight, none;
+  for (const Trial& trial : trials.tried) {
+    if (!trial.failed.empty() || any(trial, worth_a_line)) continue;
+    (any(trial, moves) ? slight : none).push_back(words_of(trial.effect));
+  }
+  if (!slight.empty())
+    lines.push_back(
+        fmt::format("less than {:g} % in every key figure: {}", 100 * least_worth_a_line, listed_words(slight)));
+  if (!none.empty()) lines.push_back("no effect on the key figures: " + listed_words(none));
+  for (const Trial& trial : trials.tried)
+    if (!trial.failed.empty())
+      lines.push_back(fmt::format("{}: the trial failed: {}", words_of(trial.effect), trial.failed));
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+  for (const NotTried& n : trials.not_tried) {
+    if (reasons.empty() || reasons.back().first != n.because) reasons.push_back({n.because, {}});
+    reasons.back().second.push_back(n.words);
+  }
+  for (const auto& [because, words] : reasons)
+    lines.push_back(fmt::format("not tried: {} ({})", listed_words(words), because));
+  return lines;
+}
+
+Record trial_record(const Trial& trial) {
+  Record record = {{"effect", trial.effect.name}};
+  if (!trial.effect.gives_way.empty()) record.push_back({"in_place_of", trial.effect.gives_way});
+  if (!trial.failed.empty()) {
+    record.push_back({"failed", trial.failed});
+    return record;
+  }
+  record.push_back({"changes", each(trial.changes, [](const TrialChange& c) {
+                      Record change = {{"figure", c.change.figure}, {"unit", c.change.unit}, {"off", c.change.full}};
+                      if (c.gone) return change;
+                      change.push_back({"on", c.change.without});
+                      change.push_back({"change", c.relative});
+                      change.push_back({"error", c.change.error});
+                      return change;
+                    })});
+  return record;
+}
+
+Chapter chapter_of(Findings& f) {
+  const auto found = std::find(f.chapters.begin(), f.chapters.end(), chapter_of_trials);
+  return found == f.chapters.end() ? f.chapter(chapter_of_trials) : static_cast<Chapter>(found - f.chapters.begin());
+}
+
+void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
+  if (trials.tried.empty() && trials.not_tried.empty()) return;
+  const Chapter in = chapter_of(f);
+  f.say(in, Sentences{.lines = words_of(trials, speed),
+                      .heading = "effects that are off:",
+                      .indent = "  ",
+                      .page = false,
+                      .apart = true});
+  std::vector<MovedFigure> moved;
+  for (const Trial& trial : trials.tried)
+    for (MovedFigure& figure : moved_by(trial, speed)) moved.push_back(std::move(figure));
+  Rows table = table_of("", "Key figures with one effect more, a trial each (theory 14.1)", std::move(moved))
+                   .text_in(2)
+                   .explained_by(&MovedFigure::name)
+                   .not_on_terminal()
+                   .only_for_people("effect", &MovedFigure::effect)
+                   .only_for_people("key figure", &MovedFigure::figure)
+                   .only_for_people("off", &MovedFigure::off)
+                   .only_for_people("on", &MovedFigure::on)
+                   .only_for_people("change", &MovedFigure::change);
+  f.say(in, std::move(table));
+  f.say(in, Sentences{.lines = other_words(trials), .terminal = false});
+  f.tell("trials", Record{{"tried", each(trials.tried, trial_record)},
+                          {"not_tried", each(trials.not_tried, [](const NotTried& n) {
+                             return Record{{"effect", n.effect}, {"because", n.because}};
+                           })}});
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(const Trials& trials, const SpeedUnit& speed) {
+  std::vector<std::string> lines;
+  std::vector<const Trial*> moving;
+  for (const Trial& trial : trials.tried)
+    if (any(trial, worth_a_line)) moving.push_back(&trial);
+  const auto most = [](const Trial* t) {
+    return t->changes.front().gone ? HUGE_VAL : t->changes.front().change.sure();
+  };
+  std::stable_sort(moving.begin(), moving.end(), [&](const Trial* a, const Trial* b) { return most(a) > most(b); });
+  for (const Trial* trial : moving) lines.push_back(one_line(moved_by(*trial, speed).front()));
+  for (std::string& line : other_words(trials)) lines.push_back(std::move(line));
+  return lines;
+}
+
+Findings findings_of(const WithTrials<Result>& s) {
+  Findings f = findings_of(s.study);
+  show(f, s.trials, speed_unit_of(s.study));
+  return f;
+}
+
+Findings findings_of(const WithTrials<Comparison>& s) {
+  Findings f = findings_of(s.study);
+  show(f, s.trials, speed_unit_of(s.study.b));
+  return f;
+}
+
+}  // namespace kurbel
