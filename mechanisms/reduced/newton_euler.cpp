@@ -212,7 +212,8 @@ std::string words_on_unbounded_reactions(const MechanismData& data,
                                          const std::function<LinkageState(double phi)>& state_at) {
   constexpr double far = 1e-2, near = 1e-3, grown = 5;
   std::string places, forces;
-  for (const double phi : CrankCycle(data).change_points()) {
+  const CrankCycle cycle(data);
+  for (const double phi : cycle.change_points()) {
     const auto at = [&](double beside) {
       LinkageState state = state_at(phi);
       state.phi = phi + beside;
