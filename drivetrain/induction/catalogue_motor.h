@@ -15,6 +15,8 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "drivetrain/shared/torque_source.h"
@@ -51,7 +53,10 @@ inline Curve CataloguePoints::curve() const {
     speed.push_back(2 * synchronous_speed - p->speed);
     torque.push_back(-p->torque);
   }
-  return Curve(std::move(speed), std::move(torque), Curve::Form::smooth);
+  for (std::size_t i = 1; i < speed.size(); ++i)
+    if (!(speed[i] > speed[i - 1]))  // no jump is meant
+      throw std::invalid_argument("the first column must ascend; row " + std::to_string(i + 1) + " does not");
+  return Curve(speed, torque, Curve::Form::smooth);
 }
 
 struct CatalogueMotor {

@@ -105,6 +105,7 @@ class Preparation {
                                       is_name ? suggestion(named.text, names) : "",
                                       names.empty() ? "write it as [table.gas]" : shortened_list(names)));
       table.entries.erase(use);
+      table.computed = std::make_shared<const Computed>(Computed{.faulty = true});
       return;
     }
     used_ += count(found->value);

@@ -102,6 +102,7 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
     messages.add(value.at, fmt::format("{} = {}; must be {}", what, value.describe(), allowed));
     return false;
   };
+  if (value.computed && value.computed->faulty) return false;
   switch (key.type) {
     case KeyType::quantity:
       return read_quantity(value, key.unit, key.domain, what, messages, setting.number);

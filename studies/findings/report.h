@@ -77,7 +77,7 @@ struct Table {
   std::vector<std::string> means = {};  // per row, the definition of what it tells; none, or one each
 };
 
-struct Formula {
+struct FormulaCard {
   std::string title, symbols;  // "δ = (ω_max − ω_min)/ω_m"
   std::string numbers;         // the same with numbers put in, and the result
   std::string note = {};
@@ -157,7 +157,7 @@ struct GearView {
   double close_up = 0;                        // half the height of the enlarged view
 };
 
-using Card = std::variant<Plot, Table, Formula, Text, MachineView, GearView>;
+using Card = std::variant<Plot, Table, FormulaCard, Text, MachineView, GearView>;
 
 struct ReportSection {
   std::string title;

@@ -285,7 +285,7 @@ std::string csv_of(const ForceCycle& c) {
 
 // --- formulas ---
 
-Formula torque_formula(const Forces& f) {
+FormulaCard torque_formula(const Forces& f) {
   // With the numbers of the peak.
   const ForceCycle& c = front_of(f);
   const CyclePosition* const peak = &c.at_torque_peak;
@@ -306,7 +306,7 @@ Formula torque_formula(const Forces& f) {
               "power balance below."};
 }
 
-Formula mass_formula(const Forces& f) {
+FormulaCard mass_formula(const Forces& f) {
   const double share = f.data.rod_com / f.data.rod_length;
   return {.title = "Masses that rotate and that reciprocate (theory 9.11)",
           .symbols = "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
@@ -322,7 +322,8 @@ Formula mass_formula(const Forces& f) {
 
 void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
   if (c.efficiency)
-    to.show(in, Formula{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
+    to.show(in,
+            FormulaCard{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
                         .symbols = "η = A_useful / (A_in − ΔT)",
                         .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
                         .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", c.harmful,
@@ -335,10 +336,10 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
 void show_friction_circle(Findings& to, Chapter in, const char* name, const RevoluteJoint& j) {
   if (j.radius == 0) return;
   const double f_k = j.friction.kinetic;
-  to.show(in, Formula{.title = fmt::format("Friction circle of the {} (theory 8.4)", name),
-                      .symbols = "ρ = r sin(atan f)",
-                      .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
-                                             1e3 * friction_circle_radius(j.radius, f_k))});
+  to.show(in, FormulaCard{.title = fmt::format("Friction circle of the {} (theory 8.4)", name),
+                          .symbols = "ρ = r sin(atan f)",
+                          .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
+                                                 1e3 * friction_circle_radius(j.radius, f_k))});
 }
 
 // --- all of it ---

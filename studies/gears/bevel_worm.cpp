@@ -13,7 +13,7 @@ constexpr double mm = 1e3, degree = std::numbers::pi / 180;
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "∞"; }
 
-Findings made(std::string title, std::string conclusion, const Lines& lines, const Formula& formula) {
+Findings made(std::string title, std::string conclusion, const Lines& lines, const FormulaCard& formula) {
   Findings f{.title = "",
              .subtitle = "Basic relations (theory 6)",
              .page_title = title,
@@ -60,7 +60,7 @@ Findings findings_of(const BevelPair& b) {
        number(mm * b.reference_diameter(1)), "mm"},
       {"cone distance, outer end", "R_e", number(mm * b.cone_distance()), number(mm * b.cone_distance()), "mm"},
       {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)), ""}};
-  const Formula cones{
+  const FormulaCard cones{
       .title = "Pitch cones (theory 6.14)",
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
@@ -90,7 +90,7 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
                 {"efficiency, worm drives", "η", number(w.efficiency()), ""},
                 {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()), ""}};
   if (speed) rows.push_back({"sliding speed", "v_g", number(w.sliding_speed(std::abs(*speed))), "m/s"});
-  const Formula efficiency{
+  const FormulaCard efficiency{
       .title = "Efficiency in both directions (theory 6.15)",
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
       .numbers = fmt::format("γ = {:.4f}°, ρ′ = {:.4f}°:   η = {:.5f},   η′ = {:.5f}", w.lead_angle() / degree,

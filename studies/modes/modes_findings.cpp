@@ -331,7 +331,7 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
                          5, "largest_swing"});
 }
 
-Formula rayleigh(const ModesStudy& m) {
+FormulaCard rayleigh(const ModesStudy& m) {
   const Mode& first = m.modes.front();
   double potential = 0;
   for (std::size_t j = 0; j < m.drive.joints.size(); ++j)
@@ -344,7 +344,7 @@ Formula rayleigh(const ModesStudy& m) {
           .note = point_text(m) + "."};
 }
 
-Formula half_width(const ModesStudy& m) {
+FormulaCard half_width(const ModesStudy& m) {
   const ParametricZone& z = m.zones.back();
   const double zeta = m.modes[at(z.mode - 1)].ratio;
   return {.title = "Half width of a zone (theory 12.8)",

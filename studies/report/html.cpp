@@ -180,7 +180,7 @@ void write(Writer& w, const Table& table) {
   if (!table.means.empty()) w.field("means", table.means);
 }
 
-void write(Writer& w, const Formula& formula) {
+void write(Writer& w, const FormulaCard& formula) {
   w.field("kind", "formula");
   w.field("title", formula.title);
   w.field("symbols", formula.symbols);

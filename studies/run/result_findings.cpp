@@ -265,7 +265,8 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
     const SpeedUnit speed = speed_unit_of(*r);
     const bool repeats = delta->what == QuantityKind::delta;
     const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
-    f.show(in, Formula{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
+    f.show(in,
+           FormulaCard{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
                        .symbols = symbol + " = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
                        .numbers = fmt::format("{} = ({:.5g} − {:.5g}) {} / {} = {}", symbol, speed.of(cycle->omega_max),
                                               speed.of(cycle->omega_min), pretty_unit(speed.name),

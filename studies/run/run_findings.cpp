@@ -90,8 +90,8 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
     const std::string& joint = row.of;
     const Figure *a = c.a.find(QuantityKind::peak_torque, joint), *b = c.b.find(QuantityKind::peak_torque, joint);
     if (!a || !b || !row.b) continue;
-    f.show(in,
-           Formula{.title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
+    f.show(in, FormulaCard{
+                   .title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
                    .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
                    .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
                                           figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),

@@ -337,8 +337,8 @@ void add_key_figures(Findings& f, const Sizing& s) {
         {"mass", s.dimensions->mass, "kg", s.mass_error, s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
-void show_all(Findings& f, Chapter in, const std::vector<Formula>& formulas) {
-  for (const Formula& formula : formulas) f.show(in, formula);
+void show_all(Findings& f, Chapter in, const std::vector<FormulaCard>& formulas) {
+  for (const FormulaCard& formula : formulas) f.show(in, formula);
 }
 
 void say_notes(Findings& f, Chapter in, const Sizing& s) {

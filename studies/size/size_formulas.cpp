@@ -21,37 +21,37 @@ std::string basis_of(const Sizing& s) {
   return s.engine ? "at torques of the angle alone" : "at constant driving torque";
 }
 
-std::vector<Formula> cycle_formulas(const Sizing& s) {
-  std::vector<Formula> list;
+std::vector<FormulaCard> cycle_formulas(const Sizing& s) {
+  std::vector<FormulaCard> list;
   const WorkDiagram& d = s.diagram;
   const double cycle = d.excess.length();
   list.push_back(
-      Formula{.title = "Driving torque from the balance of work (theory 2.3)",
-              .symbols = s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ",
-              .numbers = fmt::format("M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m", d.work, cycle, d.mean_torque())});
-  list.push_back(Formula{
+      FormulaCard{.title = "Driving torque from the balance of work (theory 2.3)",
+                  .symbols = s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ",
+                  .numbers = fmt::format("M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m", d.work, cycle, d.mean_torque())});
+  list.push_back(FormulaCard{
       .title = "Greatest fluctuation of energy (theory 3.4)",
       .symbols = "ΔA_max = max ΔT − min ΔT",
       .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
       .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * degrees, d.least.x * degrees)});
   const double fastest = s.mid_speed * (1 + s.delta / 2), slowest = s.mid_speed * (1 - s.delta / 2);
-  list.push_back(Formula{.title = "Limits of the speed (theory 2.6)",
-                         .symbols = "ω_max, ω_min = ω_mid (1 ± δ/2)",
-                         .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s", s.mid_speed,
-                                                s.delta, fastest, slowest)});
+  list.push_back(FormulaCard{.title = "Limits of the speed (theory 2.6)",
+                             .symbols = "ω_max, ω_min = ω_mid (1 ± δ/2)",
+                             .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s",
+                                                    s.mid_speed, s.delta, fastest, slowest)});
   return list;
 }
 
-std::vector<Formula> method_formulas(const Sizing& s) {
-  std::vector<Formula> list;
+std::vector<FormulaCard> method_formulas(const Sizing& s) {
+  std::vector<FormulaCard> list;
   const Tangent &u = s.exact.upper, &l = s.exact.lower;
   list.push_back(
-      Formula{.title = "Wittenbauer (theory 3.2)",
-              .symbols = "I₀ = [max(ΔT − a I_em) − min(ΔT − b I_em)] / (a − b),   a = ½ ω_max²,  b = ½ ω_min²",
-              .numbers = fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.7g} − {:.7g}) s⁻² = {:.7g} kg·m²", u.intercept(),
-                                     l.intercept(), u.slope, l.slope, s.exact.inertia),
-              .note = "Exact for torques of the angle alone."});
-  list.push_back(Formula{
+      FormulaCard{.title = "Wittenbauer (theory 3.2)",
+                  .symbols = "I₀ = [max(ΔT − a I_em) − min(ΔT − b I_em)] / (a − b),   a = ½ ω_max²,  b = ½ ω_min²",
+                  .numbers = fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.7g} − {:.7g}) s⁻² = {:.7g} kg·m²",
+                                         u.intercept(), l.intercept(), u.slope, l.slope, s.exact.inertia),
+                  .note = "Exact for torques of the angle alone."});
+  list.push_back(FormulaCard{
       .title = "Mertsalov (theory 3.3)",
       .symbols = "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mid² δ),   ΔT₁ = ΔT − ½ ω_mid² I_em",
       .numbers =
@@ -59,7 +59,7 @@ std::vector<Formula> method_formulas(const Sizing& s) {
                       s.approximate.least.value, s.mid_speed, s.delta, s.approximate.inertia),
       .note = fmt::format("{:+.3g} % against the exact value.", 100 * (s.approximate.inertia / s.exact.inertia - 1))});
   const SizeMethod& neglecting = s.methods[2];
-  list.push_back(Formula{
+  list.push_back(FormulaCard{
       .title = "Neglecting I_em (theory 3.4)",
       .symbols = "I₀ = ΔA_max/(ω_mid² δ)",
       .numbers = fmt::format("I₀ = {:.6g} J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.diagram.fluctuation(),
@@ -69,25 +69,26 @@ std::vector<Formula> method_formulas(const Sizing& s) {
   return list;
 }
 
-std::vector<Formula> flywheel_formulas(const Sizing& s) {
-  std::vector<Formula> list;
+std::vector<FormulaCard> flywheel_formulas(const Sizing& s) {
+  std::vector<FormulaCard> list;
   const SizeMethod& exact = s.methods.front();
   const double on_shaft = exact.drive_inertia / (s.flywheel_ratio * s.flywheel_ratio);
   if (s.flywheel_ratio != 1)
-    list.push_back(Formula{.title = fmt::format("On the shaft of {}", s.flywheel),
-                           .symbols = "I_drive = I₀ / i²",
-                           .numbers = fmt::format("I_drive = {:.7g} / {:.6g}² = {:.7g} kg·m²", exact.drive_inertia,
-                                                  s.flywheel_ratio, on_shaft)});
-  list.push_back(Formula{.title = "Flywheel with the scene's own inertias",
-                         .symbols = "I_fly = I_drive − I_motor − I_gearbox − I_others",
-                         .numbers = fmt::format("I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
-                                                s.motor_inertia, s.gearbox_inertia, s.other_inertia, exact.flywheel)});
-  list.push_back(Formula{.title = "The same by the customary allowance for couplings (theory 3.1)",
-                         .symbols = "I_fly = I_drive − 1.1 I_motor − I_gearbox",
-                         .numbers = fmt::format("I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
-                                                s.motor_inertia, s.gearbox_inertia, exact.flywheel_by_parts)});
+    list.push_back(FormulaCard{.title = fmt::format("On the shaft of {}", s.flywheel),
+                               .symbols = "I_drive = I₀ / i²",
+                               .numbers = fmt::format("I_drive = {:.7g} / {:.6g}² = {:.7g} kg·m²", exact.drive_inertia,
+                                                      s.flywheel_ratio, on_shaft)});
+  list.push_back(
+      FormulaCard{.title = "Flywheel with the scene's own inertias",
+                  .symbols = "I_fly = I_drive − I_motor − I_gearbox − I_others",
+                  .numbers = fmt::format("I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
+                                         s.motor_inertia, s.gearbox_inertia, s.other_inertia, exact.flywheel)});
+  list.push_back(FormulaCard{.title = "The same by the customary allowance for couplings (theory 3.1)",
+                             .symbols = "I_fly = I_drive − 1.1 I_motor − I_gearbox",
+                             .numbers = fmt::format("I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
+                                                    s.motor_inertia, s.gearbox_inertia, exact.flywheel_by_parts)});
   if (s.punch)
-    list.push_back(Formula{
+    list.push_back(FormulaCard{
         .title = "Punch-press form (theory 3.5)",
         .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = E/t_c",
         .numbers = fmt::format("ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W",
@@ -97,27 +98,27 @@ std::vector<Formula> flywheel_formulas(const Sizing& s) {
   return list;
 }
 
-std::vector<Formula> dimension_formulas(const FlywheelDimensions& d) {
-  std::vector<Formula> list;
+std::vector<FormulaCard> dimension_formulas(const FlywheelDimensions& d) {
+  std::vector<FormulaCard> list;
   const double fastest = 2 * d.rim_speed / d.diameter;
-  list.push_back(
-      Formula{.title = "Rim speed",
-              .symbols = "v = ω_max D/2",
-              .numbers = fmt::format("v = {:.5g} rad/s · {:.5g} m / 2 = {:.5g} m/s", fastest, d.diameter, d.rim_speed),
-              .note = fmt::format("Limit {:.4g} m/s{}.", d.rim_speed_limit, d.within_limit ? "" : ": exceeded")});
+  list.push_back(FormulaCard{
+      .title = "Rim speed",
+      .symbols = "v = ω_max D/2",
+      .numbers = fmt::format("v = {:.5g} rad/s · {:.5g} m / 2 = {:.5g} m/s", fastest, d.diameter, d.rim_speed),
+      .note = fmt::format("Limit {:.4g} m/s{}.", d.rim_speed_limit, d.within_limit ? "" : ": exceeded")});
   if (d.form == FlywheelForm::disc) {
     list.push_back(
-        Formula{.title = "Mass of the disc",
-                .symbols = "m = 8 I/D²",
-                .numbers = fmt::format("m = 8 · {:.6g} / {:.5g}² = {:.6g} kg", d.inertia, d.diameter, d.mass)});
+        FormulaCard{.title = "Mass of the disc",
+                    .symbols = "m = 8 I/D²",
+                    .numbers = fmt::format("m = 8 · {:.6g} / {:.5g}² = {:.6g} kg", d.inertia, d.diameter, d.mass)});
     list.push_back(
-        Formula{.title = "Stress at the centre (theory 3.7)",
-                .symbols = "σ = (3 + ν)/8 · ρ v²",
-                .numbers = fmt::format("σ = (3 + {:g})/8 · {:g} kg/m³ · ({:.5g} m/s)² = {:.4g} MPa", d.material.poisson,
-                                       d.material.density, d.rim_speed, d.stress / 1e6)});
+        FormulaCard{.title = "Stress at the centre (theory 3.7)",
+                    .symbols = "σ = (3 + ν)/8 · ρ v²",
+                    .numbers = fmt::format("σ = (3 + {:g})/8 · {:g} kg/m³ · ({:.5g} m/s)² = {:.4g} MPa",
+                                           d.material.poisson, d.material.density, d.rim_speed, d.stress / 1e6)});
   } else {
     const double radius = 0.5 * (d.diameter - d.thickness);
-    list.push_back(Formula{
+    list.push_back(FormulaCard{
         .title = "Inertia of the rim",
         .symbols = "I_rim = (π/32) ρ b (D⁴ − (D − 2h)⁴)",
         .numbers =
@@ -125,24 +126,24 @@ std::vector<Formula> dimension_formulas(const FlywheelDimensions& d) {
                         d.breadth, d.diameter, d.diameter - 2 * d.thickness, d.rim_share * d.inertia),
         .note = fmt::format("{:.3g} % of the whole; spokes and hub bring the rest.", 100 * d.rim_share)});
     list.push_back(
-        Formula{.title = "Stress of the rim, with bending between the spokes (theory 3.7)",
-                .symbols = "σ = ρ v_m² (0.75 + 4.935 R_m/(n² h))",
-                .numbers = fmt::format("σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa",
-                                       d.stress / 1e6, radius, flywheel_spokes, d.thickness, d.spoked_stress / 1e6),
-                .note = "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of "
-                        "clamped bending."});
+        FormulaCard{.title = "Stress of the rim, with bending between the spokes (theory 3.7)",
+                    .symbols = "σ = ρ v_m² (0.75 + 4.935 R_m/(n² h))",
+                    .numbers = fmt::format("σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa",
+                                           d.stress / 1e6, radius, flywheel_spokes, d.thickness, d.spoked_stress / 1e6),
+                    .note = "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of "
+                            "clamped bending."});
   }
-  list.push_back(Formula{
+  list.push_back(FormulaCard{
       .title = "Energy stored",
       .symbols = "T = ½ I ω_max²",
       .numbers = fmt::format("T = ½ · {:.6g} · {:.5g}² = {}", d.inertia, fastest, with_unit(d.energy, "J", 5))});
   return list;
 }
 
-std::vector<Formula> motor_formulas(const Sizing& s) {
-  std::vector<Formula> list;
+std::vector<FormulaCard> motor_formulas(const Sizing& s) {
+  std::vector<FormulaCard> list;
   if (s.with_motor && s.with_motor->found)
-    list.push_back(Formula{
+    list.push_back(FormulaCard{
         .title = s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
                                               : "The drive does not give way: what holds the speed is the load",
         .symbols = "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
@@ -153,16 +154,16 @@ std::vector<Formula> motor_formulas(const Sizing& s) {
             "{:.3g} of itself within a cycle.",
             s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier)});
   if (s.soft)
-    list.push_back(
-        Formula{.title = "Inertia that gives δ with these torques",
-                .symbols = "δ(I₀) = δ",
-                .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
-                                       s.soft->drive_inertia, s.soft->flywheel,
-                                       std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
-                                       s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
-                .note = s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
-                                                                          s.speed_unit.text(s.soft_cycle->mid_speed()))
-                                                            : ""});
+    list.push_back(FormulaCard{
+        .title = "Inertia that gives δ with these torques",
+        .symbols = "δ(I₀) = δ",
+        .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
+                               s.soft->drive_inertia, s.soft->flywheel,
+                               std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
+                               s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
+        .note = s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
+                                                                  s.speed_unit.text(s.soft_cycle->mid_speed()))
+                                                    : ""});
   return list;
 }
 
