@@ -14,9 +14,9 @@
 namespace kurbel {
 namespace {
 
-constexpr double apart = 0.05;       // of the speed, of two checks
-constexpr double least_use = 0.01;   // of what a joint may bear
-constexpr double most_seconds = 5;   // of processor time, of all checks together
+constexpr double apart = 0.05;      // of the speed, of two checks
+constexpr double least_use = 0.01;  // of what a joint may bear
+constexpr double most_seconds = 5;  // of processor time, of all checks together
 
 struct Candidate {
   double speed = 0, use = 0;
@@ -105,6 +105,7 @@ void check_spots(const HeldMachine& machine, const std::function<LinearDrive(dou
   if (options.spot_checks > 0)
     for (const Candidate& c : choose(found, options.barred_factor, static_cast<std::size_t>(options.spot_checks)))
       found.spots.push_back({.speed = c.speed, .share = c.use, .joint = c.joint});
+  auto left = static_cast<double>(found.spots.size());
   for (SpotCheck& spot : found.spots) {
     if (options.watch.stopped()) {
       spot.why = "interrupted";
@@ -112,8 +113,8 @@ void check_spots(const HeldMachine& machine, const std::function<LinearDrive(dou
     }
     options.watch.at("spot checks", 0.85);
     look_at(machine, drive_at(spot.speed),
-            {.seconds = most_seconds - (processor_time() - begin), .interrupted = options.watch.interrupted}, found,
-            spot);
+            {.seconds = (most_seconds - (processor_time() - begin)) / left--, .interrupted = options.watch.interrupted},
+            found, spot);
   }
   std::erase_if(found.spots, [](const SpotCheck& spot) { return spot.linear.joints.empty(); });
   std::sort(found.spots.begin(), found.spots.end(),

@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 
 constexpr double map_tolerance = 1e-11, enough = 1e-10;     // residual of the map, over the rated values
 constexpr double beside_by = 1e-5;                          // of unknowns of order one, for differences
-constexpr double most_derivatives = 40;                     // rounds with derivative that a search may take
-constexpr double first_part = 0.25, least_part = 1.0 / 64;  // of the way between two speeds
+constexpr double most_derivatives = 25;                     // rounds with derivative that a search may take
+constexpr double first_part = 0.25, least_part = 1.0 / 32;  // of the way between two speeds
 constexpr std::size_t samples = 4096;                       // of a round
 
 // A constant torque; it sets no scale, so that all members of a search are measured alike.
@@ -219,7 +219,7 @@ class Search {
     return {.tolerance = map_tolerance,
             .method = machine_.scene.run.method == "work" ? "auto" : machine_.scene.run.method,
             .cycles = 1,
-            .budget = options_.seconds,
+            .budget = 10 * options_.seconds,  // the deadline comes first
             .interrupted = options_.interrupted};
   }
   // The same modes, with the holding torques among the elements.
@@ -309,7 +309,8 @@ class Search {
     image_ = map.image(x.head(n), with_derivative && by_link_, {&mean});
     cost_ += map.cost();
     if (image_.end != ReturnMap::End::returned) {
-      broken_ = image_.why;
+      Deadline::check();  // which a round ends by, too
+      if (image_.end != ReturnMap::End::failed) broken_ = image_.why;
       return false;
     }
     residual.resize(n + k);
