@@ -51,7 +51,8 @@ CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
 
 void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   Deadline::check();
-  const CyclePosition p = at(where.phi, motion);
+  CyclePosition p = at(where.place(), motion);
+  p.state.phi = where.phi;
   if (where.row) cycle_.rows.push_back(p);
   if (where.grid) cycle_.positions.push_back(p);
   if (where.row && !where.grid) return;
@@ -59,7 +60,7 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   if (where.weight == 0) return;
   // dA = M dφ, in the sense of the motion.
   const double dt = where.weight / std::abs(motion.omega);
-  const auto share = loads_.shares(where.phi, motion.omega);
+  const auto share = loads_.shares(where.place(), motion.omega);
   std::size_t k = 0;
   const auto account = [&](double power) {
     cycle_.work[k].work += power * dt;

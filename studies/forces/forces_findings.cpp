@@ -239,6 +239,7 @@ Record cycle_record(const ForceCycle& c) {
   tell("kinetic_change", c.kinetic_change);
   tell("power_residual", c.power_residual);
   tell("friction_residual", c.friction_residual);
+  tell("machine_residual", c.machine_residual);
   tell("positions_on_both_edges", c.both_edges);
   tell("harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
                            {"shaking_force_across", order_list(c.shaking_y)},

@@ -59,17 +59,18 @@ struct LinkageCycle {
   LinkageFigure torque, shaking_force, shaking_moment;
   std::vector<LinkOfCycle> links;
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
-  MeanFigure torque_mean;        // over the angle [N·m]
-  std::vector<CycleWork> work;   // by account: loads, weight, the balancing torque
-  double kinetic_change = 0;     // over the cycle [J]
-  double power_residual = 0;     // largest, of the powers' balance at a position
-  double equation_residual = 0;  // largest, of the links' equilibrium
+  MeanFigure torque_mean;                  // over the angle [N·m]
+  std::vector<CycleWork> work;             // by account: loads, weight, the balancing torque
+  double kinetic_change = 0;               // over the cycle [J]
+  double power_residual = 0;               // largest, of the powers' balance at a position
+  double equation_residual = 0;            // largest, of the links' equilibrium
+  std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
 };
 
 // Along one motion. Throws std::runtime_error where the mechanism has no finite reactions.
 LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion);
-// Adds to each error of `tight` its difference to `loose`.
-void add_errors(const LinkageCycle& loose, LinkageCycle& tight);
+// To each error `times` the difference between the two.
+void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle);
 
 // A scene's mechanism.
 struct LinkageStudy {

@@ -201,6 +201,7 @@ Record cycle_record(const LinkageCycle& c) {
           {"kinetic_change", c.kinetic_change},
           {"power_residual", c.power_residual},
           {"equation_residual", c.equation_residual},
+          {"machine_residual", c.machine_residual},
           {"harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
                                {"shaking_force_across", order_list(c.shaking_y)},
                                {"shaking_moment", order_list(c.shaking_couple)},
