@@ -393,10 +393,11 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   if (std::isfinite(to_come)) motion.others.push_back({sped_up(along, std::copysign(to_come, closure)), 1});
   if (before) {
     // Changes that do not shrink go on as they grew, from the middle of the last two cycles to that of the next two.
+    constexpr double most_grown = 100;  // from next to no change at all nothing can be told
     const double grew = std::abs(closure / closure_of(*before));
     const double times = closure == 0             ? 1
                          : std::isfinite(to_come) ? std::max(1.0, to_come / std::abs(closure))
-                                                  : std::max(1.0, grew * grew);
+                                                  : std::clamp(grew * grew, 1.0, most_grown);
     motion.others.push_back({std::move(*before), times});
   }
   motion.description =
