@@ -124,6 +124,22 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
 
 // --- peaks ---
 
+SpeedRange speed_range(const std::vector<MotionSample>& samples) {
+  const auto with_step = [&](std::size_t step) {
+    SpeedRange range{HUGE_VAL, -HUGE_VAL, 0};
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+      range.least = std::min(range.least, samples[i].motion.omega);
+      range.greatest = std::max(range.greatest, samples[i].motion.omega);
+    }
+    return range;
+  };
+  SpeedRange fine = with_step(1);
+  const SpeedRange wide = with_step(2);
+  fine.error = std::max(wide.least - fine.least, fine.greatest - wide.greatest) +
+               rounding_of_forces * std::max(std::abs(fine.least), std::abs(fine.greatest));
+  return fine;
+}
+
 Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
              const std::function<double(double)>& value) {
   constexpr double same_peak = 1e-9;  // of its value

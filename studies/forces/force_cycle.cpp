@@ -113,10 +113,10 @@ void CycleBuilder::find_extremes() {
   cycle_.shaking_moment = largest([](const CyclePosition& p) { return p.forces.shaking_moment; });
   call_rounding_zero();
   cycle_.at_torque_peak = at(cycle_.torque.phi);
-  cycle_.least_speed = cycle_.greatest_speed = samples_.front().state.omega;
+  const SpeedRange speeds = speed_range(motion_);
+  cycle_.least_speed = speeds.least, cycle_.greatest_speed = speeds.greatest, cycle_.speed_error = speeds.error;
+  cycle_.closure_error = 2 * rounding_of_forces;
   for (const CyclePosition& p : samples_) {
-    cycle_.least_speed = std::min(cycle_.least_speed, p.state.omega);
-    cycle_.greatest_speed = std::max(cycle_.greatest_speed, p.state.omega);
     cycle_.friction_residual = std::max(cycle_.friction_residual, p.forces.residual);
     cycle_.most_iterations = std::max(cycle_.most_iterations, p.forces.iterations);
   }
@@ -235,6 +235,7 @@ void judge_works(ForceCycle& c) {
     if (w.work < 0) (w.kind == "harmful" ? c.harmful : c.useful) -= w.work;
   }
   uncertain += nothing_left * largest;
+  c.work_error = uncertain;
   c.spent = std::abs(c.kinetic_change) <= steady * c.input ? c.input : c.input - c.kinetic_change;
   c.no_efficiency = why_no_efficiency(c, c.spent, uncertain);
   if (!c.no_efficiency.empty()) return;
@@ -243,7 +244,7 @@ void judge_works(ForceCycle& c) {
     c.no_efficiency = fmt::format("the works do not balance: {} come out of {}", with_unit(c.useful, "J", 4),
                                   with_unit(c.spent, "J", 4));
   else
-    c.efficiency = std::min(1.0, ratio);
+    c.efficiency = std::min(1.0, ratio), c.efficiency_error = (1 + ratio) * uncertain / c.spent;
 }
 
 }  // namespace kurbel

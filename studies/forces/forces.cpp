@@ -51,6 +51,12 @@ void add_errors(const ForceCycle& other, double times, ForceCycle& cycle) {
     cycle.work[k].error += apart(other.work[k].work, cycle.work[k].work);
   cycle.torque_mean_error += apart(other.torque_mean, cycle.torque_mean);
   cycle.mean_speed_error += apart(other.mean_speed, cycle.mean_speed);
+  cycle.speed_error +=
+      std::max(apart(other.least_speed, cycle.least_speed), apart(other.greatest_speed, cycle.greatest_speed));
+  cycle.closure_error += apart(other.closure, cycle.closure);
+  cycle.work_error += std::max(
+      {apart(other.input, cycle.input), apart(other.useful, cycle.useful), apart(other.harmful, cycle.harmful)});
+  if (cycle.efficiency && other.efficiency) cycle.efficiency_error += apart(*other.efficiency, *cycle.efficiency);
   cycle.kinetic_error += apart(other.kinetic_change, cycle.kinetic_change);
 }
 

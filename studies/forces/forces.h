@@ -90,17 +90,19 @@ struct ForceCycle {
   int both_edges = 0;  // positions where both edges bear
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
   double torque_mean = 0, torque_mean_error = 0;  // [N·m]
-  double mean_speed_error = 0;                    // [rad/s]
-  std::vector<CycleWork> work;                    // by account: crank, loads, weight, friction of each joint
-  double kinetic_change = 0, kinetic_most = 0;    // of the mechanism over the cycle, greatest [J]
-  double kinetic_error = 0;                       // of the change, as that of a work [J]
-  double input = 0, useful = 0, harmful = 0;      // work that goes in, comes out usefully, is lost [J], ≥ 0
-  double spent = 0;                               // input less what the motion stores [J]
-  std::optional<double> efficiency;               // useful/spent, where works beyond their errors make one: 0 … 1
-  std::string no_efficiency;                      // else why
-  double power_residual = 0;                      // largest
-  double friction_residual = 0;                   // largest, of the friction laws
-  std::optional<double> machine_residual;         // of the torque, from the compiled machine's own, over the largest
+  double mean_speed_error = 0, speed_error = 0;   // the latter of the least and the greatest [rad/s]
+  double closure_error = 0;
+  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
+  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
+  double kinetic_error = 0;                     // of the change, as that of a work [J]
+  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                             // input less what the motion stores [J]
+  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
+  double work_error = 0, efficiency_error = 0;  // of input, useful, harmful work [J]; of the efficiency
+  std::string no_efficiency;                    // else why
+  double power_residual = 0;                    // largest
+  double friction_residual = 0;                 // largest, of the friction laws
+  std::optional<double> machine_residual;       // of the torque, from the compiled machine's own, over the largest
   int most_iterations = 0;
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "engine/model/model.h"
 #include "engine/numerics/deadline.h"
@@ -125,11 +127,9 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
 void Builder::find_speeds() {
   cycle_.mean_speed = {along_.mean_speed(), rounding_of_forces * std::abs(along_.mean_speed())};
   cycle_.closure = (along_.motion.back().omega - along_.motion.front().omega) / cycle_.mean_speed.value;
-  cycle_.least_speed = cycle_.greatest_speed = along_.motion.front().omega;
-  for (const LinkagePosition& p : samples_) {
-    cycle_.least_speed = std::min(cycle_.least_speed, p.forces.state.omega);
-    cycle_.greatest_speed = std::max(cycle_.greatest_speed, p.forces.state.omega);
-  }
+  cycle_.closure_error = 2 * rounding_of_forces;
+  const SpeedRange speeds = speed_range(motion_);
+  cycle_.least_speed = speeds.least, cycle_.greatest_speed = speeds.greatest, cycle_.speed_error = speeds.error;
 }
 
 void Builder::find_scales() {
@@ -200,12 +200,18 @@ void Builder::find_links() {
     out.inertia_share = share(out.reduced_inertia, inertia);
     out.energy = mean([&](P p) { return link(p).kinetic_energy; }, time);
     out.energy_share = share(out.energy, energy);
-    out.least_share = 1;
-    for (P p : cycle_.positions) {
-      const double here = p.forces.reduced_inertia > 0 ? link(p).reduced_inertia / p.forces.reduced_inertia : 0;
-      out.least_share = std::min(out.least_share, here);
-      out.greatest_share = std::max(out.greatest_share, here);
-    }
+    const auto shares = [&](std::size_t step) {
+      std::pair<double, double> range{1, 0};
+      for (std::size_t i = 0; i < cycle_.positions.size(); i += step) {
+        P p = cycle_.positions[i];
+        const double here = p.forces.reduced_inertia > 0 ? link(p).reduced_inertia / p.forces.reduced_inertia : 0;
+        range = {std::min(range.first, here), std::max(range.second, here)};
+      }
+      return range;
+    };
+    std::tie(out.least_share, out.greatest_share) = shares(1);
+    const auto [least, greatest] = shares(2);
+    out.share_error = std::max(least - out.least_share, out.greatest_share - greatest) + rounding_of_forces;
     cycle_.links.push_back(std::move(out));
   }
 }
@@ -244,6 +250,7 @@ void Builder::balance() {
       cycle_.equation_residual = std::max(cycle_.equation_residual, p.forces.residual);
     }
   for (const CycleWork& w : cycle_.work) left += w.work;
+  cycle_.kinetic_error = std::abs(left) + rounding_of_forces * std::abs(cycle_.positions.front().forces.kinetic_energy);
   for (CycleWork& w : cycle_.work) {
     w.error = std::abs(left) + rounding_of_forces * w.turnover;
     if (std::abs(w.work) <= rounding_of_forces * w.turnover) w.work = 0;
@@ -297,6 +304,11 @@ void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle) {
                       &LinkageCycle::torque_orders})
     for (std::size_t k = 0; k < (cycle.*orders).size(); ++k)
       (cycle.*orders)[k].error += times * std::abs((cycle.*orders)[k].amplitude - (other.*orders)[k].amplitude);
+  const auto apart = [times](double a, double b) { return times * std::abs(a - b); };
+  cycle.speed_error +=
+      std::max(apart(other.least_speed, cycle.least_speed), apart(other.greatest_speed, cycle.greatest_speed));
+  cycle.closure_error += apart(other.closure, cycle.closure);
+  cycle.kinetic_error += apart(other.kinetic_change, cycle.kinetic_change);
   add_difference(other.mean_speed, times, cycle.mean_speed);
   add_difference(other.torque_mean, times, cycle.torque_mean);
   for (std::size_t k = 0; k < cycle.work.size(); ++k)
