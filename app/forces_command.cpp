@@ -15,7 +15,7 @@ namespace {
 
 struct ForcesArguments {
   StudyOptions study;
-  std::string speed, mechanism;
+  std::string speed, mechanism, effects;
   int positions = 12;
   bool no_run = false;
 };
@@ -27,6 +27,7 @@ int forces(const ForcesArguments& arguments) {
   options.positions = arguments.positions;
   options.mechanism = arguments.mechanism;
   options.simulate = !arguments.no_run;
+  if (!arguments.effects.empty()) options.effects = parse_effects(arguments.effects, scene);
   if (!arguments.speed.empty())
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
@@ -45,6 +46,9 @@ void set_up(CLI::App& command, int& code) {
   command.add_option(
       "--mechanism", arguments->mechanism,
       "which slider-crank, four-bar, quick-return, inverted slider-crank or knuckle press (default: the first)");
+  command.add_option("--effects", arguments->effects,
+                     "of the machine in the second problem: none, all, or as in [effects] (default: the scene's, with "
+                     "friction in the joints where they have any)");
   command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
   command.callback([&code, arguments] { code = forces(*arguments); });
 }

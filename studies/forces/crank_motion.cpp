@@ -1,4 +1,4 @@
-// crank_motion.cpp — the cycle's abscissae, loads on the output, the machine's motion past them, peaks between them.
+// crank_motion.cpp — the cycle's abscissae, loads on the output, peaks and motion between abscissae.
 #include "studies/forces/crank_motion.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,6 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/steady/steady_simulation.h"
 
 namespace kurbel {
 namespace {
@@ -30,7 +29,7 @@ const std::vector<std::string>& mechanism_kinds() {
   return kinds;
 }
 
-std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component) {
+std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component, const Effects& effects) {
   const Network whole = build_network(scene);
   Network network;
   const int node = network.add_node(component, "", 1);  // kg·m²; forces do not see it
@@ -39,43 +38,8 @@ std::shared_ptr<const Model> alone(const Scene& scene, const std::string& compon
   network.put(node, component, mechanism_element(whole, component).element, {}, 0);
   Scene bare;
   bare.file = scene.file;
-  return compile_network(std::move(network), bare, rigid_effects());
+  return compile_network(std::move(network), bare, bare_machine(effects));
 }
-
-// Motion of the crank when it comes past given angles.
-class PassageRecorder final : public Observer {
- public:
-  PassageRecorder(std::size_t tracked, int node, std::vector<double> targets, int direction)
-      : tracked_(tracked), node_(node), targets_(std::move(targets)), direction_(direction) {}
-  void step(StepView& view) override {
-    Equations& equations = view.equations();
-    const Model& m = equations.model();
-    const int shaft = m.shaft_of_node[index(node_)];
-    const double gain = m.gain_of_node[index(node_)];
-    const auto beyond = [&](double t) {
-      return direction_ * (equations.angle_with_turns(tracked_, view.at(t)) - targets_[passed_.size()]);
-    };
-    // Each within the whole step, so that no target moves for those asked for beside it.
-    const double from = view.t_previous();
-    while (passed_.size() < targets_.size()) {
-      Deadline::check();
-      const double at_end = beyond(view.t());
-      if (at_end < 0) return;
-      const double at_begin = beyond(from);
-      const double time = at_begin < 0 ? find_root(beyond, from, at_begin, view.t(), at_end) : from;
-      const Snapshot& s = view.snapshot(time);
-      passed_.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft]});
-    }
-  }
-  const std::vector<CrankMotion>& passed() const { return passed_; }
-
- private:
-  std::size_t tracked_;
-  int node_;
-  std::vector<double> targets_;
-  int direction_;
-  std::vector<CrankMotion> passed_;
-};
 
 }  // namespace
 
@@ -87,7 +51,8 @@ const Network::ShaftElement& mechanism_element(const Network& network, const std
   throw std::logic_error("mechanism without an element");
 }
 
-OutputLoads::OutputLoads(const Scene& scene, const std::string& component) : OutputLoads(alone(scene, component)) {
+OutputLoads::OutputLoads(const Scene& scene, const std::string& component, const Effects& effects)
+    : OutputLoads(alone(scene, component, effects)) {
   for (std::size_t k = 0; k < model().pool_channels.size(); ++k) {
     const auto& name = model().pool_channels[k].name;
     if (name.of == component && (name.what == QuantityKind::force || name.what == QuantityKind::load_torque))
@@ -95,20 +60,34 @@ OutputLoads::OutputLoads(const Scene& scene, const std::string& component) : Out
   }
 }
 
+std::vector<double> OutputLoads::edges(int direction) {
+  std::vector<double> all = machine_.edges(direction);
+  for (double begin = 0; begin < cycle() - 1e-9; begin += turn)
+    for (const double e : added_) {
+      const double edge = begin + e - turn * std::floor(e / turn);
+      if (std::none_of(all.begin(), all.end(),
+                       [&](double k) { return std::abs(std::remainder(k - edge, cycle())) < 1e-7; }))
+        all.push_back(edge);
+    }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 double OutputLoads::force(double phi, double omega) {
   if (channel_ < 0) return 0;
-  const std::vector<double> y = equations_.modes_from_scratch(0, phi, omega);
+  const std::vector<double> y = equations_.modes_from_scratch(0, within(phi), omega);
   return model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
 }
 
 std::span<const double> OutputLoads::shares(double phi, double omega) {
-  machine_.set_modes(phi, omega);
-  return machine_.at(phi, omega, true).share;
+  machine_.set_modes(within(phi), omega);
+  return machine_.at(within(phi), omega, true).share;
 }
 
 // --- where the cycle is looked at ---
 
-std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int rows_of_turn) {
+std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
+                                double rows_end) {
   const int turns = static_cast<int>(std::lround(cycle / turn)), cells = grid_of_turn * turns;
   std::vector<double> knots;
   for (int i = 0; i <= cells; ++i) knots.push_back(cycle * i / cells);
@@ -117,7 +96,7 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
   std::vector<Abscissa> all;
   for (int i = 0; i <= cells; ++i) all.push_back({.phi = cycle * i / cells, .grid = true});
   const int rows = rows_of_turn * turns;
-  for (int i = 0; i <= rows; ++i) {
+  for (int i = 0; i <= rows && cycle * i / rows <= rows_end * (1 + 1e-12); ++i) {
     if (i * cells % rows == 0)
       all[index(i * cells / rows)].row = true;
     else
@@ -136,11 +115,31 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
       const double within = phi < 0 ? phi + cycle : phi > cycle ? phi - cycle : phi;
       if (within > 0 && within < cycle) all.push_back({.phi = within});
     }
+  for (Abscissa& a : all)
+    if (a.grid || a.row)
+      for (const double edge : edges)
+        if (std::abs(std::remainder(a.phi - edge, cycle)) < 0.5 * beside) a.aside = 0.5 * direction * beside;
   std::stable_sort(all.begin(), all.end(), [](const Abscissa& a, const Abscissa& b) { return a.phi < b.phi; });
   return all;
 }
 
 // --- peaks ---
+
+SpeedRange speed_range(const std::vector<MotionSample>& samples) {
+  const auto with_step = [&](std::size_t step) {
+    SpeedRange range{HUGE_VAL, -HUGE_VAL, 0};
+    for (std::size_t i = 0; i < samples.size(); i += step) {
+      range.least = std::min(range.least, samples[i].motion.omega);
+      range.greatest = std::max(range.greatest, samples[i].motion.omega);
+    }
+    return range;
+  };
+  SpeedRange fine = with_step(1);
+  const SpeedRange wide = with_step(2);
+  fine.error = std::max(wide.least - fine.least, fine.greatest - wide.greatest) +
+               rounding_of_forces * std::max(std::abs(fine.least), std::abs(fine.greatest));
+  return fine;
+}
 
 Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
              const std::function<double(double)>& value) {
@@ -255,16 +254,11 @@ void check(const ForcesOptions& options) {
     throw std::invalid_argument(fmt::format("--speed {}: must be a speed ≠ 0, e.g. \"300 rpm\"", *options.speed));
 }
 
-CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
-  if (options.speed) return {*options.speed, "as asked for"};
-  if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
-  return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
-}
-
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
   MotionAlong along;
   along.cycle = loads.cycle();
-  along.where = abscissae(along.cycle, loads.edges(speed < 0 ? -1 : 1), positions);
+  const int direction = speed < 0 ? -1 : 1;
+  along.where = abscissae(along.cycle, loads.edges(direction), direction, positions);
   along.motion.assign(along.where.size(), {speed, 0});
   return along;
 }
@@ -273,124 +267,6 @@ double MotionAlong::mean_speed() const {
   double time = 0;
   for (std::size_t i = 0; i < where.size(); ++i) time += where[i].weight / std::abs(motion[i].omega);
   return std::copysign(cycle / time, motion.front().omega);
-}
-
-MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::string& component) {
-  const Network::ShaftElement& element = mechanism_element(model.network, component);
-  for (std::size_t i = 0; i < model.angles.size(); ++i)
-    if (model.angles[i].node == element.node) return {element.node, i, element.phase};
-  throw std::logic_error("the crank's angle is not tracked");
-}
-
-MachineMotion::MachineMotion(const Scene& scene, const Effects& effects, const std::string& component,
-                             const ForcesOptions& options)
-    : options_(options), settings_(scene.run), model_(compile(scene, effects)), crank_(crank_in(*model_, component)) {}
-
-double MachineMotion::start_speed() const {
-  Equations equations(model_, false);
-  const std::vector<double> y = equations.start(0);
-  const Snapshot& s = equations.snapshot(0, y);
-  return model_->gain_of_node[index(crank_.node)] * s.now.speed[model_->shaft_of_node[index(crank_.node)]];
-}
-
-double MachineMotion::rated_speed() const {
-  return model_->speed_scale * std::abs(model_->node_ratio[index(crank_.node)]);
-}
-
-struct MachineMotion::WholeRun {
-  double begin, end;  // crank's own angle [rad]
-  RunOutcome outcome;
-};
-
-std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account out) const {
-  const double tolerance = std::max(settings_.accuracy, 1e-12) / 10;
-  const auto [begin_angle, end_angle, outcome] = whole_run(30 * tolerance);
-  if (!outcome.complete) {
-    out.complete = false;
-    out.diagnosis = outcome.diagnosis;
-  }
-  const double cycle = loads.cycle();
-  const int direction = end_angle >= begin_angle ? 1 : -1;
-  // The last cycle that begins and ends at a multiple of the cycle, in the crank's own angle.
-  const double last = direction > 0 ? std::floor((end_angle - 1e-9) / cycle) : std::ceil((end_angle + 1e-9) / cycle);
-  const double first = last - direction;
-  if (direction * (first * cycle - begin_angle) < -1e-9) {
-    out.notes.push_back(fmt::format(
-        "second problem left out: within {} the crank turns by {:.4g}°, less than a whole cycle of {:.0f}° that "
-        "begins "
-        "at a multiple of it; simulate longer (run.until) or start the machine",
-        with_unit(outcome.t, "s", 4), std::abs(end_angle - begin_angle) * 360 / turn, cycle * 360 / turn));
-    return {};
-  }
-  const double origin = (direction > 0 ? first : last) * cycle;
-  const bool cycle_before = direction * (first * cycle - direction * cycle - begin_angle) >= -1e-9;
-  SimulatedMotion motion;
-  motion.loose = one_run(loads, origin, direction, 30 * tolerance, cycle_before);
-  motion.tight = one_run(loads, origin, direction, tolerance, cycle_before);
-  motion.description = fmt::format("rigid machine as its torques drive it, cycle no. {:.0f} of a run of {}",
-                                   std::abs(first) + 1, with_unit(settings_.until, "s", 4));
-  note_unsteady(motion, out.notes);
-  return motion;
-}
-
-RunOptions MachineMotion::run_options(double tolerance) const {
-  return {.tolerance = tolerance,
-          .method = settings_.model == "reduced" ? settings_.method : "auto",
-          .until = settings_.until,
-          .budget = settings_.budget,
-          .interrupted = options_.watch.interrupted,
-          .progress = [this](double fraction) { options_.watch.at("simulating", fraction); }};
-}
-
-MachineMotion::WholeRun MachineMotion::whole_run(double tolerance) const {
-  Equations equations(model_, false);
-  const std::vector<double> y = equations.start(0);
-  const double begin = equations.angle_with_turns(crank_.tracked, y) + crank_.phase;
-  RunOutcome outcome = integrate(equations, run_options(tolerance), {});
-  return {begin, equations.angle_with_turns(crank_.tracked, outcome.state) + crank_.phase, std::move(outcome)};
-}
-
-MotionAlong MachineMotion::one_run(OutputLoads& loads, double origin, int direction, double tolerance,
-                                   bool cycle_before) const {
-  MotionAlong along;
-  along.cycle = loads.cycle();
-  std::vector<Abscissa>& where = along.where;
-  where = abscissae(along.cycle, loads.edges(direction), options_.positions);
-  if (direction < 0) std::reverse(where.begin(), where.end());
-  std::vector<double> targets;
-  if (cycle_before) targets.push_back(origin + where.front().phi - direction * along.cycle - crank_.phase);
-  for (const Abscissa& a : where) targets.push_back(origin + a.phi - crank_.phase);
-  PassageRecorder passages(crank_.tracked, crank_.node, std::move(targets), direction);
-  Equations equations(model_, false);
-  integrate(equations, run_options(tolerance), {&passages});
-  const std::size_t before = cycle_before ? 1 : 0;
-  if (passages.passed().size() != where.size() + before)
-    throw std::runtime_error(
-        "the simulated crank does not repeat its way between two tolerances; ask for more accuracy (run.accuracy)");
-  along.motion.assign(passages.passed().begin() + static_cast<std::ptrdiff_t>(before), passages.passed().end());
-  if (cycle_before) along.speed_before = passages.passed().front().omega;
-  return along;
-}
-
-// Steady is what has nothing left to change; one cycle alone tells no more than whether its ends agree.
-void MachineMotion::note_unsteady(const SimulatedMotion& motion, std::vector<std::string>& notes) {
-  const MotionAlong &loose = motion.loose, &tight = motion.tight;
-  const double first = tight.motion.front().omega, last = tight.motion.back().omega;
-  const double closure = (last - first) / tight.mean_speed();
-  constexpr double shown = 1e-3;  // of the mean speed: figures of the cycle are as far from steady ones
-  const double mean = std::abs(tight.mean_speed());
-  const double noise = 1e-9 * mean + std::abs(loose.motion.back().omega - last);
-  const double to_come =
-      tight.speed_before ? still_to_come({*tight.speed_before, first, last}, noise) / mean : std::abs(closure);
-  if (!(to_come > shown)) return;
-  notes.push_back(fmt::format(
-      "the simulated motion is not steady: over the cycle shown the crank's speed changes by {:.2g} % of its mean{}; "
-      "{}",
-      100 * closure,
-      !tight.speed_before      ? std::string()
-      : std::isfinite(to_come) ? fmt::format(", and has {:.2g} % still to change", 100 * to_come)
-                               : std::string(", no less than over the cycle before"),
-      std::isfinite(to_come) ? "simulate longer (run.until)" : "nothing says that it ever will be"));
 }
 
 }  // namespace kurbel

@@ -1,7 +1,8 @@
-// crank_motion.h — along which motion forces are found: where the cycle is looked at, the loads there, the motion given
-// or simulated, peaks on the continuous motion.
+// crank_motion.h — along which motion forces are found: where the cycle is looked at, the loads there, peaks on the
+// continuous motion.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,7 +11,6 @@
 
 #include "engine/events/equations.h"
 #include "engine/rigid/rigid_machine.h"
-#include "engine/run/run.h"
 #include "mechanisms/reduced/mechanism_data.h"
 #include "studies/forces/forces.h"
 
@@ -19,10 +19,13 @@ namespace kurbel {
 // The loads on a mechanism's output, from its own element on a shaft of its own: angle and speed are the crank's.
 class OutputLoads {
  public:
-  OutputLoads(const Scene& scene, const std::string& component);
+  // Of the effects those count that are part of the machine.
+  OutputLoads(const Scene& scene, const std::string& component, const Effects& effects);
   const Model& model() const { return machine_.model(); }
   double cycle() const { return machine_.cycle(); }
-  std::vector<double> edges(int direction) { return machine_.edges(direction); }
+  // Angles within the cycle where forces jump or bend: edges of the loads, and those that are added of a turn.
+  std::vector<double> edges(int direction);
+  void add_edges(const std::vector<double>& of_a_turn) { added_ = of_a_turn; }
 
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
   double force(double phi, double omega);
@@ -33,8 +36,14 @@ class OutputLoads {
   explicit OutputLoads(const std::shared_ptr<const Model>& model) : machine_(model), equations_(model, false) {}
 
   RigidMachine machine_;
+  // Within one cycle, both ends counting as they are.
+  double within(double phi) const {
+    return phi <= cycle() * (1 + 1e-12) ? phi : phi - cycle() * std::ceil(phi / cycle() * (1 - 1e-12) - 1);
+  }
+
   Equations equations_;
   int channel_ = -1;
+  std::vector<double> added_;
 };
 
 // The element by which a mechanism works on its shaft.
@@ -48,10 +57,13 @@ struct Abscissa {
   double weight = 0;  // of the integral over the cycle
   bool grid = false;  // one of the even positions that curves and orders are made of
   bool row = false;   // one of the positions asked for; alone, it takes no part in anything else
+  double aside = 0;   // where it is an edge: looked at just after it [rad]
+  double place() const { return phi + aside; }
 };
 // The same for any number of rows: an even grid, Gauss' three points between its points and the load edges, a point on
-// either side of each edge; and the rows.
-std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int rows_of_turn);
+// either side of each edge; and the rows, up to an angle. `direction`: ±1, in which they are gone through.
+std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
+                                double rows_end = HUGE_VAL);
 
 struct CrankMotion {
   double omega = 0, alpha = 0;  // [rad/s], [rad/s²]
@@ -63,6 +75,12 @@ struct MotionSample {
 };
 // Motion between samples that ascend by angle.
 CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi);
+
+// Least and greatest speed among samples, and what every other sample finds otherwise.
+struct SpeedRange {
+  double least = 0, greatest = 0, error = 0;  // [rad/s]
+};
+SpeedRange speed_range(const std::vector<MotionSample>& samples);
 
 // The largest magnitude of a function of the crank's angle. Local peaks of the samples near the largest one are
 // refined by the golden section between their neighbours, so that the peak is one of the function, not of the samples;
@@ -88,56 +106,10 @@ struct MotionAlong {
   double cycle = 0;  // [rad]
   std::vector<Abscissa> where;
   std::vector<CrankMotion> motion;
-  std::optional<double> speed_before;  // one cycle before its begin, where the run has it
 
   double mean_speed() const;  // by time
 };
-struct SimulatedMotion {
-  MotionAlong loose, tight;  // tolerances 30 : 1
-  std::string description;
-};
-
-// The rigid machine as its torques drive it, for the mechanism's last whole cycle.
-class MachineMotion {
- public:
-  MachineMotion(const Scene& scene, const Effects& effects, const std::string& component, const ForcesOptions& options);
-
-  double start_speed() const;  // of the crank [rad/s]
-  double rated_speed() const;
-  // What went wrong and what is not steady is told in `notes`. Empty where the run holds no whole cycle.
-  struct Account {
-    std::vector<std::string>& notes;
-    bool& complete;
-    std::string& diagnosis;
-  };
-  std::optional<SimulatedMotion> solve(OutputLoads& loads, Account out) const;
-
- private:
-  struct Crank {
-    int node = 0;
-    std::size_t tracked = 0;
-    double phase = 0;
-  };
-  struct WholeRun;
-  static Crank crank_in(const Model& model, const std::string& component);
-  RunOptions run_options(double tolerance) const;
-  WholeRun whole_run(double tolerance) const;
-  MotionAlong one_run(OutputLoads& loads, double origin, int direction, double tolerance, bool cycle_before) const;
-  static void note_unsteady(const SimulatedMotion& motion, std::vector<std::string>& notes);
-
-  const ForcesOptions& options_;
-  RunSettings settings_;
-  std::shared_ptr<const Model> model_;
-  Crank crank_;
-};
-
-// Of the first problem, and where it comes from.
-struct CrankSpeed {
-  double value = 0;  // [rad/s]
-  std::string source;
-};
-CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options);
-// At that speed throughout.
+// At this speed throughout.
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions);
 
 }  // namespace kurbel

@@ -53,7 +53,8 @@ CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
 
 void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   Deadline::check();
-  const CyclePosition p = at(where.phi, motion);
+  CyclePosition p = at(where.place(), motion);
+  p.state.phi = where.phi;
   if (where.row) cycle_.rows.push_back(p);
   if (where.grid) cycle_.positions.push_back(p);
   if (where.row && !where.grid) return;
@@ -61,7 +62,7 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   if (where.weight == 0) return;
   // dA = M dφ, in the sense of the motion.
   const double dt = where.weight / std::abs(motion.omega);
-  const auto share = loads_.shares(where.phi, motion.omega);
+  const auto share = loads_.shares(where.place(), motion.omega);
   std::size_t k = 0;
   const auto account = [&](double power) {
     cycle_.work[k].work += power * dt;
@@ -114,10 +115,10 @@ void CycleBuilder::find_extremes() {
   cycle_.shaking_moment = largest([](const CyclePosition& p) { return p.forces.shaking_moment; });
   call_rounding_zero();
   cycle_.at_torque_peak = at(cycle_.torque.phi);
-  cycle_.least_speed = cycle_.greatest_speed = samples_.front().state.omega;
+  const SpeedRange speeds = speed_range(motion_);
+  cycle_.least_speed = speeds.least, cycle_.greatest_speed = speeds.greatest, cycle_.speed_error = speeds.error;
+  cycle_.closure_error = 2 * rounding_of_forces;
   for (const CyclePosition& p : samples_) {
-    cycle_.least_speed = std::min(cycle_.least_speed, p.state.omega);
-    cycle_.greatest_speed = std::max(cycle_.greatest_speed, p.state.omega);
     cycle_.friction_residual = std::max(cycle_.friction_residual, p.forces.residual);
     cycle_.most_iterations = std::max(cycle_.most_iterations, p.forces.iterations);
   }
@@ -236,6 +237,7 @@ void judge_works(ForceCycle& c) {
     if (w.work < 0) (w.kind == "harmful" ? c.harmful : c.useful) -= w.work;
   }
   uncertain += nothing_left * largest;
+  c.work_error = uncertain;
   c.spent = std::abs(c.kinetic_change) <= steady * c.input ? c.input : c.input - c.kinetic_change;
   c.no_efficiency = why_no_efficiency(c, c.spent, uncertain);
   if (!c.no_efficiency.empty()) return;
@@ -244,7 +246,7 @@ void judge_works(ForceCycle& c) {
     c.no_efficiency = fmt::format("the works do not balance: {} come out of {}", with_unit(c.useful, "J", 4),
                                   with_unit(c.spent, "J", 4));
   else
-    c.efficiency = std::min(1.0, ratio);
+    c.efficiency = std::min(1.0, ratio), c.efficiency_error = (1 + ratio) * uncertain / c.spent;
 }
 
 }  // namespace kurbel

@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/joint_keys.h"
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
+#include "studies/forces/machine_motion.h"
 
 namespace kurbel {
 namespace {
@@ -23,30 +29,218 @@ ForceCycle cycle_along(const SliderCrankStatics& statics, OutputLoads& loads, co
   CycleBuilder builder(statics, loads, cycle);
   for (std::size_t i = 0; i < along.where.size(); ++i) builder.add(along.where[i], along.motion[i]);
   builder.finish();
-  cycle.speed_before = along.speed_before;
   if (counterweights) *counterweights = propose_counterweights(statics, builder, cycle.positions);
   return cycle;
 }
 
-void add_errors(const ForceCycle& loose, ForceCycle& tight) {
-  const auto set = [](const Peak& a, Peak& b) {
-    b.error = b.error.value_or(0) + std::abs(std::abs(a.value) - std::abs(b.value));
+// To each error `times` the difference between the two.
+void add_errors(const ForceCycle& other, double times, ForceCycle& cycle) {
+  const auto apart = [times](double a, double b) { return times * std::abs(a - b); };
+  const auto add = [&](const Peak& a, Peak& b) {
+    b.error = b.error.value_or(0) + apart(std::abs(a.value), std::abs(b.value));
   };
-  for (std::size_t k = 0; k < joint_count; ++k) set(loose.reaction[k], tight.reaction[k]);
-  set(loose.torque, tight.torque);
-  set(loose.shaking_force, tight.shaking_force);
-  set(loose.shaking_moment, tight.shaking_moment);
+  for (std::size_t k = 0; k < joint_count; ++k) add(other.reaction[k], cycle.reaction[k]);
+  add(other.torque, cycle.torque);
+  add(other.shaking_force, cycle.shaking_force);
+  add(other.shaking_moment, cycle.shaking_moment);
   for (auto orders :
        {&ForceCycle::shaking_x, &ForceCycle::shaking_y, &ForceCycle::shaking_couple, &ForceCycle::torque_orders})
-    for (std::size_t k = 0; k < (tight.*orders).size(); ++k)
-      (tight.*orders)[k].error += std::abs((tight.*orders)[k].amplitude - (loose.*orders)[k].amplitude);
-  for (std::size_t k = 0; k < tight.work.size(); ++k)
-    tight.work[k].error += std::abs(loose.work[k].work - tight.work[k].work);
-  tight.torque_mean_error += std::abs(loose.torque_mean - tight.torque_mean);
-  tight.mean_speed_error += std::abs(loose.mean_speed - tight.mean_speed);
-  tight.kinetic_error = std::abs(loose.kinetic_change - tight.kinetic_change);
-  judge_works(tight);
+    for (std::size_t k = 0; k < (cycle.*orders).size(); ++k)
+      (cycle.*orders)[k].error += apart((cycle.*orders)[k].amplitude, (other.*orders)[k].amplitude);
+  for (std::size_t k = 0; k < cycle.work.size(); ++k)
+    cycle.work[k].error += apart(other.work[k].work, cycle.work[k].work);
+  cycle.torque_mean_error += apart(other.torque_mean, cycle.torque_mean);
+  cycle.mean_speed_error += apart(other.mean_speed, cycle.mean_speed);
+  cycle.speed_error +=
+      std::max(apart(other.least_speed, cycle.least_speed), apart(other.greatest_speed, cycle.greatest_speed));
+  cycle.closure_error += apart(other.closure, cycle.closure);
+  cycle.work_error += std::max(
+      {apart(other.input, cycle.input), apart(other.useful, cycle.useful), apart(other.harmful, cycle.harmful)});
+  if (cycle.efficiency && other.efficiency) cycle.efficiency_error += apart(*other.efficiency, *cycle.efficiency);
+  cycle.kinetic_error += apart(other.kinetic_change, cycle.kinetic_change);
 }
+
+// What the machine's own equations have otherwise than rigid links in ideal joints, pointwise at most: an error of every
+// figure that it touches.
+struct Missed {
+  double torque = 0, greatest_torque = 0;
+  std::array<double, joint_count> reaction{}, greatest{};
+};
+
+Missed missed_by(const SliderCrankStatics& statics, OutputLoads& loads, const SimulatedMotion& simulated) {
+  Missed missed;
+  for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
+    const CrankMotion& m = simulated.along.motion[i];
+    const double phi = simulated.along.where[i].place();
+    const SliderCrankForces f = statics.solve({phi, m.omega, m.alpha, loads.force(phi, m.omega)});
+    const MachineForces& own = simulated.machine[i];
+    missed.torque = std::max(missed.torque, std::abs(own.torque - f.torque));
+    missed.greatest_torque = std::max(missed.greatest_torque, std::abs(own.torque));
+    if (!simulated.deforms) continue;
+    const std::array<double, joint_count> ideal = {f.main_bearing.magnitude(), f.crank_pin.magnitude(),
+                                                   f.slider_pin.magnitude(), std::abs(f.guide)};
+    for (std::size_t k = 0; k < joint_count; ++k) {
+      missed.reaction[k] = std::max(missed.reaction[k], std::abs(own.reaction[k] - ideal[k]));
+      missed.greatest[k] = std::max(missed.greatest[k], own.reaction[k]);
+    }
+  }
+  return missed;
+}
+
+void add_missed(const Missed& missed, const SliderCrankData& d, ForceCycle& cycle) {
+  const auto add = [](Peak& p, double by) { p.error = p.error.value_or(0) + by; };
+  const double force = missed.reaction[0] + missed.reaction[3];  // what the frame feels
+  const double moment = missed.torque + missed.reaction[3] * (d.radius + d.rod_length);
+  for (std::size_t k = 0; k < joint_count; ++k) add(cycle.reaction[k], missed.reaction[k]);
+  add(cycle.torque, missed.torque);
+  add(cycle.shaking_force, force);
+  add(cycle.shaking_moment, moment);
+  for (auto [orders, by] :
+       {std::pair{&ForceCycle::shaking_x, force}, std::pair{&ForceCycle::shaking_y, force},
+        std::pair{&ForceCycle::shaking_couple, moment}, std::pair{&ForceCycle::torque_orders, missed.torque}})
+    for (ForceHarmonic& h : cycle.*orders) h.error += 2 * by;  // 2/N Σ, each at most this
+  cycle.torque_mean_error += missed.torque;
+}
+
+std::string words_of(const Missed& missed, const ForceCycle& cycle) {
+  std::string text = fmt::format(
+      "the mechanism counts as rigid links in ideal joints; in the same motion the machine's own equations have a "
+      "crank "
+      "torque of up to {} for {}",
+      with_unit(missed.greatest_torque, "N*m", 5), with_unit(std::abs(cycle.torque.value), "N*m", 5));
+  for (std::size_t k = 0; k < joint_count && missed.greatest[0] > 0; ++k)
+    text += fmt::format(", at the {} {} for {}", name_of(static_cast<Joint>(k)), with_unit(missed.greatest[k], "N", 5),
+                        with_unit(std::abs(cycle.reaction[k].value), "N", 5));
+  return text + "; the greatest difference at an angle is counted as an error of every figure";
+}
+
+SliderCrankJoints without_friction(SliderCrankJoints joints) {
+  for (RevoluteJoint* j : {&joints.main_bearing, &joints.crank_pin, &joints.slider_pin}) j->friction = {};
+  joints.guide.friction = {};
+  joints.guide.rolling_arm = 0;
+  return joints;
+}
+
+// Where friction turns round in a turn: at the ends of the slider's travel, and where the rod turns back.
+std::vector<double> turnings_of(const SliderCrankData& data) {
+  const SliderCrankGeometry geometry(data);
+  std::vector<double> angles;
+  for (const auto& slope : {std::function<double(double)>([&](double phi) { return geometry.slider(phi).slope; }),
+                            std::function<double(double)>([&](double phi) { return geometry.rod(phi).slope; })}) {
+    constexpr int cells = 24;
+    const double step = 2 * std::numbers::pi / cells, begin = 0.3 * step;  // off the angles where they like to lie
+    for (int i = 0; i < cells; ++i) {
+      const double a = begin + step * i, b = a + step, at_a = slope(a), at_b = slope(b);
+      if (at_a * at_b < 0) angles.push_back(find_root(slope, a, at_a, b, at_b));
+    }
+  }
+  return angles;
+}
+
+// Of the machine, and with them of the joints: motion and forces follow the same laws.
+Effects effects_of(const Scene& scene, const ForcesOptions& options, const SliderCrankJoints& joints) {
+  if (options.effects) return *options.effects;
+  Effects effects = scene.effects;
+  // Joints with clearance, or at a rod that bends, know no friction by the reactions of ideal ones.
+  if (!effects.joint_clearance && !effects.flexible_rod)
+    effects.joint_friction = effects.joint_friction || !joints.frictionless();
+  return effects;
+}
+
+class Study {
+ public:
+  Study(const Scene& scene, const ForcesOptions& options, const Section& section) : options_(options) {
+    out_.title = scene.heading();
+    out_.speed_unit = scene.speed_unit;
+    out_.scene_file = scene.file;
+    out_.scene_text = scene.text;
+    out_.mechanism = section.name;
+    out_.data = slider_crank_data(section);
+    out_.joints = slider_crank_joints(section);
+    const Effects effects = effects_of(scene, options, out_.joints);
+    if (!effects.gravity) out_.data.gravity = 0;
+    machine_.emplace(scene, effects, section.name, options);
+    loads_.emplace(scene, section.name, effects);
+    if (effects.joint_friction && !out_.joints.frictionless()) loads_->add_edges(turnings_of(out_.data));
+    const SliderCrankJoints given = out_.joints;
+    if (!effects.joint_friction) out_.joints = without_friction(given);
+    statics_.emplace(out_.data, out_.joints);
+    const double share = out_.data.rod_com / out_.data.rod_length;
+    out_.rotating_moment =
+        out_.data.crank_mass * out_.data.crank_com + out_.data.rod_mass * (1 - share) * out_.data.radius;
+    out_.reciprocating_mass = out_.data.slider_mass + out_.data.rod_mass * share;
+    solve_first();
+    if (!effects.joint_friction && !given.frictionless()) tell_friction_left_out(given);
+  }
+
+  Forces result() {
+    std::optional<SimulatedMotion> simulated;
+    if (options_.simulate) {
+      options_.watch.say("second problem: the motion that the machine keeps");
+      simulated = machine_->solve(*loads_, {out_.notes, out_.complete, out_.diagnosis});
+    }
+    if (simulated) solve_second(*simulated);
+    LinkageCycle links = linkage_cycle(out_.data, *loads_, simulated ? simulated->along : prescribed_);
+    if (simulated)
+      for (const SimulatedMotion::Other& other : simulated->others)
+        add_errors(linkage_cycle(out_.data, *loads_, other.motion), other.times, links);
+    out_.links = std::make_shared<const LinkageCycle>(std::move(links));
+    return std::move(out_);
+  }
+
+ private:
+  void solve_first() {
+    const CrankSpeed speed = prescribed_speed(*machine_, options_);
+    const std::string at = out_.speed_unit.text(speed.value);
+    options_.watch.say(fmt::format("first problem: {} at {} ({})", out_.mechanism, at, speed.source));
+    prescribed_ = steady_motion(*loads_, speed.value, options_.positions);
+    out_.prescribed = cycle_along(*statics_, *loads_, prescribed_, &out_.counterweights);
+    out_.prescribed->label = "prescribed";
+    note_unbounded_reactions(out_.data, *loads_, speed.value, out_.notes);
+    out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
+  }
+
+  void tell_friction_left_out(const SliderCrankJoints& given) {
+    const SliderCrankStatics rough(out_.data, given);
+    const ForceCycle cycle = cycle_along(rough, *loads_, prescribed_);
+    out_.notes.push_back(fmt::format(
+        "friction in the joints is left out{}: in the first problem it would take {} a cycle, and the crank's torque "
+        "would peak at {} instead of {}",
+        machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
+        with_unit(cycle.harmful, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
+        with_unit(std::abs(out_.prescribed->torque.value), "N*m", 5)));
+  }
+
+  void solve_second(const SimulatedMotion& simulated) {
+    ForceCycle& cycle = out_.simulated.emplace(cycle_along(*statics_, *loads_, simulated.along));
+    for (std::size_t i = 0; i < simulated.others.size(); ++i) {
+      const SimulatedMotion::Other& other = simulated.others[i];
+      add_errors(cycle_along(*statics_, *loads_, other.motion), other.times, cycle);
+      if (i == 0) judge_works(cycle);  // of this cycle itself, whether or not it comes again
+    }
+    cycle.label = "simulated";
+    cycle.description = simulated.description;
+    const Missed missed = missed_by(*statics_, *loads_, simulated);
+    const double scale =
+        std::max(missed.greatest_torque, rounding_of_torque * std::abs(cycle.reaction[1].value) * out_.data.radius);
+    cycle.machine_residual = scale > 0 ? missed.torque / scale : 0;
+    if (machine_->deforms() || *cycle.machine_residual > same_physics) {
+      add_missed(missed, out_.data, cycle);
+      out_.notes.push_back(words_of(missed, cycle));
+    }
+  }
+
+  static constexpr double same_physics = 1e-7;  // tables of the mechanism, and what the step leaves of friction's laws
+  static constexpr double rounding_of_torque =
+      1e-3;  // of the crank pin's load at the radius: less is no torque to measure by
+
+  const ForcesOptions& options_;
+  Forces out_;
+  std::optional<MachineMotion> machine_;
+  std::optional<OutputLoads> loads_;
+  std::optional<SliderCrankStatics> statics_;
+  MotionAlong prescribed_;
+};
 
 }  // namespace
 
@@ -64,53 +258,7 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   if (section.kind->name != "slider-crank")
     throw std::invalid_argument(
         fmt::format("{}: {} is no slider-crank but a {}", scene.file, section.name, section.kind->name));
-  Forces out;
-  out.title = scene.heading();
-  out.speed_unit = scene.speed_unit;
-  out.scene_file = scene.file;
-  out.scene_text = scene.text;
-  out.mechanism = section.name;
-  out.data = slider_crank_data(section);
-  out.joints = slider_crank_joints(section);
-  // Rigid, with the joints' friction where they have any: motion and forces follow the same laws.
-  Effects effects;
-  effects.joint_friction = !out.joints.frictionless();
-  const MachineMotion machine(scene, effects, section.name, options);
-  if (scene.effects.joint_clearance || scene.effects.flexible_rod)
-    out.notes.push_back(fmt::format("joints count as ideal and the rod as rigid: {} left out",
-                                    !scene.effects.flexible_rod      ? "joint clearance is"
-                                    : !scene.effects.joint_clearance ? "the flexible rod is"
-                                                                     : "joint clearance and flexible rod are"));
-  const SliderCrankStatics statics(out.data, out.joints);
-  OutputLoads loads(scene, section.name);
-  const double share = out.data.rod_com / out.data.rod_length;
-  out.rotating_moment = out.data.crank_mass * out.data.crank_com + out.data.rod_mass * (1 - share) * out.data.radius;
-  out.reciprocating_mass = out.data.slider_mass + out.data.rod_mass * share;
-
-  const CrankSpeed speed = prescribed_speed(machine, options);
-  const std::string at = out.speed_unit.text(speed.value);
-  options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, at, speed.source));
-  MotionAlong motion = steady_motion(loads, speed.value, options.positions);
-  out.prescribed = cycle_along(statics, loads, motion, &out.counterweights);
-  out.prescribed->label = "prescribed";
-  note_unbounded_reactions(out.data, loads, speed.value, out.notes);
-  out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
-  std::optional<SimulatedMotion> simulated;
-  if (options.simulate) {
-    options.watch.say("second problem: running the rigid machine");
-    simulated = machine.solve(loads, {out.notes, out.complete, out.diagnosis});
-  }
-  if (simulated) {
-    out.simulated = cycle_along(statics, loads, simulated->tight);
-    add_errors(cycle_along(statics, loads, simulated->loose), *out.simulated);
-    out.simulated->label = "simulated";
-    out.simulated->description = simulated->description;
-    motion = simulated->tight;
-  }
-  LinkageCycle links = linkage_cycle(out.data, loads, motion);
-  if (simulated) add_errors(linkage_cycle(out.data, loads, simulated->loose), links);
-  out.links = std::make_shared<const LinkageCycle>(std::move(links));
-  return out;
+  return Study(scene, options, section).result();
 }
 
 }  // namespace kurbel

@@ -1,7 +1,7 @@
 // forces.h — kinetostatics of a scene's slider-crank over a cycle: reactions, balancing torque, friction, balancing.
 //
 // First problem: the crank turns at a given speed; what forces does that need? Second problem: the machine runs as its
-// torques drive it, rigid, and the forces follow from the motion found (last whole cycle).           (theory 9)
+// torques drive it, with the scene's effects, and the forces follow from the motion that it keeps.   (theory 9)
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,9 @@ struct ForcesOptions {
   int positions = 12;           // of a turn that tables show, ≥ 4
   std::optional<double> speed;  // of the crank in the first problem [rad/s], ≠ 0; default: start speed, else rated
   std::string mechanism;        // empty: the first slider-crank
-  bool simulate = true;         // the second problem, too
+  // Of the second problem's machine; default: the scene's, with the joints' friction where they have any.
+  std::optional<Effects> effects = {};
+  bool simulate = true;  // the second problem, too
   Watch watch = {};
 };
 
@@ -78,7 +80,6 @@ struct ForceCycle {
   double cycle = 0;                                            // [rad]
   double mean_speed = 0, least_speed = 0, greatest_speed = 0;  // of the crank [rad/s]
   double first_speed = 0, last_speed = 0;  // of the crank at the cycle's begin and end in time [rad/s]
-  std::optional<double> speed_before;      // one cycle before its begin, where the run has it
   double closure = 0;                      // speed at the end − at the begin, over the mean: steady motion has none
   std::vector<CyclePosition> positions;    // 720 of a turn, evenly, both ends, whatever is asked for
   std::vector<CyclePosition> rows;         // those asked for, both ends
@@ -89,16 +90,19 @@ struct ForceCycle {
   int both_edges = 0;  // positions where both edges bear
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
   double torque_mean = 0, torque_mean_error = 0;  // [N·m]
-  double mean_speed_error = 0;                    // [rad/s]
-  std::vector<CycleWork> work;                    // by account: crank, loads, weight, friction of each joint
-  double kinetic_change = 0, kinetic_most = 0;    // of the mechanism over the cycle, greatest [J]
-  double kinetic_error = 0;                       // of the change, as that of a work [J]
-  double input = 0, useful = 0, harmful = 0;      // work that goes in, comes out usefully, is lost [J], ≥ 0
-  double spent = 0;                               // input less what the motion stores [J]
-  std::optional<double> efficiency;               // useful/spent, where works beyond their errors make one: 0 … 1
-  std::string no_efficiency;                      // else why
-  double power_residual = 0;                      // largest
-  double friction_residual = 0;                   // largest, of the friction laws
+  double mean_speed_error = 0, speed_error = 0;   // the latter of the least and the greatest [rad/s]
+  double closure_error = 0;
+  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
+  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
+  double kinetic_error = 0;                     // of the change, as that of a work [J]
+  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                             // input less what the motion stores [J]
+  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
+  double work_error = 0, efficiency_error = 0;  // of input, useful, harmful work [J]; of the efficiency
+  std::string no_efficiency;                    // else why
+  double power_residual = 0;                    // largest
+  double friction_residual = 0;                 // largest, of the friction laws
+  std::optional<double> machine_residual;       // of the torque, from the compiled machine's own, over the largest
   int most_iterations = 0;
 };
 

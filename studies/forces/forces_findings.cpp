@@ -221,7 +221,9 @@ Record cycle_record(const ForceCycle& c) {
               {"least_speed", c.least_speed},
               {"greatest_speed", c.greatest_speed},
               {"closure", c.closure},
-              {"mean_speed_error", c.mean_speed_error}};
+              {"mean_speed_error", c.mean_speed_error},
+              {"speed_extremes_error", c.speed_error},
+              {"closure_error", c.closure_error}};
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   tell("peaks", each(peaks_of(c), [](const NamedPeak& p) {
          return Record{{"name", p.name},
@@ -232,13 +234,17 @@ Record cycle_record(const ForceCycle& c) {
        }));
   tell("work", each(c.work, work_record));
   tell("efficiency", c.efficiency);
+  if (c.efficiency) tell("efficiency_error", c.efficiency_error);
   if (!c.efficiency) tell("no_efficiency", c.no_efficiency);
   tell("work_in", c.input);
   tell("work_useful", c.useful);
   tell("work_harmful", c.harmful);
+  tell("works_error", c.work_error);
   tell("kinetic_change", c.kinetic_change);
+  tell("kinetic_change_error", c.kinetic_error);
   tell("power_residual", c.power_residual);
   tell("friction_residual", c.friction_residual);
+  tell("machine_residual", c.machine_residual);
   tell("positions_on_both_edges", c.both_edges);
   tell("harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
                            {"shaking_force_across", order_list(c.shaking_y)},

@@ -43,6 +43,7 @@ struct LinkOfCycle {
   MeanFigure reduced_inertia;                  // its part of I_r, mean over the angle [kg·m²]
   MeanFigure inertia_share;                    // of the mean I_r
   double least_share = 0, greatest_share = 0;  // of I_r at a position
+  double share_error = 0;                      // of these two
   MeanFigure energy;                           // its kinetic energy, mean over the time [J]
   MeanFigure energy_share;                     // of the mechanism's
 };
@@ -52,18 +53,21 @@ struct LinkageCycle {
   double cycle = 0;                // [rad]
   MeanFigure mean_speed;           // of the crank, over the time [rad/s]
   double least_speed = 0, greatest_speed = 0, closure = 0;
-  std::vector<LinkagePosition> positions;  // 720 of a turn, evenly, both ends, whatever is asked for
-  std::vector<LinkagePosition> rows;       // those asked for, both ends
-  std::vector<LinkagePosition> curve;      // positions, both sides of every load edge, and the peaks
-  std::vector<LinkageFigure> reactions;    // of each joint; of a slide its normal force, then its moment
+  double speed_error = 0, closure_error = 0;  // of the least and the greatest [rad/s]; of the closure
+  std::vector<LinkagePosition> positions;     // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<LinkagePosition> rows;          // those asked for, both ends
+  std::vector<LinkagePosition> curve;         // positions, both sides of every load edge, and the peaks
+  std::vector<LinkageFigure> reactions;       // of each joint; of a slide its normal force, then its moment
   LinkageFigure torque, shaking_force, shaking_moment;
   std::vector<LinkOfCycle> links;
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
-  MeanFigure torque_mean;        // over the angle [N·m]
-  std::vector<CycleWork> work;   // by account: loads, weight, the balancing torque
-  double kinetic_change = 0;     // over the cycle [J]
-  double power_residual = 0;     // largest, of the powers' balance at a position
-  double equation_residual = 0;  // largest, of the links' equilibrium
+  MeanFigure torque_mean;                  // over the angle [N·m]
+  std::vector<CycleWork> work;             // by account: loads, weight, the balancing torque
+  double kinetic_change = 0;               // over the cycle [J]
+  double kinetic_error = 0;                // [J]
+  double power_residual = 0;               // largest, of the powers' balance at a position
+  double equation_residual = 0;            // largest, of the links' equilibrium
+  std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
 };
 
 // Along one motion. Throws std::runtime_error where the mechanism has no finite reactions.
@@ -71,8 +75,8 @@ LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const 
 // Says where a mechanism that passes change points has reactions without bound, at this speed of its crank.
 void note_unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed,
                               std::vector<std::string>& notes);
-// Adds to each error of `tight` its difference to `loose`.
-void add_errors(const LinkageCycle& loose, LinkageCycle& tight);
+// To each error `times` the difference between the two.
+void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle);
 
 // A scene's mechanism.
 struct LinkageStudy {

@@ -184,7 +184,9 @@ Record cycle_record(const LinkageCycle& c) {
           {"mean_speed_error", c.mean_speed.error},
           {"least_speed", c.least_speed},
           {"greatest_speed", c.greatest_speed},
+          {"speed_extremes_error", c.speed_error},
           {"closure", c.closure},
+          {"closure_error", c.closure_error},
           {"peaks", each(peaks_of(c),
                          [](const LinkageFigure* p) {
                            return Record{{"name", p->name},
@@ -199,8 +201,10 @@ Record cycle_record(const LinkageCycle& c) {
                           return Record{{"name", w.name}, {"line", w.kind}, {"work", w.work}, {"error", w.error}};
                         })},
           {"kinetic_change", c.kinetic_change},
+          {"kinetic_change_error", c.kinetic_error},
           {"power_residual", c.power_residual},
           {"equation_residual", c.equation_residual},
+          {"machine_residual", c.machine_residual},
           {"harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
                                {"shaking_force_across", order_list(c.shaking_y)},
                                {"shaking_moment", order_list(c.shaking_couple)},
@@ -260,6 +264,7 @@ List links_list(const LinkageCycle& c) {
                   {"inertia_share", mean_record(l.inertia_share)},
                   {"least_share", l.least_share},
                   {"greatest_share", l.greatest_share},
+                  {"share_extremes_error", l.share_error},
                   {"energy", mean_record(l.energy)},
                   {"energy_share", mean_record(l.energy_share)}};
   });
@@ -286,17 +291,19 @@ void say_links(Findings& to, Chapter in, const LinkageCycle& c) {
                  .only_for_people("m a [N]", largest(&LinkOfCycle::inertia_force))
                  .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
                  .only_for_people("−I ε [N·m]", largest(&LinkOfCycle::inertia_couple)));
-  to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
-                 .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
-                 .text_in(0)
-                 .always()
-                 .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("I_r [kg·m²]", mean(&LinkOfCycle::reduced_inertia, 1))
-                 .only_for_people("of I_r [%]", mean(&LinkOfCycle::inertia_share, 100))
-                 .only_for_people("least [%]", [](L l) { return 100 * l.least_share; }, {.digits = 4})
-                 .only_for_people("most [%]", [](L l) { return 100 * l.greatest_share; }, {.digits = 4})
-                 .only_for_people("T [J]", mean(&LinkOfCycle::energy, 1))
-                 .only_for_people("of T [%]", mean(&LinkOfCycle::energy_share, 100)));
+  to.say(
+      in,
+      table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
+          .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
+          .text_in(0)
+          .always()
+          .only_for_people("link", &LinkOfCycle::name)
+          .only_for_people("I_r [kg·m²]", mean(&LinkOfCycle::reduced_inertia, 1))
+          .only_for_people("of I_r [%]", mean(&LinkOfCycle::inertia_share, 100))
+          .only_for_people("least [%]", [](L l) { return with_error(100 * l.least_share, 100 * l.share_error, ""); })
+          .only_for_people("most [%]", [](L l) { return with_error(100 * l.greatest_share, 100 * l.share_error, ""); })
+          .only_for_people("T [J]", mean(&LinkOfCycle::energy, 1))
+          .only_for_people("of T [%]", mean(&LinkOfCycle::energy_share, 100)));
   to.draw(in, [&c] { return link_plots(c); });
 }
 

@@ -82,7 +82,7 @@ Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSe
 // forced_orders: amplitudes of every order of every joint's torque; forced_peaks: its mean, greatest and least value.
 Row compare_modes(const Scene& scene, const SettleSettings& settings = {});
 
-// `forces` against the rigid machine's settled run. crank_torque: greatest, least and mean torque on the crank against
+// `forces` against the settled run of the machine as the scene has it. crank_torque: greatest, least and mean torque on the crank against
 // that of the coupling that alone drives it; reactions: main bearing and slider pin of a slider-crank without friction
 // against Simbody's in the run's states. No cells where there is no such mechanism.
 Row compare_forces(const Scene& scene, const SettleSettings& settings = {});

@@ -1,0 +1,40 @@
+// deformed_mechanism.h — forces in a mechanism as the machine's own equations have them, bent rod and gaps included.
+//
+//     M = I(φ, q) ε − Q        torque of the shaft on the crank, from what the element adds to its shaft
+// Reactions of a slider-crank that deforms: the left sides of slider_crank_dynamics.h for what stays zero in an ideal
+// joint, the contact's force in a joint with a gap. They are what figures of ideal joints and rigid links miss.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "engine/model/model.h"
+#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+#include "mechanisms/slider_crank/slider_crank_forces.h"
+
+namespace kurbel {
+
+struct MachineForces {
+  double torque = 0;                           // of the shaft on the crank [N·m]
+  std::array<double, joint_count> reaction{};  // of a slider-crank that deforms: magnitudes [N]
+};
+
+class DeformedMechanism {
+ public:
+  DeformedMechanism(std::shared_ptr<const Model> model, const std::string& component);
+  bool deforms() const { return dynamics_ != nullptr; }
+  MachineForces at(const Snapshot& s) const;
+
+ private:
+  using Vector = SliderCrankDynamics::Vector;
+  void find_reactions(const Snapshot& s, double omega, double alpha, MachineForces& out) const;
+
+  std::shared_ptr<const Model> model_;
+  std::size_t element_ = 0;  // of the network
+  const SliderCrankDynamics* dynamics_ = nullptr;
+  int force_channel_ = -1;
+  std::size_t own_ = 0;  // first of its own states
+};
+
+}  // namespace kurbel

@@ -1,0 +1,424 @@
+// machine_motion.cpp — the regime's round past the cycle's angles; else the last whole cycle of the scene's run.
+#include "studies/forces/machine_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
+#include "engine/scene/units.h"
+#include "mechanisms/reduced/mechanism.h"
+#include "studies/steady/steady_simulation.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
+constexpr int most_turns = 64;           // of the crank until everything comes again
+constexpr int rounds_undriven = 40;      // what nothing drives comes to rest, or has come again long before
+constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
+
+// Motion and forces of the crank when it comes past given angles.
+class PassageRecorder final : public Observer {
+ public:
+  PassageRecorder(std::size_t tracked, int node, const DeformedMechanism& forces, std::vector<double> targets,
+                  int direction)
+      : tracked_(tracked), node_(node), forces_(forces), targets_(std::move(targets)), direction_(direction) {}
+  void step(StepView& view) override {
+    Equations& equations = view.equations();
+    const Model& m = equations.model();
+    const int shaft = m.shaft_of_node[at(node_)];
+    const double gain = m.gain_of_node[at(node_)];
+    const auto beyond = [&](double t) {
+      return direction_ * (equations.angle_with_turns(tracked_, view.at(t)) - targets_[passed.size()]);
+    };
+    // Each within the whole step, so that no target moves for those asked for beside it.
+    const double from = view.t_previous();
+    while (passed.size() < targets_.size()) {
+      Deadline::check();
+      const double at_end = beyond(view.t());
+      if (at_end < 0) return;
+      const double at_begin = beyond(from);
+      const double time = at_begin < 0 ? find_root(beyond, from, at_begin, view.t(), at_end) : from;
+      const Snapshot& s = view.snapshot(time);
+      passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft]});
+      machine.push_back(forces_.at(s));
+    }
+  }
+  std::vector<CrankMotion> passed;
+  std::vector<MachineForces> machine;
+
+ private:
+  std::size_t tracked_;
+  int node_;
+  const DeformedMechanism& forces_;
+  std::vector<double> targets_;
+  int direction_;
+};
+
+// Angles of the crank at the steps' ends: events are among them.
+class StepEnds final : public Observer {
+ public:
+  explicit StepEnds(std::size_t tracked) : tracked_(tracked) {}
+  void step(StepView& view) override {
+    t_.push_back(view.t());
+    angle_.push_back(view.equations().angle_with_turns(tracked_, view.y()));
+  }
+  double angle(double t) const {
+    const auto after = std::lower_bound(t_.begin(), t_.end(), t);
+    const auto i = static_cast<std::size_t>(after - t_.begin());
+    if (i == t_.size()) return angle_.back();
+    return angle_[i > 0 && t - t_[i - 1] < t_[i] - t ? i - 1 : i];
+  }
+
+ private:
+  std::size_t tracked_;
+  std::vector<double> t_, angle_;
+};
+
+MotionAlong sped_up(MotionAlong along, double by) {
+  for (CrankMotion& m : along.motion) m.omega *= 1 + by, m.alpha *= (1 + by) * (1 + by);
+  return along;
+}
+
+// Edges of the loads in every cycle of several, and those that events make, once each.
+std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle, int cycles,
+                                 const std::vector<double>& events) {
+  constexpr double same = 1e-7;
+  std::vector<double> all;
+  for (int k = 0; k < cycles; ++k)
+    for (const double e : loads) all.push_back(e + k * cycle);
+  const std::size_t given = all.size();
+  if (events.size() > most_edges) return all;
+  for (const double e : events) {
+    const bool known = std::any_of(all.begin(), all.end(),
+                                   [&](double k) { return std::abs(std::remainder(e - k, cycles * cycle)) < same; });
+    if (!known) all.push_back(e);
+  }
+  std::sort(all.begin() + static_cast<std::ptrdiff_t>(given), all.end());
+  return all;
+}
+
+}  // namespace
+
+MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::string& component) {
+  const Network::ShaftElement& element = mechanism_element(model.network, component);
+  for (std::size_t i = 0; i < model.angles.size(); ++i)
+    if (model.angles[i].node == element.node) return {element.node, i, element.phase};
+  throw std::logic_error("the crank's angle is not tracked");
+}
+
+MachineMotion::MachineMotion(const Scene& scene, const Effects& effects, const std::string& component,
+                             const ForcesOptions& options)
+    : options_(options),
+      settings_(scene.run),
+      effects_(effects.describe()),
+      model_(compile(scene, effects)),
+      crank_(crank_in(*model_, component)),
+      forces_(model_, component) {}
+
+bool MachineMotion::deforms() const { return forces_.deforms(); }
+
+double MachineMotion::start_speed() const {
+  Equations equations(model_, false);
+  const std::vector<double> y = equations.start(0);
+  const Snapshot& s = equations.snapshot(0, y);
+  return model_->gain_of_node[at(crank_.node)] * s.now.speed[model_->shaft_of_node[at(crank_.node)]];
+}
+
+double MachineMotion::rated_speed() const {
+  return model_->speed_scale * std::abs(model_->node_ratio[at(crank_.node)]);
+}
+
+std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account out) const {
+  std::string why_not;
+  const Regime found = regime();
+  auto motion = kept_motion(loads, found, why_not);
+  if (!motion && found.kind != Regime::Kind::interrupted) motion = last_cycle(loads, why_not, out);
+  if (found.kind == Regime::Kind::interrupted) out.complete = false, out.diagnosis = found.words;
+  if (motion) motion->effects = effects_, motion->deforms = deforms();
+  return motion;
+}
+
+// Of the tracked angle, which does not know how the crank sits on its shaft.
+std::vector<double> MachineMotion::targets_of(const std::vector<Abscissa>& where, double origin) const {
+  std::vector<double> targets;
+  for (const Abscissa& a : where) targets.push_back(origin + a.place() - crank_.phase);
+  return targets;
+}
+
+// --- the regime ---
+
+bool MachineMotion::is_driven() const {
+  return !model_->network.prescribed.empty() ||
+         std::any_of(model_->accounts.begin(), model_->accounts.end(),
+                     [](const WorkAccount& a) { return a.kind == kurbel::Account::driving; });
+}
+
+Regime MachineMotion::regime() const {
+  RegimeOptions options{.tolerance = map_tolerance,
+                        .method = settings_.method == "work" ? "auto" : settings_.method,
+                        .budget = settings_.budget,
+                        .interrupted = options_.watch.interrupted,
+                        .progress = [this](const std::string& what, double part) { options_.watch.at(what, part); }};
+  if (!is_driven()) options.most_rounds = rounds_undriven;
+  try {
+    return find_regime(model_, options);
+  } catch (const std::invalid_argument& refused) {
+    Regime none;
+    none.words = refused.what();
+    return none;
+  }
+}
+
+struct MachineMotion::Sampled {
+  MotionAlong along;
+  std::vector<MachineForces> machine;
+};
+
+std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Regime& regime,
+                                                          std::string& why_not) const {
+  why_not = regime.words;
+  if (!regime.repeats() || !(regime.point.time > 0)) return {};
+  try {
+    SimulatedMotion motion;
+    Sampled tight = along_round(loads, *regime.map, regime.point.z, map_tolerance);
+    ReturnMap loose(model_, [&] {
+      ReturnMapOptions options = regime.map->options();
+      options.tolerance = looser_tolerance;
+      return options;
+    }());
+    loose.follow(*regime.map);
+    const SteadyPoint other = find_looser(loose, regime.point, enough);
+    motion.others.push_back(
+        {along_round(loads, loose, other.found ? other.z : regime.point.z, looser_tolerance).along, 1});
+    // A member of a family is the one that the run came to, as accurately as it ran.
+    if (regime.point.neutral()) motion.others.push_back({sped_up(tight.along, 1e-9 * regime.rounds), 1});
+    if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(regime.still_changes, enough)), 1});
+    const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
+    motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
+                                     effects_ == "none" ? "rigid" : effects_, loads.cycle() * 360 / turn,
+                                     cycles > 1 ? fmt::format(", {} of them until it comes again", cycles) : "");
+    motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
+    motion.kept = true;
+    return motion;
+  } catch (const std::invalid_argument& refused) {
+    why_not = refused.what();
+    return {};
+  }
+}
+
+// Once round: by how much the crank turns, and the angles of what happens on the way.
+struct MachineMotion::Window {
+  double begin = 0, way = 0;   // of the crank [rad]
+  std::vector<double> events;  // its angles [rad]
+};
+
+MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance,
+                                              double cycle) const {
+  Equations equations(model_, false);
+  const std::vector<double> y = map.place(equations, z);
+  Window window;
+  window.begin = angle_in(equations, y);
+  const bool by_time = map.periodicity().by_time;
+  RunOptions run = run_options(tolerance);
+  run.method = "auto";
+  run.from = {map.start_time(), y};
+  const double time = by_time ? map.periodicity().time * map.options().cycles : map.time_limit();
+  run.until = map.start_time() + time;
+  if (!by_time) run.stop = map.round_end(equations, y);
+  StepEnds ends(crank_.tracked);
+  const RunOutcome outcome = integrate(equations, run, {&ends});
+  if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
+  window.way = angle_in(equations, outcome.state) - window.begin;
+  for (const Event& e : outcome.events) window.events.push_back(ends.angle(e.t) + crank_.phase);
+  const double cycles = std::abs(window.way) / cycle;
+  if (cycles < 0.5) throw std::invalid_argument("the crank does not turn round in the motion that the machine keeps");
+  if (std::abs(cycles - std::round(cycles)) > 1e-6 || cycles * cycle / turn > most_turns + 0.5)
+    throw std::invalid_argument(
+        fmt::format("what the machine keeps doing comes again after {:.6g} cycles of the crank", cycles));
+  return window;
+}
+
+MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z,
+                                                  double tolerance) const {
+  const double cycle = loads.cycle();
+  const Window window = round_of(map, z, tolerance, cycle);
+  const int direction = window.way < 0 ? -1 : 1, cycles = static_cast<int>(std::lround(std::abs(window.way) / cycle));
+  Sampled out;
+  out.along.cycle = cycles * cycle;
+  const double first = direction > 0 ? std::ceil(window.begin / cycle) : std::floor(window.begin / cycle) - cycles;
+  const double origin = first * cycle;
+  std::vector<double> events;
+  for (const double e : window.events) {
+    const double within = std::fmod(e - origin, out.along.cycle);
+    events.push_back(within < 0 ? within + out.along.cycle : within);
+  }
+  std::vector<Abscissa>& where = out.along.where;
+  where = abscissae(out.along.cycle, edges_of_all(loads.edges(direction), cycle, cycles, events), direction,
+                    options_.positions,
+                    cycle);  // tables show one of the crank's cycles
+  if (direction < 0) std::reverse(where.begin(), where.end());
+  std::vector<double> targets = targets_of(where, origin);
+  Equations equations(model_, false);
+  const std::vector<double> y = map.place(equations, z);
+  RunOptions run = run_options(tolerance);
+  run.method = "auto";
+  run.from = {map.start_time(), y};
+  const double last = targets.back();
+  run.until = map.start_time() +
+              2.5 * (map.periodicity().by_time ? map.periodicity().time * map.options().cycles : map.time_limit());
+  run.stop = [&, last](double, std::span<const double> now) {
+    return std::min(1.0, 1e-3 + direction * (last - equations.angle_with_turns(crank_.tracked, now)));
+  };
+  PassageRecorder passages(crank_.tracked, crank_.node, forces_, std::move(targets), direction);
+  const RunOutcome outcome = integrate(equations, run, {&passages});
+  if (passages.passed.size() != where.size())
+    throw std::invalid_argument(outcome.diagnosis.empty() ? "the round ended before the crank's cycle"
+                                                          : outcome.diagnosis);
+  out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
+  check_sense(out.along, direction);
+  return out;
+}
+
+void MachineMotion::check_sense(const MotionAlong& along, int direction) const {
+  for (const CrankMotion& m : along.motion)
+    if (!(direction * m.omega > 0))
+      throw std::invalid_argument(
+          "the crank stops or turns back within the cycle, so that forces are none of its angle");
+}
+
+// --- the scene's run ---
+
+struct MachineMotion::WholeRun {
+  double begin, end;  // crank's own angle [rad]
+  RunOutcome outcome;
+};
+
+RunOptions MachineMotion::run_options(double tolerance) const {
+  return {.tolerance = tolerance,
+          .method = settings_.model == "reduced" ? settings_.method : "auto",
+          .until = settings_.until,
+          .budget = settings_.budget,
+          .interrupted = options_.watch.interrupted,
+          .progress = [this](double fraction) { options_.watch.at("simulating", fraction); }};
+}
+
+MachineMotion::WholeRun MachineMotion::whole_run(double tolerance) const {
+  Equations equations(model_, false);
+  const std::vector<double> y = equations.start(0);
+  const double begin = angle_in(equations, y);
+  RunOutcome outcome = integrate(equations, run_options(tolerance), {});
+  return {begin, angle_in(equations, outcome.state), std::move(outcome)};
+}
+
+MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where, double cycle, double origin,
+                                              int direction, double tolerance) const {
+  Sampled out;
+  out.along.cycle = cycle;
+  out.along.where = where;
+  std::vector<double> targets = targets_of(where, origin);
+  PassageRecorder passages(crank_.tracked, crank_.node, forces_, std::move(targets), direction);
+  Equations equations(model_, false);
+  integrate(equations, run_options(tolerance), {&passages});
+  if (passages.passed.size() != where.size())
+    throw std::runtime_error(
+        "the simulated crank does not repeat its way between two tolerances; ask for more accuracy (run.accuracy)");
+  out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
+  return out;
+}
+
+namespace {
+
+// What the speed has still to change, over its mean; ∞: the changes do not shrink.
+double left_to_come(const MotionAlong* before, const MotionAlong& now, double noise) {
+  const double first = now.motion.front().omega, last = now.motion.back().omega, mean = std::abs(now.mean_speed());
+  if (!before) return std::abs(last - first) / mean;
+  return still_to_come({before->motion.front().omega, first, last}, noise + 1e-9 * mean) / mean;
+}
+
+double closure_of(const MotionAlong& along) {
+  return (along.motion.back().omega - along.motion.front().omega) / along.mean_speed();
+}
+
+std::string not_closed(double closure, bool before, double to_come) {
+  return fmt::format("over the cycle shown the crank's speed changes by {:.2g} % of its mean{}", 100 * closure,
+                     !before                  ? std::string()
+                     : std::isfinite(to_come) ? fmt::format(", and has {:.2g} % still to change", 100 * to_come)
+                                              : std::string(", no less than over the cycle before"));
+}
+
+}  // namespace
+
+// The last cycle that begins and ends at a multiple of the cycle, in the crank's own angle.
+std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, const std::string& why,
+                                                         Account out) const {
+  const double tolerance = std::max(settings_.accuracy, 1e-12) / 10, cycle = loads.cycle();
+  const auto [begin_angle, end_angle, outcome] = whole_run(30 * tolerance);
+  if (!outcome.complete) {
+    out.complete = false;
+    out.diagnosis = outcome.diagnosis;
+  }
+  const int direction = end_angle >= begin_angle ? 1 : -1;
+  const double last = direction > 0 ? std::floor((end_angle - 1e-9) / cycle) : std::ceil((end_angle + 1e-9) / cycle);
+  const double first = last - direction;
+  if (direction * (first * cycle - begin_angle) < -1e-9) {
+    out.notes.push_back(fmt::format(
+        "second problem left out: the machine keeps no motion that turns the crank round ({}), and within {} the crank "
+        "turns by {:.4g}°, less than a whole cycle of {:.0f}° that begins at a multiple of it; simulate longer "
+        "(run.until) or start the machine",
+        why, with_unit(outcome.t, "s", 4), std::abs(end_angle - begin_angle) * 360 / turn, cycle * 360 / turn));
+    return {};
+  }
+  const double origin = (direction > 0 ? first : last) * cycle;
+  std::vector<Abscissa> where = abscissae(cycle, loads.edges(direction), direction, options_.positions);
+  if (direction < 0) std::reverse(where.begin(), where.end());
+  SimulatedMotion motion;
+  Sampled tight = one_run(where, cycle, origin, direction, tolerance);
+  MotionAlong loose = one_run(where, cycle, origin, direction, 30 * tolerance).along;
+  std::optional<MotionAlong> before;
+  if (direction * (first * cycle - direction * cycle - begin_angle) >= -1e-9)
+    before = one_run(where, cycle, origin - direction * cycle, direction, tolerance).along;
+  const MotionAlong& along = tight.along;
+  const double closure = closure_of(along);
+  const double noise = std::abs(loose.motion.back().omega - along.motion.back().omega);
+  const double to_come = left_to_come(before ? &*before : nullptr, along, noise);
+  motion.others.push_back({std::move(loose), 1});
+  if (std::isfinite(to_come)) motion.others.push_back({sped_up(along, std::copysign(to_come, closure)), 1});
+  if (before) {
+    // Changes that do not shrink go on as they grew, from the middle of the last two cycles to that of the next two.
+    constexpr double most_grown = 100;  // from next to no change at all nothing can be told
+    const double grew = std::abs(closure / closure_of(*before));
+    const double times = closure == 0             ? 1
+                         : std::isfinite(to_come) ? std::max(1.0, to_come / std::abs(closure))
+                                                  : std::clamp(grew * grew, 1.0, most_grown);
+    motion.others.push_back({std::move(*before), times});
+  }
+  motion.description =
+      fmt::format("the machine as its torques drive it ({}), cycle no. {:.0f} of a run of {}",
+                  effects_ == "none" ? "rigid" : effects_, std::abs(first) + 1, with_unit(settings_.until, "s", 4));
+  constexpr double shown = 1e-6;  // of the mean speed
+  if (to_come > shown)
+    out.notes.push_back(
+        fmt::format("the simulated motion is not steady ({}): {}; that is counted as an error of every figure; {}", why,
+                    not_closed(closure, before.has_value(), to_come),
+                    std::isfinite(to_come) ? "simulate longer (run.until)" : "nothing says that it ever will be"));
+  else
+    out.notes.push_back(fmt::format("the simulated motion is the last whole cycle of the scene's run ({})", why));
+  motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
+  return motion;
+}
+
+CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
+  if (options.speed) return {*options.speed, "as asked for"};
+  if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
+  return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
+}
+
+}  // namespace kurbel

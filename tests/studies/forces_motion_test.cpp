@@ -1,0 +1,202 @@
+// forces_motion_test.cpp — the second problem's motion is the one that the machine keeps: against long runs, against the
+// torque in the machine's own equations, and against what is left to come where nothing is kept.
+#include "studies/forces/machine_motion.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "studies/forces/forces_findings.h"
+#include "studies/forces/linkage_cycle.h"
+#include "tests/agreement/agreement.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double same_physics = 1e-10;  // of the largest torque: what tables of the mechanism leave
+
+// Reactions and crank torque of the regime are those of a long settled run, within their errors: friction of bearings,
+// losses of gears, currents, elastic shafts, slipping brakes, and a rod that bends.
+TEST(ForcesOfTheRegime, AreThoseOfALongSettledRun) {
+  for (const char* name : {"exact_bearing", "dc_with_current", "slender_rod_small", "swings/drag_and_bearing",
+                           "swings/worm_losses_shaft", "swings/two_axis_motor_shaft"}) {
+    const agreement::Row row =
+        agreement::compare_forces(test::scene_file(fmt::format("tests/agreement/{}.toml", name)));
+    ASSERT_FALSE(row.figures.empty()) << name << ": " << row.regime;
+    for (const agreement::Compared& c : row.figures)
+      EXPECT_EQ(c.verdict, agreement::Verdict::agrees)
+          << name << ", " << c.figure << ": run " << c.run << ", study " << c.study << " ± " << c.allowed << c.words;
+  }
+}
+
+// The regime does not know for how long the scene would have run.
+TEST(ForcesOfTheRegime, DoNotDependOnTheLengthOfTheRun) {
+  Scene scene = test::scene_file("tests/agreement/exact_bearing.toml");
+  const Forces a = find_forces(scene, {});
+  scene.run.until = 0.01;
+  const Forces b = find_forces(scene, {});
+  ASSERT_TRUE(a.simulated && b.simulated);
+  for (std::size_t k = 0; k < joint_count; ++k)
+    EXPECT_EQ(a.simulated->reaction[k].value, b.simulated->reaction[k].value);
+  EXPECT_TRUE(a.notes.empty());
+}
+
+// M of the links' equilibrium, friction of the joints included, and I ε − Q of the compiled machine are one torque: the
+// simulated crank moves with the friction that its reactions have.
+TEST(CompiledMachine, TurnsTheCrankWithTheTorqueThatItsLinksNeed) {
+  for (const char* name : {"joint_friction_rigid", "joint_friction_crank", "compressor", "light_flywheel"}) {
+    const std::string folder = std::string(name) == "compressor"       ? "scenes"
+                               : std::string(name) == "light_flywheel" ? "tests/agreement/swings"
+                                                                       : "tests/agreement";
+    const Forces f = find_forces(test::scene_file(fmt::format("{}/{}.toml", folder, name)), {});
+    ASSERT_TRUE(f.simulated && f.simulated->machine_residual) << name;
+    EXPECT_LT(*f.simulated->machine_residual, same_physics) << name;
+    EXPECT_NEAR(f.simulated->closure, 0, 1e-9) << name;
+  }
+  for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {
+    const LinkageStudy f = find_linkage_forces(test::scene_file(fmt::format("tests/agreement/{}.toml", name)), {});
+    ASSERT_TRUE(f.simulated && f.simulated->machine_residual) << name;
+    EXPECT_LT(*f.simulated->machine_residual, same_physics) << name;
+    EXPECT_NEAR(f.simulated->closure, 0, 1e-9) << name;
+  }
+}
+
+// A rod that bends counts as rigid: told with its size, and the error holds the torque that the machine really takes.
+TEST(CompiledMachine, TellsWhatABendingRodChanges) {
+  const Forces f = find_forces(test::scene_file("tests/agreement/slender_rod_small.toml"), {});
+  ASSERT_TRUE(f.simulated);
+  ASSERT_EQ(f.notes.size(), 1U);
+  EXPECT_NE(f.notes[0].find("counts as rigid links in ideal joints"), std::string::npos) << f.notes[0];
+  EXPECT_GT(*f.simulated->machine_residual, 1e-3);
+  EXPECT_GE(*f.simulated->torque.error, *f.simulated->machine_residual * std::abs(f.simulated->torque.value) * 0.9);
+  for (const Peak& p : f.simulated->reaction) EXPECT_GT(*p.error, 1e-4 * std::abs(p.value));
+}
+
+const char* const coasting = R"(
+line = ["crank"]
+[crank]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "350 mm"
+crank_inertia = "0.5 kg*m2"
+slider_mass = "3 kg"
+load = {{ kind = "medium", viscous = "20 N*s/m" }}
+[run]
+start = {{ speed = "30 rad/s" }}
+until = "{} s"
+accuracy = 1e-9
+)";
+
+// What coasts keeps no motion: the cycle before and the ones to come lie within the errors of the one that is shown.
+TEST(ForcesWithoutARegime, HaveAnErrorThatHoldsTheNextCycle) {
+  const Forces now = find_forces(test::scene_from(fmt::format(fmt::runtime(coasting), 1.2)), {}),
+               later = find_forces(test::scene_from(fmt::format(fmt::runtime(coasting), 1.5)), {});
+  ASSERT_TRUE(now.simulated && later.simulated);
+  ASSERT_FALSE(now.notes.empty());
+  EXPECT_NE(now.notes[0].find("counted as an error of every figure"), std::string::npos) << now.notes[0];
+  const ForceCycle &a = *now.simulated, &b = *later.simulated;
+  ASSERT_GT(a.mean_speed - b.mean_speed, 0.01);
+  EXPECT_LE(a.mean_speed - b.mean_speed, a.mean_speed_error);
+  for (std::size_t k = 0; k < joint_count; ++k)
+    EXPECT_LE(std::abs(a.reaction[k].value - b.reaction[k].value), *a.reaction[k].error) << k;
+  EXPECT_LE(std::abs(a.shaking_force.value - b.shaking_force.value), *a.shaking_force.error);
+}
+
+// Two cranks, one at twice the speed: the machine comes again after two cycles of the fast one, which its peaks know.
+TEST(ForcesOfTheRegime, GoOnUntilTheWholeMachineComesAgain) {
+  const Scene scene = test::scene_from(R"(
+line = ["motor", "fast", "gear", "slow"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "100 N*m"
+no_load_speed = "40 rad/s"
+inertia = "0.3 kg*m2"
+[fast]
+kind = "slider-crank"
+radius = "60 mm"
+rod = "200 mm"
+crank_inertia = "0.05 kg*m2"
+slider_mass = "2 kg"
+[gear]
+kind = "gearbox"
+stages = [{ teeth = [20, 40] }]
+[slow]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "350 mm"
+crank_inertia = "0.2 kg*m2"
+slider_mass = "6 kg"
+load = { kind = "medium", viscous = "300 N*s/m" }
+[run]
+start = { speed = "30 rad/s" }
+until = "1 s"
+)");
+  ForcesOptions options;
+  options.mechanism = "fast";
+  const Forces fast = find_forces(scene, options);
+  options.mechanism = "slow";
+  const Forces slow = find_forces(scene, options);
+  ASSERT_TRUE(fast.simulated && slow.simulated);
+  EXPECT_NEAR(fast.simulated->cycle, 4 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(slow.simulated->cycle, 2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(fast.simulated->mean_speed, 2 * slow.simulated->mean_speed, 1e-9 * fast.simulated->mean_speed);
+  EXPECT_LT(*fast.simulated->machine_residual, same_physics);
+  EXPECT_EQ(fast.simulated->rows.size(), 13U);  // of one cycle
+  EXPECT_EQ(fast.simulated->positions.size(), 1441U);
+}
+
+// --positions chooses rows of a table and nothing else, in the simulated motion of every mechanism.
+TEST(ForcesOfTheRegime, HavePeaksThatNoPositionsMove) {
+  for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {
+    const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
+    ForcesOptions coarse, fine;
+    coarse.positions = 5, fine.positions = 77;
+    const LinkageCycle a = *find_linkage_forces(scene, coarse).simulated,
+                       b = *find_linkage_forces(scene, fine).simulated;
+    for (std::size_t k = 0; k < a.reactions.size(); ++k) {
+      EXPECT_EQ(a.reactions[k].peak.value, b.reactions[k].peak.value) << name << a.reactions[k].name;
+      EXPECT_EQ(a.reactions[k].peak.error, b.reactions[k].peak.error) << name;
+    }
+    EXPECT_EQ(a.torque.peak.value, b.torque.peak.value) << name;
+  }
+}
+
+// What the frame does to the links, by the columns "of frame on …", is what the masses need beyond weight and load, which
+// no speed changes: minus the shaking force. So senses and axes are those that the headers name.
+TEST(ForcesInALinkage, PushTheWayThatTheirColumnsName) {
+  ForcesOptions options;
+  options.simulate = false;
+  for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {
+    const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
+    options.speed = 20;
+    const LinkageStudy slow = find_linkage_forces(scene, options);
+    options.speed = 40;
+    const LinkageStudy fast = find_linkage_forces(scene, options);
+    const std::string csv = findings_of(fast).csv[0].text(), header = csv.substr(0, csv.find('\n'));
+    const auto left = [](const LinkagePosition& p) {
+      Force2 sum = p.forces.shaking_force;
+      for (const JointForces& j : p.forces.joints)
+        if (std::string(j.from) == "frame") sum = sum + j.force;
+      return sum;
+    };
+    for (std::size_t i = 0; i < fast.prescribed->positions.size(); ++i) {
+      const Force2 open = left(fast.prescribed->positions[i]) - left(slow.prescribed->positions[i]);
+      EXPECT_NEAR(open.magnitude(), 0, 1e-9 * fast.prescribed->shaking_force.peak.value) << name << " " << i;
+    }
+    int bearings = 0;
+    for (const JointForces& j : fast.prescribed->positions.front().forces.joints) {
+      std::string column = fmt::format("{} of {} on {}", j.name, j.from, j.on);
+      for (char& c : column)
+        if (c == ' ' || c == ',') c = '_';
+      EXPECT_NE(header.find(column + "_x [N]"), std::string::npos) << column << " in " << header;
+      bearings += std::string(j.from) == "frame" ? 1 : 0;
+    }
+    EXPECT_GE(bearings, 2) << name;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel
