@@ -23,7 +23,7 @@ const char* const geared = R"(
   line = ["motor", "input", "gears", "drum"]
   motor = { kind = "dc shunt motor", stall_torque = "400 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2" }
   input = { kind = "coupling", stiffness = "50 kN*m/rad" }
-  gears = { kind = "gearbox", ratio = 4, efficiency = 0.9 }
+  gears = { kind = "gearbox", stages = [{ teeth = [20, 80] }], efficiency = 0.9 }
   drum = { kind = "flywheel", inertia = "20 kg*m2" }
   work = { kind = "load", on = "drum", torque = "360 N*m" }
   effects = { gear_losses = LOSSES }
@@ -84,8 +84,6 @@ TEST_P(TrialsOf, ATrialIsTheRunWithTheEffectSetByHand) {
   for (const Trial& trial : found.trials.tried) {
     if (!trial.failed.empty()) continue;
     const Result by_hand = simulate(scene, trial.effect.effects, "by hand", options);
-    if (trial.effect.gives_way.empty() && trial.effect.name.find(':') == std::string::npos)
-      EXPECT_EQ(by_hand.effects, parse_effects(trial.effect.name, scene).describe());
     for (const TrialChange& c : trial.changes) {
       if (c.gone) continue;
       const Figure* figure = like_in(by_hand, *alone.find(c.change.figure));
