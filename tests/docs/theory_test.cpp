@@ -313,7 +313,8 @@ TEST(Theory, CitationsOfAReportAreListedInOrderWithPageAndFile) {
 TEST(Theory, ReportsListWhatTheyCite) {
   const std::string word = "theory ";
   Report report{.title = "Press"};
-  report.add("Size").cards.push_back(Formula{.title = "Wittenbauer (" + word + "3.2)", .symbols = "", .numbers = ""});
+  report.add("Size").cards.push_back(
+      FormulaCard{.title = "Wittenbauer (" + word + "3.2)", .symbols = "", .numbers = ""});
   EXPECT_NE(
       html_of(report).find("\"theory\":[\"" + word + "3.2: Flywheel, equation (3.2) in docs/theory/03-flywheel.md\"]"),
       std::string::npos);
