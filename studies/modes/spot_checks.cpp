@@ -16,7 +16,7 @@ namespace {
 
 constexpr double apart = 0.05;      // of the speed, of two checks
 constexpr double least_use = 0.01;  // of what a joint may bear
-constexpr double most_seconds = 5;  // of processor time, of all checks together
+constexpr double most_seconds = 2;  // of processor time, of all checks together
 
 struct Candidate {
   double speed = 0, use = 0;

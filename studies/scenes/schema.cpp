@@ -213,6 +213,9 @@ std::string scene_schema() {
     for (std::size_t at; (at = target.find(' ')) != std::string::npos;) target.replace(at, 1, "%20");
     kind["$ref"] = target;
   }
+  const Json named_tables = {{"type", "object"},
+                             {"additionalProperties", {{"type", "object"}}},
+                             {"description", "tables that components take by name: use = \"table.gas\""}};
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "kurbel scene"},
                  {"description",
@@ -225,8 +228,9 @@ std::string scene_schema() {
                    {"branch", list_of(branch)},
                    {"constants",
                     {{"type", "object"},
-                     {"additionalProperties", {{"type", {"number", "string"}}}},
+                     {"additionalProperties", {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}}},
                      {"description", "names that formulas may use, with their units: p0 = \"1 bar\""}}},
+                   {"table", {{"anyOf", {named_tables, {{"oneOf", kinds}}}}}},  // or a component of that name
                    {"effects", table_of(effects)},
                    {"sequence", sequence_schema()},
                    {"run", run_schema()}}},

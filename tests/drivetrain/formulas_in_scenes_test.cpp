@@ -54,8 +54,7 @@ std::string message_of(const std::string& text) {
 // J ω(2 s) = ∫ M dt
 TEST(FormulaOverTime, GivesTheImpulseOfItsIntegral) {
   const Result r = run(flywheel_under(
-      R"~(table = { over = "time", formula = "M0*exp(-t/T)", range = ["0 s", "10 s"], with = {
-  T = "0.5 s" } })~",
+      R"~(table = { over = "time", formula = "M0*exp(-t/T)", range = ["0 s", "10 s"], with = { T = "0.5 s" } })~",
       "[constants]\nM0 = \"12 N*m\""));
   EXPECT_NEAR(end_speed(r), 12 * 0.5 * (1 - std::exp(-4.0)) / 2, 1e-9);
 }
@@ -130,7 +129,7 @@ TEST(FormulaOverTwist, HardeningSpringStoresTheEnergyOfItsLaw) {
       run(spring_on_frame(R"~({ over = "twist", formula = "k*twist + k3*twist^3", range = ["0 rad", "0.05 rad"] })~"));
   const double k = 400, k3 = 3e6, j = 0.5;
   const double square = (-k + std::sqrt(k * k + 2 * k3 * j)) / k3, twist = std::sqrt(square);
-  EXPECT_NEAR(figure(r, "peak_torque.c"), k * twist + k3 * twist * square, 1e-5);
+  EXPECT_NEAR(std::abs(figure(r, "peak_torque.c")), k * twist + k3 * twist * square, 1e-8);
 }
 
 TEST(FormulaOverTwist, MustPassTheOriginAndRise) {
@@ -301,8 +300,7 @@ accuracy = 1e-9
   const Result r = run(driven(R"~({ over = "time", formula = "30 [rad/s]*(t/1 s)^2", range = ["0 s", "2.5 s"] })~"));
   EXPECT_NEAR(end_speed(r), 120, 1e-7);
   EXPECT_NEAR(figure(r, "peak_torque.c"), 2 * 30 * 2 * 2.0, 1e-5);
-  EXPECT_NE(message_of(driven(R"~({ over = "time", formula = "if(t < 1 s, 0, 5 [rad/s])", range = ["0 s", "2 s"]
-})~"))
+  EXPECT_NE(message_of(driven(R"~({ over = "time", formula = "if(t < 1 s, 0, 5 [rad/s])", range = ["0 s", "2 s"] })~"))
                 .find("jumps"),
             std::string::npos);
   const Result smooth = run(driven(

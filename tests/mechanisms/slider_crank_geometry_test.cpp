@@ -208,12 +208,12 @@ TEST(SliderCrankGeometry, EngineUnderGravityKeepsItsEnergy) {
 
 TEST(SliderCrankGeometry, RefusesWhatCannotTurn) {
   SliderCrankData d = reference_mechanism();
-  d.offset = -0.25;
+  d.offset = -0.26;  // rod = radius + |offset| goes on through its change points
   try {
     SliderCrankGeometry geometry(d);
     FAIL() << "accepted a rod too short";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "slider-crank: rod_length = 0.35; must be > radius + |offset|");
+    EXPECT_STREQ(error.what(), "slider-crank: rod_length = 0.35; must be >= radius + |offset|");
   }
   d = reference_mechanism();
   d.slider_mass = -1;
