@@ -220,6 +220,24 @@ class Study {
           "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or swings "
           "over time");
     found_.here = respond(found_.drive, found_.excitations);
+    tell_swings_that_are_missing();
+  }
+
+  // A joint that hardly swings in the linear response and does in the steady motion: what is linear says nothing of it.
+  void tell_swings_that_are_missing() {
+    constexpr double hardly = 0.01;
+    if (!found_.cycle) return;
+    for (std::size_t j = 0; j < found_.joint_names.size(); ++j) {
+      const double linear = found_.here.joints[j].peak, really = found_.cycle->joints[j].peak;
+      if (!(really > 1e-6 * std::abs(found_.cycle->joints[j].mean) && linear < hardly * really)) continue;
+      found_.notes.push_back(fmt::format(
+          "the linear response says {} of {}, which swings by {} in the steady motion: its critical speeds, barred "
+          "ranges and curves over the speed do not hold{}",
+          with_unit(linear, "N*m", 3), found_.joint_names[j], with_unit(really, "N*m", 3),
+          model_->effects.joint_clearance ? ". With clearance the linear drive takes the pin at its mean place, inside "
+                                            "the gap, where nothing touches"
+                                          : ""));
+    }
   }
 
   LinearDrive drive_at(double speed) const {

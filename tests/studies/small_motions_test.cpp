@@ -187,6 +187,17 @@ run = {{ start = "rest", until = "20 s" }}
 }
 
 // q̇ of shafts that a gear ties: nearest by kinetic energy, and exact for speeds that obey it.
+// A pin that orbits in its gap: its mean place touches nothing, so that the linear drive is not the machine's.
+TEST(SmallMotions, WhereTheLinearResponseMissesTheSwingItSaysSo) {
+  const Scene scene = test::scene_file("tests/agreement/swings/worn_pin_shaft.toml");
+  const ModesStudy study = find_modes(scene, scene.effects, {});
+  ASSERT_TRUE(study.cycle);
+  EXPECT_LT(study.here.joints[0].peak, 0.01 * study.cycle->joints[0].peak);
+  EXPECT_TRUE(std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+    return note.find("do not hold") != std::string::npos && note.find("clearance") != std::string::npos;
+  }));
+}
+
 TEST(Coordinates, MotionsWithoutTwistLeaveEveryTwistAtRest) {
   SparseMatrix t(3, 5);
   t.insert(0, 0) = 1, t.insert(0, 1) = -2;
