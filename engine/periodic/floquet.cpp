@@ -26,6 +26,8 @@ constexpr std::size_t least_intervals = 12, most_intervals = 2000;
 constexpr double gone = 1e-9, gone_by_differences = 1e-6;  // of the largest direction: below what integration knows
 constexpr double difference_step = 2e-5;                   // of states over their scales
 constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double jumps = 2;  // [rad] in an interval beside the mode's own turning: the next one may be another turn
+constexpr double vanishes = 0.1;  // of a mode's mean amplitude in a motion: where it is less, its phase says little
 
 struct BrokenOff : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -249,16 +251,19 @@ class PhaseReader {
     for (Index j = 0; j < share.size(); ++j) {
       const Complex mode = modes_[static_cast<std::size_t>(j)].exponent;
       if (!(share[j] > 0) || (is_real(value) && mode.imag() < 0)) continue;
-      const double phase = mode.imag() == 0 ? out_of_step(value) : branch(phase_by(j, seen, nu), value);
+      const Followed followed = follow(j, seen, nu);
+      double phase = mode.imag() == 0 ? out_of_step(value) : branch(followed.phase, value);
       const double off = std::abs(Complex(value.log_magnitude, phase) - mode * ends_.back()) / two_pi;
       const double score = share[j] / (1 + off * off);
       if (score <= best) continue;
       best = score;
       out.mode = static_cast<int>(j);
       out.share = share[j];
-      out.phase_advance = phase;
       const double nearest = mode.imag() == 0 ? phase : branch(mode.imag() * ends_.back(), value);
       out.off_nearest = static_cast<int>(std::round((phase - nearest) / two_pi));
+      out.branch_by_mean = out.off_nearest != 0 && !followed.sure;
+      if (out.branch_by_mean) phase = nearest, out.off_nearest = 0;
+      out.phase_advance = phase;
     }
   }
 
@@ -276,17 +281,27 @@ class PhaseReader {
   static double branch(double phase, const PeriodicEigenvalue& value) {
     return value.phase + two_pi * std::round((phase - value.phase) / two_pi);
   }
+  struct Followed {
+    double phase = 0;  // [rad] in a round
+    bool sure = true;
+  };
   // What a mode sees it turn through, in each interval as near to the mode's own turning as can be.
-  double phase_by(Index mode, const std::vector<VectorXcd>& seen, const std::vector<Complex>& nu) const {
+  Followed follow(Index mode, const std::vector<VectorXcd>& seen, const std::vector<Complex>& nu) const {
     const double omega = modes_[static_cast<std::size_t>(mode)].exponent.imag();
-    double phase = 0, before = 0;
+    Followed followed;
+    double before = 0, least = HUGE_VAL, mean = 0;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const double by_mode = omega * (ends_[k] - before);
       const Complex ratio = nu[k] * seen[(k + 1) % seen.size()][mode] * std::conj(seen[k][mode]);
-      phase += by_mode + turned(std::arg(ratio) - by_mode);
+      const double beside = turned(std::arg(ratio) - by_mode), amplitude = std::abs(seen[k][mode]);
+      followed.phase += by_mode + beside;
+      followed.sure = followed.sure && std::abs(beside) < jumps;
+      least = std::min(least, amplitude);
+      mean += amplitude / static_cast<double>(seen.size());
       before = ends_[k];
     }
-    return phase;
+    followed.sure = followed.sure && least > vanishes * mean;
+    return followed;
   }
 
   const std::vector<MeanMode>& modes_;

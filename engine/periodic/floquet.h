@@ -22,6 +22,9 @@ struct FloquetExponent {
   double share = 0;               // its coefficient, on the average over the round; near 1 where they are much the same
   // The branch that is nearest to the mode's own frequency is this many times 1/T off: a mean that is a poor one.
   int off_nearest = 0;
+  // The phase could not be followed all round (it jumps, or the mode is nearly nothing of the motion somewhere): the
+  // branch is that nearest to the mode's own frequency, and the exponent is known but for multiples of 2πi/T.
+  bool branch_by_mean = false;
   double error = 0;  // of s [1/s]
 };
 

@@ -10,16 +10,13 @@
 
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/index.h"
-#include "engine/periodic/floquet.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int frozen_angles = 24;
-constexpr double hardly_moves = 0.999;  // share of a mode in own states
-constexpr std::size_t most_states_of_exponents = 60;
-constexpr double told_of_mean = 0.01;     // of |λ|: an error of the mean that is worth a note
+constexpr double hardly_moves = 0.999;    // share of a mode in own states
 constexpr Eigen::Index most_frozen = 60;  // coordinates
 
 // The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
@@ -140,89 +137,26 @@ void find_frozen_range(int count, ModesStudy& found) {
   }
 }
 
-namespace {
-
-double ratio_of(std::complex<double> exponent) { return -exponent.real() / std::abs(exponent); }
-
-// Of those not used yet, nearest first. A real multiplier has the phase 0 or π, whatever motion it belongs to.
-std::vector<std::size_t> exponents_near(const FloquetSpectrum& spectrum, std::complex<double> lambda,
-                                        bool of_real_multiplier, const std::vector<char>& used) {
-  std::vector<std::size_t> list;
-  for (std::size_t i = 0; i < spectrum.exponents.size(); ++i) {
-    const std::complex<double> s = spectrum.exponents[i].exponent;
-    const bool real = std::abs(std::sin(s.imag() * spectrum.time)) < 1e-6;
-    if (!used[i] && s.imag() > 0 && real == of_real_multiplier && std::abs(s - lambda) < 0.5 * std::abs(lambda))
-      list.push_back(i);
+bool changes_contact(const Event& event) {
+  switch (event.kind) {
+    case EventKind::rest:
+    case EventKind::held:
+    case EventKind::motion:
+    case EventKind::lock:
+    case EventKind::slip:
+    case EventKind::flight:
+    case EventKind::touch:
+    case EventKind::impact:
+      return true;
+    default:
+      return false;
   }
-  std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(spectrum.exponents[a].exponent - lambda) < std::abs(spectrum.exponents[b].exponent - lambda);
-  });
-  return list;
-}
-
-}  // namespace
-
-void find_exponents(const Regime& regime, ModesStudy& found) {
-  const Model& m = *found.drive.model;
-  const bool varies = std::any_of(m.network.elements.begin(), m.network.elements.end(),
-                                  [](const Network::ShaftElement& e) { return e.element->is.uses_angle; }) ||
-                      std::any_of(m.elastic.begin(), m.elastic.end(), [&](const ElasticJoint& e) {
-                        return m.network.joints[at(e.joint)].element->is.uses_angle;
-                      });
-  if (!varies || m.state_count() > most_states_of_exponents) return;
-  const FloquetSpectrum spectrum = floquet_exponents(*regime.map, regime.point.z);
-  if (!spectrum.found()) {
-    found.notes.push_back("no exponents of the periodic system beside the modes of the mean: " + spectrum.why);
-    return;
-  }
-  std::vector<char> used(spectrum.exponents.size(), 0);
-  double worst = 0;
-  const Mode* of = nullptr;
-  for (Mode& mode : found.modes) {
-    if (!(mode.lambda.imag() > 0)) continue;
-    std::vector<std::size_t> own = exponents_near(spectrum, mode.lambda, false, used);
-    if (own.empty()) {
-      own = exponents_near(spectrum, mode.lambda, true, used);
-      if (own.size() < 2) continue;  // one alone is a slow change of speed
-      const FloquetExponent &one = spectrum.exponents[own[0]], &two = spectrum.exponents[own[1]];
-      used[own[1]] = 1;
-      found.notes.push_back(
-          fmt::format("mode {} is locked to the round by coefficients that change with the angle: it swings at {:.6g} "
-                      "Hz and {:.6g} Hz, "
-                      "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
-                      mode.number, one.exponent.imag() / (2 * pi), two.exponent.imag() / (2 * pi),
-                      ratio_of(one.exponent), ratio_of(two.exponent), mode.lambda.imag() / (2 * pi), mode.ratio));
-    }
-    const FloquetExponent& e = spectrum.exponents[own.front()];
-    used[own.front()] = 1;
-    mode.periodic = e.exponent;
-    mode.periodic_error = e.error;
-    const double off = std::abs(e.exponent - mode.lambda) / std::abs(mode.lambda);
-    if (off > worst) worst = off, of = &mode;
-  }
-  if (of && worst > told_of_mean)
-    found.notes.push_back(fmt::format(
-        "coefficients change with the angle: by the exponents of the periodic system mode {} swings at {:.6g} Hz with "
-        "ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
-        of->number, of->periodic->imag() / (2 * pi), ratio_of(*of->periodic), of->lambda.imag() / (2 * pi), of->ratio));
 }
 
 void note_changes(const CycleSamples& samples, ModesStudy& found) {
   std::map<std::string, int> changes;
-  for (const Event& event : samples.events) switch (event.kind) {
-      case EventKind::rest:
-      case EventKind::held:
-      case EventKind::motion:
-      case EventKind::lock:
-      case EventKind::slip:
-      case EventKind::flight:
-      case EventKind::touch:
-      case EventKind::impact:
-        ++changes[event.component];
-        break;
-      default:
-        break;
-    }
+  for (const Event& event : samples.events)
+    if (changes_contact(event)) ++changes[event.component];
   if (changes.empty()) return;
   std::string list;
   for (const auto& [component, count] : changes)

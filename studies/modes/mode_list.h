@@ -9,8 +9,11 @@ namespace kurbel {
 void list_modes(int count, ModesStudy& found);
 // Fills `least` and `greatest` of the modes with the link held at angles all over the cycle.
 void find_frozen_range(int count, ModesStudy& found);
-// Fills `periodic` of the modes of a small machine: exponents of the motions beside the cycle that belong to them.
-void find_exponents(const Regime& regime, ModesStudy& found);
+// Fills `periodic` and `wiped_out` of the modes of a small machine: exponents of the motions beside the cycle that belong
+// to them. Each mode that swings has one, two, or a note that says why none.
+void find_exponents(const Regime& regime, const CycleSamples& samples, ModesStudy& found);
+// Locks or slips, touches or parts.
+bool changes_contact(const Event& event);
 // Notes contacts that lock and slip, touch and part within the round: the linear machine has them one way.
 void note_changes(const CycleSamples& samples, ModesStudy& found);
 // Fills `rattles`: joints whose law changes its piece within the round.

@@ -49,7 +49,7 @@ class Study {
       note_changes(*samples_, found_);
       find_rattles(*samples_, options_.count, found_);
     }
-    if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, found_);
+    if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, *samples_, found_);
     choose_range();
     say("excitation", 0.15);
     find_forcing();

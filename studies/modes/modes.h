@@ -40,6 +40,14 @@ struct ModesOptions {
   Watch watch = {};
 };
 
+// A swing of the system with coefficients that change within the round.
+struct PeriodicSwing {
+  std::complex<double> exponent;  // s [1/s]
+  double error = 0;               // [1/s]
+  bool branch_by_mean = false;    // Im s is known but for multiples of 2π/T; told is what is nearest to the mean's
+  double ratio() const { return -exponent.real() / std::abs(exponent); }
+};
+
 struct Mode {
   int number = 0;         // 0: rigid motion
   double omega = 0;       // undamped [rad/s]; of a swing of own states, |λ|
@@ -51,9 +59,10 @@ struct Mode {
   bool of_own_states = false;   // it grows out of no undamped mode: states of elements, slopes of motors
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
-  // Of the periodic system, where coefficients change with the angle: what the mean leaves out is the difference to λ.
-  std::optional<std::complex<double>> periodic = {};
-  double periodic_error = 0;                                                       // [1/s]
+  // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
+  // difference to λ. Two where the mode is locked to the round: both swing in step with it, and fade apart.
+  std::vector<PeriodicSwing> periodic = {};
+  bool wiped_out = false;  // by contacts that hold within the round: after it, nothing of a swing is left
   double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
 };
 

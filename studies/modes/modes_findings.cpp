@@ -30,14 +30,23 @@ bool is_forced(const ModesStudy& m) {
   return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());
 }
 
+// With its damping; and what springs and inertias alone would say, where states of elements make much of the frequency.
+std::string first_mode(const Mode& mode) {
+  constexpr double much = 0.005;
+  std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.natural()));
+  if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not swing: ζ ≥ 1)";
+  text += fmt::format(" (ζ = {:.3g}", mode.ratio);
+  if (std::abs(mode.natural() - mode.omega) > much * mode.omega)
+    text += fmt::format("; springs and inertias alone: {:.4g} Hz", hertz(mode.omega));
+  return text + ")";
+}
+
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
   if (m.modes.empty()) {
     text = "The drive has no mode with twist.";
   } else {
-    text = fmt::format("First mode at {:.6g} Hz{}", hertz(m.modes.front().natural()),
-                       m.modes.front().lambda.imag() > 0 ? fmt::format(" (ζ = {:.3g})", m.modes.front().ratio)
-                                                         : " undamped (it does not swing: ζ ≥ 1)");
+    text = first_mode(m.modes.front());
     if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
   }
   if (is_forced(m)) {
@@ -76,9 +85,21 @@ std::string damped_text(const Mode& m) {
 
 // Of the periodic system: damped frequency and damping ratio.
 std::string periodic_text(const Mode& m) {
-  if (!m.periodic) return "—";
-  return fmt::format("{}, {}", read_as(hertz(m.periodic->imag()), digits(6)),
-                     read_as(-m.periodic->real() / std::abs(*m.periodic), digits(4)));
+  if (m.wiped_out) return "nothing left after a round";
+  std::string text;
+  for (const PeriodicSwing& swing : m.periodic)
+    text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(swing.exponent.imag()), digits(6)),
+                        read_as(swing.ratio(), digits(4)), swing.branch_by_mean ? " (or multiples of 1/T off)" : "");
+  return text.empty() ? "—" : text;
+}
+
+List periodic_list(const Mode& m) {
+  return each(m.periodic, [](const PeriodicSwing& swing) {
+    return Record{{"real", swing.exponent.real()},
+                  {"imaginary", swing.exponent.imag()},
+                  {"error", swing.error},
+                  {"branch_by_mean", swing.branch_by_mean}};
+  });
 }
 
 Rows mode_table(const ModesStudy& m) {
@@ -103,19 +124,20 @@ Rows mode_table(const ModesStudy& m) {
       .only_for_programs("damping_ratio", &Mode::ratio)
       .only_for_people(
           "ζ", [](const Mode& mode) { return mode.lambda.imag() > 0 ? read_as(mode.ratio, digits(4)) : "≥ 1"; });
+  if (std::any_of(m.modes.begin(), m.modes.end(),
+                  [](const Mode& mode) { return std::abs(mode.natural() - mode.omega) > 1e-6 * mode.omega; }))
+    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return read_as(hertz(mode.natural()), digits(6)); });
   table.only_for_people("error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
     table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
       return mode.of_own_states ? std::string("—")
                                 : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
     });
-  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.periodic.has_value(); })) {
-    table.only_for_people("periodic system [Hz], ζ", periodic_text);
-    table.only_for_programs("periodic", [](const Mode& mode) {
-      const std::complex<double> s = mode.periodic.value_or(std::nan(""));
-      return Record{{"real", s.real()}, {"imaginary", s.imag()}, {"error", mode.periodic_error}};
-    });
-  }
+  if (std::any_of(m.modes.begin(), m.modes.end(),
+                  [](const Mode& mode) { return mode.wiped_out || !mode.periodic.empty(); }))
+    table.only_for_people("periodic system [Hz], ζ", periodic_text)
+        .only_for_programs("periodic", periodic_list)
+        .only_for_programs("wiped_out", &Mode::wiped_out);
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",

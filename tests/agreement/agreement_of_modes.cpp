@@ -40,13 +40,17 @@ std::vector<ToldSwing> swings_told(const ModesStudy& study) {
   for (const DampedMode& damped : study.damped) {
     if (damped.lambda.imag() <= 0) continue;
     ToldSwing told{damped.lambda.imag(), -damped.lambda.real(), damped.error};
-    for (const Mode& mode : study.modes) {
-      if (mode.lambda != damped.lambda) continue;
-      // Where coefficients change with the angle, the exponent is what is told of the swing; the mean's is beside it.
-      if (mode.periodic) told = {mode.periodic->imag(), -mode.periodic->real(), mode.periodic_error};
-      if (!mode.periodic && mode.omega > 0 && mode.greatest > 0)
-        told.least = std::min(1.0, mode.least / mode.omega), told.greatest = std::max(1.0, mode.greatest / mode.omega);
+    const auto mode =
+        std::find_if(study.modes.begin(), study.modes.end(), [&](const Mode& m) { return m.lambda == damped.lambda; });
+    if (mode != study.modes.end() && mode->wiped_out) continue;
+    // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
+    if (mode != study.modes.end() && !mode->periodic.empty()) {
+      for (const PeriodicSwing& s : mode->periodic) list.push_back({s.exponent.imag(), -s.exponent.real(), s.error});
+      continue;
     }
+    if (mode != study.modes.end() && mode->omega > 0 && mode->greatest > 0)
+      told.least = std::min(1.0, mode->least / mode->omega),
+      told.greatest = std::max(1.0, mode->greatest / mode->omega);
     list.push_back(told);
   }
   std::sort(list.begin(), list.end(), [](const ToldSwing& a, const ToldSwing& b) { return a.omega < b.omega; });
