@@ -253,7 +253,7 @@ class PhaseReader {
       if (!(share[j] > 0) || (is_real(value) && mode.imag() < 0)) continue;
       const Followed followed = follow(j, seen, nu);
       double phase = mode.imag() == 0 ? out_of_step(value) : branch(followed.phase, value);
-      const double off = std::abs(Complex(value.log_magnitude, phase) - mode * ends_.back()) / two_pi;
+      const double off = std::abs(Complex(value.log_magnitude, phase) - mode * ends_.back());
       const double score = share[j] / (1 + off * off);
       if (score <= best) continue;
       best = score;

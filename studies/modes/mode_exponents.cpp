@@ -27,90 +27,112 @@ bool varies_with_angle(const Model& m) {
 // A round's exponents, handed out to the modes.
 class Exponents {
  public:
-  Exponents(const FloquetSpectrum& spectrum, ModesStudy& found)
-      : spectrum_(spectrum), found_(found), used_(spectrum.exponents.size(), 0) {}
+  Exponents(const FloquetSpectrum& spectrum, bool contacts_change, ModesStudy& found)
+      : spectrum_(spectrum), contacts_change_(contacts_change), found_(found), used_(spectrum.exponents.size(), 0) {}
 
   void hand_out() {
-    for (Mode& mode : found_.modes)
-      if (mode.lambda.imag() > 0) give_own(mode);
+    give_own();
     give_pairs();
     tell_those_without();
     tell_largest_change();
   }
 
  private:
+  struct Candidate {
+    std::size_t number;
+    PeriodicSwing swing;
+    double off;  // from the mode's λ [1/s]
+  };
   const FloquetExponent& of(std::size_t i) const { return spectrum_.exponents[i]; }
   bool is_gone(std::size_t i) const { return of(i).exponent.real() == -HUGE_VAL; }
   // A real multiplier has the phase 0 or π, whatever motion it belongs to.
   bool is_real(std::size_t i) const { return std::abs(std::sin(of(i).exponent.imag() * spectrum_.time)) < 1e-6; }
-  bool turns_over(std::size_t i) const { return std::cos(of(i).exponent.imag() * spectrum_.time) < 0; }
-  static double off(const FloquetExponent& e, const Mode& mode) { return std::abs(e.exponent - mode.lambda); }
+
+  // Where contacts change within the round, the motion is now that of one machine and now that of another, and how often
+  // it turns in a round is a matter of how one counts.
+  PeriodicSwing as_near_as_can_be(std::size_t i, const Mode& mode) const {
+    PeriodicSwing swing{of(i).exponent, of(i).error, of(i).branch_by_mean};
+    if (!contacts_change_ && !swing.branch_by_mean) return swing;
+    const double turn = two_pi / spectrum_.time;
+    const double turns = std::round((mode.lambda.imag() - swing.exponent.imag()) / turn);
+    swing.branch_by_mean = swing.branch_by_mean || turns != 0;
+    swing.exponent += std::complex<double>(0, turns * turn);
+    return swing;
+  }
 
   // Of those not used yet, nearest first.
-  std::vector<std::size_t> near(const Mode& mode, bool of_real_multiplier) const {
-    std::vector<std::size_t> list;
-    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i)
-      if (!used_[i] && !is_gone(i) && of(i).exponent.imag() > 0 && is_real(i) == of_real_multiplier &&
-          off(of(i), mode) < near_enough * std::abs(mode.lambda))
-        list.push_back(i);
-    std::sort(list.begin(), list.end(),
-              [&](std::size_t a, std::size_t b) { return off(of(a), mode) < off(of(b), mode); });
+  std::vector<Candidate> near(const Mode& mode, bool of_real_multiplier) const {
+    std::vector<Candidate> list;
+    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
+      if (used_[i] || is_gone(i) || is_real(i) != of_real_multiplier) continue;
+      const PeriodicSwing swing = as_near_as_can_be(i, mode);
+      const double off = std::abs(swing.exponent - mode.lambda);
+      if (swing.exponent.imag() > 0 && off < near_enough * std::abs(mode.lambda)) list.push_back({i, swing, off});
+    }
+    std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.off < b.off; });
     return list;
   }
-  void give(Mode& mode, std::size_t i) {
-    used_[i] = 1;
-    mode.periodic.push_back({of(i).exponent, of(i).error, of(i).branch_by_mean});
-    if (of(i).branch_by_mean)
+  void give(Mode& mode, const Candidate& candidate) {
+    used_[candidate.number] = 1;
+    mode.periodic.push_back(candidate.swing);
+    if (candidate.swing.branch_by_mean)
       found_.notes.push_back(
-          fmt::format("the exponent of mode {} is known but for multiples of 1/T = {:.6g} Hz: within the round its "
-                      "swing is passed on to others so that its turns cannot be counted; told is the one nearest to "
-                      "the mean's",
-                      mode.number, 1 / spectrum_.time));
+          fmt::format("the frequency {:.6g} Hz of mode {} in the periodic system is known but for multiples of 1/T = "
+                      "{:.6g} Hz: other parts take its swing over within the round, so that its turns cannot be "
+                      "counted; told is the one nearest to the mean's",
+                      candidate.swing.exponent.imag() / two_pi, mode.number, 1 / spectrum_.time));
   }
-  void give_own(Mode& mode) {
-    const std::vector<std::size_t> own = near(mode, false);
-    if (!own.empty()) give(mode, own.front());
+  void give_own() {
+    for (Mode& mode : found_.modes) {
+      if (!(mode.lambda.imag() > 0)) continue;
+      const std::vector<Candidate> own = near(mode, false);
+      if (own.empty()) continue;
+      give(mode, own.front());
+      use_conjugate_of(own.front().number);
+    }
+  }
+  void use_conjugate_of(std::size_t number) {
+    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i)
+      if (!used_[i] && std::abs(of(i).exponent - std::conj(of(number).exponent)) < 1e-9 * std::abs(of(number).exponent))
+        used_[i] = 1;
   }
 
-  // Two real multipliers of the same sign in place of a swing: it is locked to the round. One alone is a slow change of
-  // speed.
+  // Two real multipliers in place of a swing: it is locked to the round. One alone is a slow change of speed.
   void give_pairs() {
     for (Mode& mode : found_.modes) {
       if (!(mode.lambda.imag() > 0) || !mode.periodic.empty()) continue;
-      const std::vector<std::size_t> own = near(mode, true);
-      const auto partner = std::find_if(own.begin(), own.end(), [&](std::size_t i) {
-        return i != own.front() && turns_over(i) == turns_over(own.front());
-      });
-      if (partner == own.end()) continue;
-      give(mode, own.front());
-      give(mode, *partner);
+      const std::vector<Candidate> own = near(mode, true);
+      if (own.size() < 2) continue;
+      give(mode, own[0]);
+      give(mode, own[1]);
       const PeriodicSwing &one = mode.periodic[0], &two = mode.periodic[1];
       found_.notes.push_back(
-          fmt::format("mode {} is locked to the round by coefficients that change with the angle: it swings at {:.6g} "
-                      "Hz and {:.6g} Hz, with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and "
-                      "{:.4g}",
+          fmt::format("mode {} is locked to the round by what changes within it: it swings at {:.6g} Hz and {:.6g} Hz, "
+                      "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
                       mode.number, one.exponent.imag() / two_pi, two.exponent.imag() / two_pi, one.ratio(), two.ratio(),
                       mode.lambda.imag() / two_pi, mode.ratio));
     }
   }
 
-  // What sticks within the round takes directions away, two for a swing.
+  // The spectrum is whole: where no exponent that swings is left, no swing is. What sticks takes directions away.
   void tell_those_without() {
-    std::size_t gone = 0;
-    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) gone += is_gone(i);
-    std::vector<Mode*> without;
-    for (Mode& mode : found_.modes)
-      if (mode.lambda.imag() > 0 && mode.periodic.empty()) without.push_back(&mode);
-    const bool all_gone = gone >= 2 * without.size();
-    for (Mode* mode : without) {
-      mode->wiped_out = all_gone;
+    bool swings_left = false, gone = false;
+    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
+      gone = gone || is_gone(i);
+      swings_left = swings_left || !(used_[i] || is_gone(i) || is_real(i));
+    }
+    for (Mode& mode : found_.modes) {
+      if (!(mode.lambda.imag() > 0) || !mode.periodic.empty()) continue;
+      mode.only_of_mean = !swings_left;
+      const std::string which =
+          fmt::format("mode {} ({:.6g} Hz by the mean)", mode.number, mode.lambda.imag() / two_pi);
       found_.notes.push_back(
-          all_gone ? fmt::format("nothing of mode {} ({:.6g} Hz by the mean) is left after a round: contacts that hold "
-                                 "within it take the swing away",
-                                 mode->number, mode->lambda.imag() / two_pi)
-                   : fmt::format("no exponent of the periodic system lies near mode {}: its {:.6g} Hz are those of the "
-                                 "mean alone, with an error that is not known",
-                                 mode->number, mode->lambda.imag() / two_pi));
+          swings_left ? "no exponent of the periodic system lies near " + which +
+                            ": its figures are those of the mean alone, with an error that is not known"
+          : gone ? "nothing of " + which + " is left after a round: contacts that hold within it take the swing away"
+                 : which +
+                       " does not swing in the periodic system: what changes within the round makes a slow "
+                       "decay of it");
     }
   }
 
@@ -131,6 +153,7 @@ class Exponents {
   }
 
   const FloquetSpectrum& spectrum_;
+  bool contacts_change_;
   ModesStudy& found_;
   std::vector<char> used_;
 };
@@ -145,7 +168,7 @@ void find_exponents(const Regime& regime, const CycleSamples& samples, ModesStud
   if (!spectrum.found())
     found.notes.push_back("no exponents of the periodic system beside the modes of the mean: " + spectrum.why);
   else
-    Exponents(spectrum, found).hand_out();
+    Exponents(spectrum, contacts_change, found).hand_out();
 }
 
 }  // namespace kurbel

@@ -9,7 +9,7 @@ namespace kurbel {
 void list_modes(int count, ModesStudy& found);
 // Fills `least` and `greatest` of the modes with the link held at angles all over the cycle.
 void find_frozen_range(int count, ModesStudy& found);
-// Fills `periodic` and `wiped_out` of the modes of a small machine: exponents of the motions beside the cycle that belong
+// Fills `periodic` and `only_of_mean` of the modes of a small machine: exponents of the motions beside the cycle that belong
 // to them. Each mode that swings has one, two, or a note that says why none.
 void find_exponents(const Regime& regime, const CycleSamples& samples, ModesStudy& found);
 // Locks or slips, touches or parts.

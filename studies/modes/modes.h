@@ -62,7 +62,7 @@ struct Mode {
   // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
   // difference to λ. Two where the mode is locked to the round: both swing in step with it, and fade apart.
   std::vector<PeriodicSwing> periodic = {};
-  bool wiped_out = false;  // by contacts that hold within the round: after it, nothing of a swing is left
+  bool only_of_mean = false;  // no swing of the periodic system is in its place: contacts within the round take it away
   double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
 };
 

@@ -85,7 +85,7 @@ std::string damped_text(const Mode& m) {
 
 // Of the periodic system: damped frequency and damping ratio.
 std::string periodic_text(const Mode& m) {
-  if (m.wiped_out) return "nothing left after a round";
+  if (m.only_of_mean) return "does not swing";
   std::string text;
   for (const PeriodicSwing& swing : m.periodic)
     text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(swing.exponent.imag()), digits(6)),
@@ -134,10 +134,10 @@ Rows mode_table(const ModesStudy& m) {
                                 : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
     });
   if (std::any_of(m.modes.begin(), m.modes.end(),
-                  [](const Mode& mode) { return mode.wiped_out || !mode.periodic.empty(); }))
+                  [](const Mode& mode) { return mode.only_of_mean || !mode.periodic.empty(); }))
     table.only_for_people("periodic system [Hz], ζ", periodic_text)
         .only_for_programs("periodic", periodic_list)
-        .only_for_programs("wiped_out", &Mode::wiped_out);
+        .only_for_programs("only_of_mean", &Mode::only_of_mean);
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
         .only_for_programs("shape",

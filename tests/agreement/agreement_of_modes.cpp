@@ -42,7 +42,7 @@ std::vector<ToldSwing> swings_told(const ModesStudy& study) {
     ToldSwing told{damped.lambda.imag(), -damped.lambda.real(), damped.error};
     const auto mode =
         std::find_if(study.modes.begin(), study.modes.end(), [&](const Mode& m) { return m.lambda == damped.lambda; });
-    if (mode != study.modes.end() && mode->wiped_out) continue;
+    if (mode != study.modes.end() && mode->only_of_mean) continue;
     // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
     if (mode != study.modes.end() && !mode->periodic.empty()) {
       for (const PeriodicSwing& s : mode->periodic) list.push_back({s.exponent.imag(), -s.exponent.real(), s.error});
