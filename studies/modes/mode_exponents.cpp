@@ -16,6 +16,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr std::size_t most_states_of_exponents = 60;
 constexpr double told_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
 constexpr double near_enough = 0.5;    // of |λ|: how far an exponent may be from its mode of the mean
+constexpr double explained = 0.5;  // |ln μ − λT|: a change that this slow mode of the round's mean is enough for
 
 bool varies_with_angle(const Model& m) {
   return std::any_of(m.network.elements.begin(), m.network.elements.end(),
@@ -48,6 +49,18 @@ class Exponents {
   // A real multiplier has the phase 0 or π, whatever motion it belongs to.
   bool is_real(std::size_t i) const { return std::abs(std::sin(of(i).exponent.imag() * spectrum_.time)) < 1e-6; }
 
+  const std::complex<double>* mean_of(std::size_t i) const {
+    return of(i).mode < 0 ? nullptr : &spectrum_.modes[at(of(i).mode)].exponent;
+  }
+  static bool is_near(std::complex<double> s, const Mode& mode) {
+    return std::abs(s - mode.lambda) < near_enough * std::abs(mode.lambda);
+  }
+  // A change of speed as a whole, which the round's mean does not let swing either.
+  bool is_slow(std::size_t i) const {
+    const std::complex<double>* mean = mean_of(i);
+    return mean && mean->imag() == 0 && std::abs(of(i).exponent - *mean) * spectrum_.time < explained;
+  }
+
   // Where contacts change within the round, the motion is now that of one machine and now that of another, and how often
   // it turns in a round is a matter of how one counts.
   PeriodicSwing as_near_as_can_be(std::size_t i, const Mode& mode) const {
@@ -64,10 +77,10 @@ class Exponents {
   std::vector<Candidate> near(const Mode& mode, bool of_real_multiplier) const {
     std::vector<Candidate> list;
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
-      if (used_[i] || is_gone(i) || is_real(i) != of_real_multiplier) continue;
+      if (used_[i] || is_gone(i) || is_slow(i) || is_real(i) != of_real_multiplier) continue;
       const PeriodicSwing swing = as_near_as_can_be(i, mode);
-      const double off = std::abs(swing.exponent - mode.lambda);
-      if (swing.exponent.imag() > 0 && off < near_enough * std::abs(mode.lambda)) list.push_back({i, swing, off});
+      if (swing.exponent.imag() > 0 && is_near(swing.exponent, mode))
+        list.push_back({i, swing, std::abs(swing.exponent - mode.lambda)});
     }
     std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.off < b.off; });
     return list;
@@ -75,12 +88,12 @@ class Exponents {
   void give(Mode& mode, const Candidate& candidate) {
     used_[candidate.number] = 1;
     mode.periodic.push_back(candidate.swing);
-    if (candidate.swing.branch_by_mean)
-      found_.notes.push_back(
-          fmt::format("the frequency {:.6g} Hz of mode {} in the periodic system is known but for multiples of 1/T = "
-                      "{:.6g} Hz: other parts take its swing over within the round, so that its turns cannot be "
-                      "counted; told is the one nearest to the mean's",
-                      candidate.swing.exponent.imag() / two_pi, mode.number, 1 / spectrum_.time));
+    if (!candidate.swing.branch_by_mean || (mode.periodic.size() > 1 && mode.periodic.front().branch_by_mean)) return;
+    found_.notes.push_back(
+        fmt::format("frequencies of mode {} in the periodic system are known but for multiples of 1/T = {:.6g} Hz: "
+                    "other parts take its swing over within the round, so that its turns cannot be counted; told are "
+                    "those nearest to the mean's",
+                    mode.number, 1 / spectrum_.time));
   }
   void give_own() {
     for (Mode& mode : found_.modes) {
@@ -114,26 +127,33 @@ class Exponents {
     }
   }
 
-  // The spectrum is whole: where no exponent that swings is left, no swing is. What sticks takes directions away.
+  // The spectrum is whole: where no exponent that swings is left for a mode, no swing is. What sticks takes directions
+  // away.
   void tell_those_without() {
-    bool swings_left = false, gone = false;
-    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
-      gone = gone || is_gone(i);
-      swings_left = swings_left || !(used_[i] || is_gone(i) || is_real(i));
-    }
+    bool gone = false;
+    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) gone = gone || is_gone(i);
     for (Mode& mode : found_.modes) {
       if (!(mode.lambda.imag() > 0) || !mode.periodic.empty()) continue;
-      mode.only_of_mean = !swings_left;
+      mode.only_of_mean = !may_have_one_left(mode);
       const std::string which =
           fmt::format("mode {} ({:.6g} Hz by the mean)", mode.number, mode.lambda.imag() / two_pi);
       found_.notes.push_back(
-          swings_left ? "no exponent of the periodic system lies near " + which +
-                            ": its figures are those of the mean alone, with an error that is not known"
+          !mode.only_of_mean ? "no exponent of the periodic system lies near " + which +
+                                   ": its figures are those of the mean alone, with an error that is not known"
           : gone ? "nothing of " + which + " is left after a round: contacts that hold within it take the swing away"
                  : which +
-                       " does not swing in the periodic system: what changes within the round makes a slow "
-                       "decay of it");
+                       " does not swing in the periodic system: what changes within the round makes a slow decay "
+                       "of it");
     }
+  }
+  // One that swings and grows out of no other mode of the round's mean.
+  bool may_have_one_left(const Mode& mode) const {
+    for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
+      if (used_[i] || is_gone(i) || is_real(i)) continue;
+      const std::complex<double>* mean = mean_of(i);
+      if (!mean || is_near({mean->real(), std::abs(mean->imag())}, mode)) return true;
+    }
+    return false;
   }
 
   void tell_largest_change() {
