@@ -74,7 +74,7 @@ class FormulaProgram {
 
   template <std::size_t depth, class T>
   T run(const T& x) const {
-    T stack[depth];
+    T stack[depth] = {};
     std::size_t top = 0;  // of those in use
     for (const Step& step : steps_) switch (step.op) {
         case FormulaOp::number:

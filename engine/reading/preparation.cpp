@@ -105,7 +105,7 @@ class Preparation {
                                       is_name ? suggestion(named.text, names) : "",
                                       names.empty() ? "write it as [table.gas]" : shortened_list(names)));
       table.entries.erase(use);
-      table.computed = std::make_shared<const Computed>(Computed{.faulty = true});
+      table.computed = std::make_shared<const Computed>(Computed{.quantity = {}, .faulty = true});
       return;
     }
     used_ += count(found->value);

@@ -149,7 +149,7 @@ class SliderCrankGeometry {
         cos_beta = side * cos_phi, beta1 = -side, beta2 = beta3 = T(0);
         return;
       }
-      const T h = T(0.5) * (phi + T(std::acos(-1.0L) / 2)), c = root * cos(h), s = root * sin(h);
+      const T h = T(0.5) * (phi + static_cast<T>(std::acos(-1.0L) / 2)), c = root * cos(h), s = root * sin(h);
       const T k = d.offset > 0 ? c : s, m = d.offset > 0 ? s : c, q = gap + k * k, cube = q * sqrt(q);
       cos_beta = side * T(2) * m * sqrt(q) / (d.radius + gap);
       beta1 = -side * k / sqrt(q);

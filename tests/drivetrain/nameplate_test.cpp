@@ -138,8 +138,8 @@ TEST(Nameplate, PowerFactorAndEfficiencySayTheSame) {
 
 // Without transients it is the static curve of its circuit.
 TEST(Nameplate, WithoutTransientsItIsItsCharacteristic) {
-  const std::string off =
-      std::string(plate) + "[effects]\ntransients = false\n[run]\nuntil = \"0.5 s\"\nsamples = 20001\n";
+  std::string off = plate;
+  off += "[effects]\ntransients = false\n[run]\nuntil = \"0.5 s\"\nsamples = 20001\n";
   const Result r = run(off);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const double torque = 15e3 / (1465 * M_PI / 30);
@@ -149,7 +149,8 @@ TEST(Nameplate, WithoutTransientsItIsItsCharacteristic) {
 
 // Without a frequency, too; then it may have a starter.
 TEST(Nameplate, WithoutItsFrequencyItIsItsCharacteristic) {
-  const std::string off = std::string(plate) + "[effects]\ntransients = false\n[run]\nuntil = \"0.5 s\"\n";
+  std::string off = plate;
+  off += "[effects]\ntransients = false\n[run]\nuntil = \"0.5 s\"\n";
   const std::string without = test::with(off, "frequency      = \"50 Hz\"", "");
   test::expect_same_machine(off, without);
   const Result star = run(test::with(without, "poles ", "starting = \"star-delta\"\nswitch_time = \"0.2 s\"\npoles "));

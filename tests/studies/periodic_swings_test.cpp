@@ -1,0 +1,69 @@
+// periodic_swings_test.cpp — swings where coefficients or contacts change within the round: `modes` against pushes of the
+// settled run, each of a kind that the mean of the coefficients gets wrong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "studies/modes/modes.h"
+#include "tests/agreement/agreement.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+ModesStudy modes_of(const std::string& file) {
+  const Scene scene = test::scene_file(file);
+  Effects effects = scene.effects;
+  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
+  return find_modes(scene, effects, {});
+}
+
+// Frequencies and damping ratios of all swings that the pushes show, and of none that they do not.
+void expect_swings_of_the_run(const std::string& file) {
+  SCOPED_TRACE(file);
+  const agreement::Row row = agreement::compare_modes(test::scene_file(file));
+  int compared = 0;
+  for (const agreement::Compared& figure : row.figures) {
+    if (figure.topic != agreement::Topic::frequencies && figure.topic != agreement::Topic::damping) continue;
+    ++compared;
+    EXPECT_EQ(figure.verdict, agreement::Verdict::agrees) << figure.figure << ": " << figure.run << " " << figure.study;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+// A governor's slow swing: 0.2402 Hz, ζ = 0.691; its mode has little of the motion's states beside those of the coupling.
+TEST(PeriodicSwings, SlowSwingOfAGovernorIsNotTakenForOneOfTheCoupling) {
+  expect_swings_of_the_run("tests/agreement/governor_crank.toml");
+}
+
+// A limiter that slips once a round: both multipliers of the swing are real, of two signs, and their turns in a round are
+// a matter of counting.
+TEST(PeriodicSwings, SwingBehindALimiterIsLockedToTheRound) {
+  expect_swings_of_the_run("tests/agreement/swings/limiter_slips_with_shaft.toml");
+  const ModesStudy study = modes_of("tests/agreement/swings/limiter_slips_with_shaft.toml");
+  ASSERT_EQ(study.modes.front().periodic.size(), 2u);
+  for (const PeriodicSwing& swing : study.modes.front().periodic) {
+    EXPECT_TRUE(swing.branch_by_mean);
+    EXPECT_GT(swing.error, 0);
+  }
+}
+
+// The pin lies on its bush all round; at the mean of its place it hangs in the gap and would swing at 0.9 Hz.
+TEST(PeriodicSwings, RodThatHangsInTheGapOfTheMeanDoesNotSwing) {
+  expect_swings_of_the_run("tests/agreement/swings/worn_pin_shaft.toml");
+  EXPECT_TRUE(modes_of("tests/agreement/swings/worn_pin_shaft.toml").modes.front().only_of_mean);
+}
+
+// A table that sticks once a round has forgotten how it swung before: its multiplier is 0.
+TEST(PeriodicSwings, WhatSticksOnceARoundDoesNotSwingOn) {
+  const ModesStudy study = modes_of("tests/agreement/slow_stick_slip.toml");
+  ASSERT_EQ(study.modes.size(), 1u);
+  EXPECT_TRUE(study.modes.front().only_of_mean);
+  EXPECT_TRUE(study.modes.front().periodic.empty());
+  EXPECT_TRUE(std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+    return note.find("is left after a round") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace kurbel
