@@ -22,6 +22,8 @@ std::vector<HardCase> event_cases();
 std::vector<HardCase> extreme_cases();
 std::vector<HardCase> clearance_and_rod_cases();
 std::vector<HardCase> jam_cases();
+std::vector<HardCase> loop_cases();
+std::vector<HardCase> formula_cases();
 
 // Undamped machines of any length, for the growth of errors.
 HardCase free_crank_over(double turns);
