@@ -164,7 +164,8 @@ Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
     const bool refine = ++refined <= most_refined;
     for (const std::size_t k : {i, i + 1}) {  // the pieces before and after it
       if (!refine) break;
-      if (k == 0 || k >= n || !(phi[k] > phi[k - 1])) continue;
+      // Within an edge nothing is to be found that its two sides do not say.
+      if (k == 0 || k >= n || !(phi[k] - phi[k - 1] > 2.5 * beside)) continue;
       const auto [where, found] = find_maximum([&](double x) { return sense * value(x); }, phi[k - 1], phi[k], 40);
       if (found > sense * local.value) local = {sense * found, where, {}};
     }
@@ -199,9 +200,13 @@ CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi)
   };
   std::size_t from = i - 1, to = i;
   const double begin = samples[from].phi, h = samples[to].phi - begin;
-  if (!(h > 0)) return {samples[from].motion.omega, samples[from].motion.alpha};
-  if (smooth(i) && from > 0 && smooth(from)) --from;
-  if (smooth(i) && to + 1 < samples.size() && smooth(to + 1)) ++to;
+  // Over so short a piece a difference of speeds is rounding.
+  if (!smooth(i)) {
+    const CrankMotion& side = samples[phi - begin < 0.5 * h ? from : to].motion;
+    return {side.omega, side.alpha};
+  }
+  if (from > 0 && smooth(from)) --from;
+  if (to + 1 < samples.size() && smooth(to + 1)) ++to;
   // Divided differences over doubled nodes, the angle counted in h.
   constexpr std::size_t most = 8;
   std::array<double, most> x{}, c{};

@@ -16,6 +16,8 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr std::size_t most_states_of_exponents = 60;
 constexpr double told_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
 constexpr double near_enough = 0.5;    // of |λ|: how far an exponent may be from its mode of the mean
+constexpr double fades = 5;            // e-foldings in a round: what is left then is less than a hundredth
+constexpr double varies_much = 0.01;   // of ω, over the angles of the round
 constexpr double explained = 0.5;  // |ln μ − λT|: a change that this slow mode of the round's mean is enough for
 
 bool varies_with_angle(const Model& m) {
@@ -35,6 +37,7 @@ class Exponents {
     give_own();
     give_pairs();
     tell_those_without();
+    tell_those_that_fade();
     tell_largest_change();
   }
 
@@ -154,6 +157,19 @@ class Exponents {
       if (!mean || is_near({mean->real(), std::abs(mean->imag())}, mode)) return true;
     }
     return false;
+  }
+
+  void tell_those_that_fade() {
+    for (Mode& mode : found_.modes) {
+      if (mode.periodic.empty() || mode.greatest - mode.least < varies_much * mode.omega) continue;
+      mode.fades_within_round = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
+      if (mode.fades_within_round)
+        found_.notes.push_back(fmt::format(
+            "mode {} has faded long before a round is over: a swing that is started at one angle has the "
+            "frequency of the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the "
+            "mean over the round",
+            mode.number, mode.least / two_pi, mode.greatest / two_pi, mode.periodic.front().exponent.imag() / two_pi));
+    }
   }
 
   void tell_largest_change() {

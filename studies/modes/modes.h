@@ -62,6 +62,9 @@ struct Mode {
   // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
   // difference to λ. Two where the mode is locked to the round: both swing in step with it, and fade apart.
   std::vector<PeriodicSwing> periodic = {};
+  // Nothing of it is left after a round: a ring-down shows what holds at the angle where it starts, somewhere between
+  // `least` and `greatest`; the exponent's frequency is the mean over the round.
+  bool fades_within_round = false;
   bool only_of_mean = false;  // no swing of the periodic system is in its place: contacts within the round take it away
   double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
 };

@@ -137,6 +137,7 @@ Rows mode_table(const ModesStudy& m) {
                   [](const Mode& mode) { return mode.only_of_mean || !mode.periodic.empty(); }))
     table.only_for_people("periodic system [Hz], ζ", periodic_text)
         .only_for_programs("periodic", periodic_list)
+        .only_for_programs("fades_within_round", &Mode::fades_within_round)
         .only_for_programs("only_of_mean", &Mode::only_of_mean);
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table

@@ -213,7 +213,8 @@ class ModesComparison {
     compare(Topic::frequencies, name + " [Hz]", hz * m.omega, hz * t.omega, hz * small, hz * stated, study);
     const double size = std::max({m.natural(), t.natural(), 1e-300});
     const double of_ratio = (m.decay_error + m.omega_error + t.error) / size + left_of_ratio;
-    compare(Topic::damping, name + " ζ", m.ratio(), t.ratio(), of_ratio, 0, study);
+    const double stated_ratio = std::max(t.greatest - 1, 1 - t.least) * t.ratio();
+    compare(Topic::damping, name + " ζ", m.ratio(), t.ratio(), of_ratio, stated_ratio, study);
   }
 
   // --- forced swings ---
