@@ -16,6 +16,8 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -128,7 +130,7 @@ class SliderCrankGeometry {
       // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
       // keep every digit.
       const T cos_squared = cos_phi * cos_phi;
-      const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;  // 1 + sin φ
+      const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;   // 1 + sin φ
       const T above = is_negative(-sin_phi) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
       cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
       const T lever = l * cos_beta, rise = l * sin_beta;
@@ -136,6 +138,13 @@ class SliderCrankGeometry {
       const T beta1_squared = beta1 * beta1;
       beta2 = (r * sin_phi + rise * beta1_squared) / lever;
       beta3 = beta1 * (beta1_squared - T(1)) + T(3) * sin_beta / cos_beta * beta1 * beta2;
+    }
+
+    static T right_angle() {
+      if constexpr (std::floating_point<T>)
+        return std::numbers::pi_v<T> / 2;
+      else
+        return T(std::numbers::pi / 2);
     }
 
     // l = r + |e|. With h = (φ + π/2)/2, k = √r cos h and m = √r sin h (e < 0: the two exchanged), l cos β =
@@ -149,7 +158,7 @@ class SliderCrankGeometry {
         cos_beta = side * cos_phi, beta1 = -side, beta2 = beta3 = T(0);
         return;
       }
-      const T h = T(0.5) * (phi + static_cast<T>(std::acos(-1.0L) / 2)), c = root * cos(h), s = root * sin(h);
+      const T h = T(0.5) * (phi + right_angle()), c = root * cos(h), s = root * sin(h);
       const T k = d.offset > 0 ? c : s, m = d.offset > 0 ? s : c, q = gap + k * k, cube = q * sqrt(q);
       cos_beta = side * T(2) * m * sqrt(q) / (d.radius + gap);
       beta1 = -side * k / sqrt(q);

@@ -208,9 +208,10 @@ double beside_change_point(const MechanismData& data, double phi) {
   return at;
 }
 
-std::string words_on_unbounded_reactions(const MechanismData& data,
-                                         const std::function<LinkageState(double phi)>& state_at) {
+UnboundedReactions unbounded_reactions(const MechanismData& data,
+                                       const std::function<LinkageState(double phi)>& state_at) {
   constexpr double far = 1e-2, near = 1e-3, grown = 5;
+  UnboundedReactions found{.at = {}, .of_joint = {}, .beside = far, .greatest = 0, .words = {}};
   std::string places, forces;
   const CrankCycle cycle(data);
   for (const double phi : cycle.change_points()) {
@@ -220,22 +221,27 @@ std::string words_on_unbounded_reactions(const MechanismData& data,
       return forces_in(data.linkage(state.phi), state);
     };
     const LinkageForces there = at(far), nearer = at(near);
+    found.of_joint.resize(there.joints.size(), false);
     std::string grow;
     for (std::size_t k = 0; k < there.joints.size(); ++k) {
       const double before = there.joints[k].force.magnitude(), now = nearer.joints[k].force.magnitude();
-      if (now > grown * before)
-        grow += fmt::format("{}{} {:.4g} N and {:.4g} N", grow.empty() ? "" : ", ", there.joints[k].name, before, now);
+      if (now <= grown * before) continue;
+      grow += fmt::format("{}{} {:.4g} N and {:.4g} N", grow.empty() ? "" : ", ", there.joints[k].name, before, now);
+      found.of_joint[k] = true;
+      found.greatest = std::max(found.greatest, before);
     }
     if (grow.empty()) continue;
+    found.at.push_back(phi);
     const std::string angle = fmt::format("{:.6g}°", phi * 180 / std::numbers::pi);
     places += (places.empty() ? "" : ", ") + angle;
     forces += fmt::format("{}{}: {}", forces.empty() ? "" : "; ", angle, grow);
   }
-  if (places.empty()) return {};
-  return fmt::format(
-      "at the change point{} φ = {} reactions have no bound: they go with the inverse of the distance "
-      "({:.3g} rad and {:.3g} rad beside {}); positions nearer to it than that are told by the place there",
-      places.find(',') == std::string::npos ? "" : "s", places, far, near, forces);
+  if (found.any())
+    found.words = fmt::format(
+        "at the change point{} φ = {} reactions have no bound: they go with the inverse of the distance "
+        "({:.3g} rad and {:.3g} rad beside {}); positions nearer to it than that are told by the place there",
+        found.at.size() > 1 ? "s" : "", places, far, near, forces);
+  return found;
 }
 
 }  // namespace kurbel

@@ -69,8 +69,16 @@ LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state)
 // changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.
 double beside_change_point(const MechanismData& data, double phi);
 
-// Says which reactions have no bound at which change points, by positions at two distances from each; empty: none.
-std::string words_on_unbounded_reactions(const MechanismData& data,
-                                         const std::function<LinkageState(double phi)>& state_at);
+// Reactions that have no bound at change points, found by positions at two distances from each.
+struct UnboundedReactions {
+  std::vector<double> at;      // φ [rad]
+  std::vector<bool> of_joint;  // in the order of the linkage's joints
+  double beside = 0;           // φ from the place [rad] …
+  double greatest = 0;         // … at which the greatest of them is this [N]
+  std::string words;           // with the numbers; empty: none
+  bool any() const { return !at.empty(); }
+};
+UnboundedReactions unbounded_reactions(const MechanismData& data,
+                                       const std::function<LinkageState(double phi)>& state_at);
 
 }  // namespace kurbel

@@ -97,6 +97,13 @@ struct MachineView {
     bool crank = false;  // of a mechanism
     int row = 0;         // 0: the main line
   };
+  // Where a line of parts begins, or ends and so closes a loop: at a shaft of a part of another line.
+  struct Tie {
+    int row = 0;
+    bool at_end = false;  // of the line
+    int part = 0;
+    bool out = false;  // its shaft, of those that have two
+  };
   // The mechanism by its joints over one turn of the crank, in equal steps; the last place is the first again.
   struct Linkage {
     struct Link {
@@ -121,6 +128,7 @@ struct MachineView {
   };
   std::string title, link;
   std::vector<Part> parts;
+  std::vector<Tie> ties;
   std::optional<Linkage> linkage;
   std::vector<double> time;     // of the frames [s]
   std::vector<Motion> motions;  // the last one in front, those before it as grey ghosts

@@ -184,7 +184,11 @@ class Study {
     if (simulated)
       for (const SimulatedMotion::Other& other : simulated->others)
         add_errors(linkage_cycle(out_.data, *loads_, other.motion), other.times, links);
+    mark_unbounded(out_.unbounded, links);
     out_.links = std::make_shared<const LinkageCycle>(std::move(links));
+    for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
+      for (std::size_t k = 0; *cycle && k < out_.unbounded.of_joint.size(); ++k)
+        (*cycle)->reaction[k].unbounded = out_.unbounded.of_joint[k];
     return std::move(out_);
   }
 
@@ -196,7 +200,8 @@ class Study {
     prescribed_ = steady_motion(*loads_, speed.value, options_.positions);
     out_.prescribed = cycle_along(*statics_, *loads_, prescribed_, &out_.counterweights);
     out_.prescribed->label = "prescribed";
-    note_unbounded_reactions(out_.data, *loads_, speed.value, out_.notes);
+    out_.unbounded = unbounded_reactions(out_.data, *loads_, speed.value);
+    if (out_.unbounded.any()) out_.notes.push_back(out_.unbounded.words);
     out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   }
 

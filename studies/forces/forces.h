@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <complex>
 #include <functional>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "mechanisms/reduced/newton_euler.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "studies/findings/watch.h"
 
@@ -63,6 +65,8 @@ struct Peak {
   double value = 0;
   double phi = 0;               // [rad]
   std::optional<double> error;  // theory 9.13
+  bool unbounded = false;       // it grows without bound; the value is that a thousandth of the way beside the place
+  double told() const { return unbounded ? HUGE_VAL : value; }
 };
 
 struct CycleWork {
@@ -129,6 +133,7 @@ struct Forces {
   std::optional<ForceCycle> prescribed, simulated;
   std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
   std::vector<Counterweight> counterweights;  // the first: as it is
+  UnboundedReactions unbounded;
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;

@@ -15,15 +15,7 @@ namespace kurbel {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-double degrees(double angle) { return angle * 360 / turn; }
 // "12.3 kN": in the unit that reads easily.
-std::string in_words(const Peak& p, const std::string& si_unit) {
-  const ReadableUnit unit = readable_unit(p.value, si_unit);
-  return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
-}
-bool is_nothing(const Peak& p) { return std::abs(p.value) <= p.error.value_or(0); }
-std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
-
 // --- figures ---
 
 struct NamedPeak {
@@ -48,13 +40,15 @@ bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
   const Peak& bearing = c.reaction[0];
-  std::string text = fmt::format(
-      "{} at {}: the main bearing carries up to {} (at {}), {}, the shaking force peaks at {}", f.mechanism,
-      f.speed_unit.text(c.mean_speed, 4), in_words(bearing, "N"), at_angle(bearing),
-      is_nothing(c.torque)
-          ? std::string("no balancing torque is needed")
-          : fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque)),
-      in_words(c.shaking_force, "N"));
+  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed, 4));
+  std::string text = fmt::format("{}, {}, the shaking force peaks at {}",
+                                 f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
+                                                   : fmt::format("{}: the main bearing carries up to {} (at {})",
+                                                                 moving, in_words(bearing, "N"), at_angle(bearing)),
+                                 is_nothing(c.torque) ? std::string("no balancing torque is needed")
+                                                      : fmt::format("the balancing torque peaks at {} (at {})",
+                                                                    in_words(c.torque, "N*m"), at_angle(c.torque)),
+                                 in_words(c.shaking_force, "N"));
   if (has_friction(f))
     text += c.efficiency ? fmt::format("; efficiency of the cycle {:.4g} %{}", 100 * *c.efficiency,
                                        c.harmful > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful, "J", 4),
@@ -73,9 +67,7 @@ Rows peak_table(const Forces& f) {
   table.not_on_page().only_for_people("largest", [&](std::size_t i) { return of_first[i].name; });
   for (const ForceCycle* c : problems_of(f)) {
     const std::vector<NamedPeak> peaks = peaks_of(*c);
-    table
-        .only_for_people(c->label,
-                         [&](std::size_t i) { return with_error(peaks[i].peak->value, peaks[i].peak->error, ""); })
+    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(*peaks[i].peak); })
         .only_for_people("at", [&](std::size_t i) { return at_angle(*peaks[i].peak); });
   }
   return table.only_for_people("unit", [&](std::size_t i) { return pretty_unit(of_first[i].unit); });
@@ -227,7 +219,7 @@ Record cycle_record(const ForceCycle& c) {
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   tell("peaks", each(peaks_of(c), [](const NamedPeak& p) {
          return Record{{"name", p.name},
-                       {"value", p.peak->value},
+                       {"value", p.peak->told()},
                        {"unit", p.unit},
                        {"error", p.peak->error},
                        {"phi", p.peak->phi}};
@@ -408,7 +400,7 @@ Findings findings_of(const Forces& f) {
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   for (const NamedPeak& p : peaks_of(front_of(f)))
-    to.figures.push_back({"largest " + p.name, p.peak->value, p.unit, p.peak->error,
+    to.figures.push_back({"largest " + p.name, p.peak->told(), p.unit, p.peak->error,
                           fmt::format("at φ = {}", at_angle(*p.peak)), 0, p.means});
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 links = to.chapter("Links: motion, inertia forces, shares"),

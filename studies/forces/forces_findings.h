@@ -11,6 +11,13 @@ namespace kurbel {
 Findings findings_of(const Forces& forces);
 Findings findings_of(const LinkageStudy& study);
 
+// Peaks in words: "90.0°", "10.45 kN"; for tables with the error, or "no bound".
+double degrees(double angle);
+std::string at_angle(const Peak& p);
+bool is_nothing(const Peak& p);
+std::string in_words(const Peak& p, const std::string& si_unit);
+std::string peak_text(const Peak& p);
+
 // Motion, inertia forces and shares of the links; the cycle must outlive the findings.
 void say_links(Findings& to, Chapter in, const LinkageCycle& cycle);
 List links_list(const LinkageCycle& cycle);

@@ -288,12 +288,23 @@ LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const 
   return cycle;
 }
 
-void note_unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed,
-                              std::vector<std::string>& notes) {
-  const std::string words = words_on_unbounded_reactions(data, [&](double phi) {
-    return LinkageState{phi, speed, 0, loads.force(phi, speed)};
-  });
-  if (!words.empty()) notes.push_back(words);
+UnboundedReactions unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed) {
+  return unbounded_reactions(data, [&](double phi) { return LinkageState{phi, speed, 0, loads.force(phi, speed)}; });
+}
+
+void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle) {
+  const auto& joints = cycle.positions.front().forces.joints;
+  for (LinkageFigure& reaction : cycle.reactions)
+    for (std::size_t k = 0; k < unbounded.of_joint.size(); ++k)
+      if (unbounded.of_joint[k] && reaction.name.starts_with(joints[k].name)) reaction.peak.unbounded = true;
+}
+
+std::string begin_unbounded(const std::string& mechanism, const UnboundedReactions& unbounded) {
+  if (!unbounded.any()) return {};
+  std::vector<std::string> angles;
+  for (const double phi : unbounded.at) angles.push_back(fmt::format("{:.4g}°", phi * 180 / std::numbers::pi));
+  return fmt::format("{}: reactions in its joints have no bound at φ = {} ({} at {:g} rad beside)", mechanism,
+                     fmt::join(angles, ", "), with_unit(unbounded.greatest, "N", 4), unbounded.beside);
 }
 
 void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle) {
@@ -375,7 +386,9 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, at, speed.source));
   out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
   out.prescribed->label = "prescribed";
-  note_unbounded_reactions(data, loads, speed.value, out.notes);
+  out.unbounded = unbounded_reactions(data, loads, speed.value);
+  if (out.unbounded.any()) out.notes.push_back(out.unbounded.words);
+  mark_unbounded(out.unbounded, *out.prescribed);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   if (!options.simulate) return out;
   options.watch.say("second problem: the motion that the machine keeps");
@@ -387,6 +400,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   hold_against_machine(data, loads, *motion, *out.simulated, out.notes);
   out.simulated->label = "simulated";
   out.simulated->description = motion->description;
+  mark_unbounded(out.unbounded, *out.simulated);
   return out;
 }
 

@@ -11,9 +11,6 @@
 #include "studies/forces/linkage_plots.h"
 
 namespace kurbel {
-namespace {
-
-using P = const LinkagePosition&;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
@@ -22,6 +19,11 @@ std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
+std::string peak_text(const Peak& p) { return p.unbounded ? "no bound" : with_error(p.value, p.error, ""); }
+
+namespace {
+
+using P = const LinkagePosition&;
 
 std::vector<const LinkageFigure*> peaks_of(const LinkageCycle& c) {
   std::vector<const LinkageFigure*> peaks;
@@ -41,10 +43,11 @@ const LinkageFigure& heaviest(const LinkageCycle& c) {
 std::string conclusion_of(const LinkageStudy& f) {
   const LinkageCycle& c = front_of(f);
   const LinkageFigure &bearing = c.reactions.front(), &most = heaviest(c);
-  std::string text =
-      fmt::format("{} at {}: the main bearing carries up to {} (at {})", f.mechanism,
-                  f.speed_unit.text(c.mean_speed.value, 4), in_words(bearing.peak, "N"), at_angle(bearing.peak));
-  if (&most != &bearing)
+  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed.value, 4));
+  std::string text = f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
+                                       : fmt::format("{}: the main bearing carries up to {} (at {})", moving,
+                                                     in_words(bearing.peak, "N"), at_angle(bearing.peak));
+  if (&most != &bearing && !f.unbounded.any())
     text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most.peak, "N"), most.name,
                         at_angle(most.peak));
   text += is_nothing(c.torque.peak) ? std::string(", no balancing torque is needed")
@@ -85,9 +88,7 @@ Rows peak_table(const LinkageStudy& f) {
   table.only_for_people("largest", [&](std::size_t i) { return first[i]->name; });
   for (const LinkageCycle* c : problems_of(f)) {
     const auto peaks = peaks_of(*c);
-    table
-        .only_for_people(c->label,
-                         [&](std::size_t i) { return with_error(peaks[i]->peak.value, peaks[i]->peak.error, ""); })
+    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(peaks[i]->peak); })
         .only_for_people("at", [&](std::size_t i) { return at_angle(peaks[i]->peak); });
   }
   return table.only_for_people("unit", [&](std::size_t i) { return pretty_unit(first[i]->unit); });
@@ -190,7 +191,7 @@ Record cycle_record(const LinkageCycle& c) {
           {"peaks", each(peaks_of(c),
                          [](const LinkageFigure* p) {
                            return Record{{"name", p->name},
-                                         {"value", p->peak.value},
+                                         {"value", p->peak.told()},
                                          {"unit", p->unit},
                                          {"error", p->peak.error},
                                          {"phi", p->peak.phi}};
@@ -342,7 +343,7 @@ Findings findings_of(const LinkageStudy& f) {
               .footer = report_footer()};
   for (const LinkageFigure* p : peaks_of(front)) {
     if (p->means == "reaction_moment" && is_nothing(p->peak)) continue;  // a ram that carries none
-    to.figures.push_back({"largest " + p->name, p->peak.value, p->unit, p->peak.error,
+    to.figures.push_back({"largest " + p->name, p->peak.told(), p->unit, p->peak.error,
                           fmt::format("at φ = {}", at_angle(p->peak)), 0, p->means});
   }
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),

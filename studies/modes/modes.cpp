@@ -12,10 +12,10 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "studies/history/torque_history.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"
 #include "studies/modes/spot_checks.h"
-#include "studies/modes/torque_history.h"
 
 namespace kurbel {
 namespace {

@@ -18,9 +18,9 @@
 #include "engine/linear/eigen_modes.h"
 #include "engine/scene/scene.h"
 #include "studies/findings/watch.h"
+#include "studies/history/torque_history.h"
 #include "studies/limits/barred_ranges.h"
 #include "studies/limits/verdicts.h"
-#include "studies/modes/torque_history.h"
 #include "studies/response/forced_response.h"
 
 namespace kurbel {

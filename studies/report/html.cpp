@@ -232,6 +232,15 @@ void write(Writer& w, const MachineView& machine) {
       w.field("row", static_cast<double>(part.row));
     });
   });
+  w.key("ties");
+  w.list(machine.ties, [&](const MachineView::Tie& tie) {
+    w.object([&] {
+      w.field("row", static_cast<double>(tie.row));
+      w.field("atEnd", tie.at_end);
+      w.field("part", static_cast<double>(tie.part));
+      w.field("out", tie.out);
+    });
+  });
   if (machine.linkage) {
     w.key("linkage");
     w.object([&] { write(w, *machine.linkage); });

@@ -298,6 +298,8 @@
     const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * rows.length}`, class: 'line', role: 'img'}, stage);
     draw('title', {}, svg, 'Shaft line');
     const updates = [], stations = [];
+    const ends = [], shaftsOf = [];  // of each row: its first and last point; of each part: its two shafts
+    const under = draw('g', {}, svg);  // ties between the rows, behind everything
     partsOf.forEach((list, r) => {
       let x = gap + (width - lengthOf(list)) / 2;
       let y = rowHeight * r + 105;
@@ -314,6 +316,8 @@
         // Shafts to both neighbours.
         const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
         const out = kind === 'gearbox' ? y + 34 * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : y;
+        shaftsOf[k] = {in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
+        ends[r] = {first: ends[r] ? ends[r].first : {x: x - gap / 2, y}, last: {x: x + w + gap / 2, y: out}};
         if (n > 0 || kind === 'coupling' || kind === 'gearbox') shaft(x - gap / 2, middle, y);
         if (n < list.length - 1 || kind === 'coupling' || kind === 'gearbox') shaft(middle, x + w + gap / 2, out);
         line.push({x: x - gap / 2, y, k, side: 'twistIn'});
@@ -357,6 +361,16 @@
         x += w + gap;
         y = out;
       });
+    });
+    // A line begins, and may end, at a shaft of another: drawn as a way round the dials.
+    const rowOf = k => rows.indexOf(m.parts[k].row);
+    m.ties.forEach((tie, n) => {
+      const to = shaftsOf[tie.part], own = ends[rows.indexOf(tie.row)];
+      if (!to || !own) return;
+      const a = tie.out ? to.out : to.in, b = tie.atEnd ? own.last : own.first, r = rowOf(tie.part);
+      const shelf = rowHeight * (r + 1) - 14 - 7 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
+      draw('polyline', {points: `${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
+      draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
     const angleOf = (motion, s, at) => at(motion.angle) + (motion[s.side].length ? m.enlargement * at(motion[s.side][s.k]) : 0);
     for (const line of stations.filter(l => l.length > 1)) {

@@ -5,8 +5,8 @@
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/run/compare.h"
 #include "studies/findings/trace.h"
+#include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
 
 namespace kurbel {
@@ -72,6 +72,21 @@ void add_parts(MachineView& view, const Model& model) {
   }
 }
 
+// "gearbox.out" names a shaft of a part.
+void add_ties(MachineView& view, const Model& model) {
+  const auto add = [&](const std::string& place, std::size_t row, bool at_end) {
+    const std::string name = place.substr(0, place.find('.')), port = place.substr(std::min(place.size(), name.size()));
+    for (std::size_t k = 0; k < view.parts.size(); ++k)
+      if (view.parts[k].name == name)
+        view.ties.push_back({static_cast<int>(row), at_end, static_cast<int>(k), port != ".in"});
+  };
+  for (std::size_t row = 1; row < model.scene.lines.size(); ++row) {
+    const Line& line = model.scene.lines[row];
+    add(line.from, row, false);
+    if (!line.to.empty()) add(line.to, row, true);
+  }
+}
+
 MachineView::Linkage linkage_of(const Mechanism& mechanism) {
   const LinkageDrawing drawing = mechanism.data.drawing();
   MachineView::Linkage linkage{.name = drawing.name,
@@ -132,6 +147,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   view.link = model.network.nodes[at(model.reduction_node)].component;
   view.title = "The machine in motion";
   add_parts(view, model);
+  add_ties(view, model);
   view.cycle = model.cycle;
   if (model.reduction_element >= 0)
     if (const auto* element = mechanism_of(model.network.elements[at(model.reduction_element)]))

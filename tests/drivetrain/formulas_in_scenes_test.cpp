@@ -203,8 +203,8 @@ TEST(TableUsedByName, OwnKeysStandBeforeThoseOfTheTable) {
 }
 
 TEST(TableUsedByName, ThatIsNotThereIsToldWithTheNearest) {
-  const std::string text = message_of(
-      flywheel_under("table = { use = \"table.psuh\" }", std::string("[table.push]\n") + "over = \"time\"\n"));
+  const std::string text =
+      message_of(flywheel_under("table = { use = \"table.psuh\" }", std::string("[table.push]\nover = \"time\"\n")));
   EXPECT_NE(text.find("did you mean \"table.push\"?"), std::string::npos) << text;
 }
 

@@ -301,7 +301,11 @@ TEST(ChangePoint, ReactionsGrowWithTheInverseOfTheDistance) {
   };
   EXPECT_NEAR(pin(1e-4) / pin(1e-3), 10, 0.2);
   EXPECT_NEAR(pin(1e-5) / pin(1e-4), 10, 0.02);
-  const std::string words = words_on_unbounded_reactions(d, [](double phi) { return LinkageState{phi, 5, 1, 20}; });
+  const UnboundedReactions unbounded = unbounded_reactions(d, [](double phi) { return LinkageState{phi, 5, 1, 20}; });
+  const std::string& words = unbounded.words;
+  ASSERT_EQ(unbounded.at.size(), 2u);
+  EXPECT_NEAR(unbounded.at.front(), pi, 1e-9);
+  EXPECT_NEAR(unbounded.greatest, pin(1e-2), 1e-9 * pin(1e-2));
   EXPECT_NE(words.find("at the change points φ = 180°, 540° reactions have no bound"), std::string::npos) << words;
   EXPECT_NEAR(static_cast<double>(std::fabs(d.linkage(beside_change_point(d, pi)).sine)), 1e-3, 1e-6);
   EXPECT_EQ(beside_change_point(d, 1), 1);

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "studies/forces/forces.h"
-#include "studies/modes/rainflow.h"
+#include "studies/history/rainflow.h"
 #include "studies/size/flywheel.h"
 #include "tests/support/scenes.h"
 

@@ -1,6 +1,6 @@
 // torque_history_test.cpp — kurbel modes --torque: the history is that of the run, and what is read off it has its
 // error.
-#include "studies/modes/torque_history.h"
+#include "studies/history/torque_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // spectrum.cpp — windowed Fourier transforms of evenly sampled histories.
-#include "studies/modes/spectrum.h"
+#include "studies/history/spectrum.h"
 
 #include <fmt/format.h>
 

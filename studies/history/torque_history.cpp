@@ -1,5 +1,5 @@
 // torque_history.cpp — runs the scene, reads the torque off its samples, and takes it apart.
-#include "studies/modes/torque_history.h"
+#include "studies/history/torque_history.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // rainflow.cpp — the rules of ASTM E1049-85, 5.4.4, on a stack of reversals.
-#include "studies/modes/rainflow.h"
+#include "studies/history/rainflow.h"
 
 #include <cmath>
 #include <deque>

@@ -11,8 +11,8 @@
 
 #include "engine/scene/scene.h"
 #include "studies/findings/watch.h"
-#include "studies/modes/rainflow.h"
-#include "studies/modes/spectrum.h"
+#include "studies/history/rainflow.h"
+#include "studies/history/spectrum.h"
 
 namespace kurbel {
 
