@@ -168,6 +168,7 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
                      Messages& messages, const std::vector<std::string>& passed_over, DataFiles allowed) {
   Section section{.name = name, .kind = &kind, .at = table.at};
   const std::size_t errors_before = messages.all().size();
+  bool all_read = true;                   // else something was said, be it before this component was come to
   std::vector<std::string> known, meant;  // meant: by a key mistyped
   for (const Key& key : kind.keys) known.push_back(key.name);
   known.insert(known.end(), passed_over.begin(), passed_over.end());
@@ -191,6 +192,7 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
       section.settings.push_back(std::move(setting));
     } else {
       // Something was said about this value already: put the least harmful one in its place.
+      all_read = false;
       setting.number = std::isfinite(key->domain.low) ? key->domain.low + 1 : 0;
       setting.text = key->choices.empty() ? "" : key->choices.front();
       section.settings.push_back(std::move(setting));
@@ -205,7 +207,7 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
                                            key.name, example_of(key)));
     }
   }
-  section.sound = messages.all().size() == errors_before;
+  section.sound = all_read && messages.all().size() == errors_before;
   return section;
 }
 

@@ -206,6 +206,7 @@ TEST(TableUsedByName, ThatIsNotThereIsToldWithTheNearest) {
   const std::string text =
       message_of(flywheel_under("table = { use = \"table.psuh\" }", std::string("[table.push]\nover = \"time\"\n")));
   EXPECT_NE(text.find("did you mean \"table.push\"?"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << "one fault, one message: " << text;
 }
 
 // --- jumps ---
