@@ -16,8 +16,6 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -141,10 +139,10 @@ class SliderCrankGeometry {
     }
 
     static T right_angle() {
-      if constexpr (std::floating_point<T>)
-        return std::numbers::pi_v<T> / 2;
+      if constexpr (std::is_floating_point_v<T>)
+        return static_cast<T>(1.57079632679489661923L);
       else
-        return T(std::numbers::pi / 2);
+        return T(1.5707963267948966);
     }
 
     // l = r + |e|. With h = (φ + π/2)/2, k = √r cos h and m = √r sin h (e < 0: the two exchanged), l cos β =
