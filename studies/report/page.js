@@ -289,7 +289,7 @@
   function drawShaftLine(m, front, stage) {
     const ghost = m.motions.length > 1 ? m.motions[0] : null;
     const rows = [...new Set(m.parts.map(p => p.row))];
-    const gap = 22, rowHeight = 295, most = 14, R = 13;
+    const gap = 22, rowHeight = m.ties.length ? 325 : 295, most = 14, R = 13;  // ties run below the dials
     let partsOf = rows.map(row => m.parts.map((p, k) => ({p, k})).filter(e => e.p.row === row).map(e => e.p.kind === 'gap' ? null : e));
     partsOf = partsOf.map(list => list.length > most + 1 ? [...list.slice(0, most / 2), null, ...list.slice(-most / 2)] : list);
     const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
@@ -368,7 +368,7 @@
       const to = shaftsOf[tie.part], own = ends[rows.indexOf(tie.row)];
       if (!to || !own) return;
       const a = tie.out ? to.out : to.in, b = tie.atEnd ? own.last : own.first, r = rowOf(tie.part);
-      const shelf = rowHeight * (r + 1) - 14 - 7 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
+      const shelf = rowHeight * r + 292 + 8 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
       draw('polyline', {points: `${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
       draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
