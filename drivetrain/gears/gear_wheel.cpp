@@ -283,9 +283,9 @@ std::vector<OutlinePoint> wheel_outline(const GearWheel& wheel, int n) {
   return outline;
 }
 
-double wheel_inertia(const GearWheel& wheel, double width, double density, double bore_or_rim) {
+double wheel_inertia(const GearWheel& wheel, double width, double density, double bore_or_rim, int points) {
   // ∫ r² dA of the sector under each straight piece of one pitch.
-  std::vector<OutlinePoint> p = tooth_outline(wheel, 24);
+  std::vector<OutlinePoint> p = tooth_outline(wheel, points);
   const double turn = 2 * pi / std::abs(wheel.teeth);
   p.push_back({std::cos(turn) * p[0].x - std::sin(turn) * p[0].y, std::sin(turn) * p[0].x + std::cos(turn) * p[0].y});
   double sum = 0;

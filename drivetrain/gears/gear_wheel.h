@@ -86,7 +86,10 @@ std::vector<OutlinePoint> tooth_outline(const GearWheel& wheel, int n = 12);
 std::vector<OutlinePoint> wheel_outline(const GearWheel& wheel, int n = 12);
 
 // Moment of inertia of a wheel of this width about its axis [kg·m²], from its true outline: external less a bore,
-// internal out to a rim (both diameters > 0). Helical wheels have the same section all along.
-double wheel_inertia(const GearWheel& wheel, double width, double density, double bore_or_rim);
+// internal out to a rim (both diameters > 0). Helical wheels have the same section all along. The outline is taken as
+// straight between so many points on each of its pieces: the error falls with their square.
+inline constexpr int outline_points_of_inertia = 24;
+double wheel_inertia(const GearWheel& wheel, double width, double density, double bore_or_rim,
+                     int points = outline_points_of_inertia);
 
 }  // namespace kurbel

@@ -21,6 +21,7 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   follow_figures(work);
   climb_ladder(work);
   for (const LevelAtWork& level : work.levels) study.levels.push_back(level.told);
+  study.notes = work.levels[study.fullest].reference.notes;
   add_energy_method(work);
   add_multibody(work);
   fill_model_errors(study);

@@ -98,6 +98,7 @@ struct AccuracyStudy {
   std::vector<Omission> omissions;
   std::vector<std::string> findings;  // sentences from the data; the first is the conclusion
   std::vector<std::string> answers;   // to --within and --budget
+  std::vector<std::string> notes;     // how far the models hold, of the fullest level
   double seconds = 0;                 // of the whole study
   bool complete = true;
   std::string diagnosis;

@@ -280,6 +280,7 @@ Findings findings_of(const AccuracyStudy& study) {
   say({.lines = {fmt::format("{} settings in {:.3g} s of processor time; {}", study.settings.size(), study.seconds,
                              machine_info())},
        .indent = "  "});
+  f.say(f.chapter("Notes"), Sentences{.lines = study.notes, .indent = "  note: ", .key = "notes"});
   f.tell("machine", machine_info());
   f.tell("processor_seconds", study.seconds);
   f.csv = {{"settings.csv", [&study] { return settings_csv(study); }}};

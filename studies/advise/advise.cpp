@@ -11,7 +11,9 @@
 
 #include "engine/scene/units.h"
 #include "studies/advise/advise_screens.h"
+#include "studies/advise/settled.h"
 #include "studies/dictionary/dictionary.h"
+#include "studies/validity/idle_effects.h"
 
 namespace kurbel {
 namespace {
@@ -52,6 +54,7 @@ class Adviser {
       a_.conclusion = "The full model did not run to the end: " + a_.full.diagnosis;
       return std::move(a_);
     }
+    if (a_.full.periods.steady) settled_ = settled(scene_, effects_of(scene_, a_.units, all_), simulate_.watch);
     check_figures();
     a_.screens = screens_of(scene_, a_.units, a_.full, options_.within);
     if (std::count(all_.begin(), all_.end(), true) <= tried_completely)
@@ -93,7 +96,9 @@ class Adviser {
       set.size = size_of(*r.model);
       set.cpu_seconds = r.statistics.cpu_seconds;
       if (!r.complete) set.refused = r.diagnosis;
-      const Deviation d = judge(a_.full, r, options_.figures);
+      if (const std::vector<std::string> idle = idle_effects(*r.model); !idle.empty()) set.refused = idle.front();
+      Deviation d = judge(a_.full, r, options_.figures);
+      if (d.within && set.refused.empty()) d = with_settled(d, settled_, scene_, on, options_.figures);
       set.deviation = d.of, set.error = d.error, set.figure = d.figure, set.within = d.within;
       set.not_judged = d.not_judged;
     } catch (const SceneError& error) {
@@ -112,6 +117,17 @@ class Adviser {
         if ((f.name == name || f.name.starts_with(name + ".")) && !other.find(f.name))
           found.of = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
     return found;
+  }
+  // The motion that is kept, too, where the full model's run has come to it.
+  Deviation with_settled(const Deviation& by_run, const std::optional<Settled>& full, const Scene& scene,
+                         const EffectSet& on, const std::vector<std::string>& figures) const {
+    if (!full || !full->why.empty()) return by_run;
+    const Settled lean = settled(scene, effects_of(scene, a_.units, on), simulate_.watch);
+    if (lean.why.empty()) return worse_of(by_run, settled_deviation(*full, lean, figures, options_.within));
+    Deviation none = by_run;
+    none.within = false;
+    none.not_judged.push_back("the steady motion (" + lean.why + ")");
+    return none;
   }
   double progress() const {
     const auto n = static_cast<double>(a_.tried.size());
@@ -276,7 +292,10 @@ class Adviser {
           const Result full = simulate(scene, effects_of(scene, a_.units, all_), "full", simulate_);
           const Result lean = simulate(scene, effects_of(scene, a_.units, on), "lean", simulate_);
           if (!full.complete || !lean.complete) h.refused = full.complete ? lean.diagnosis : full.diagnosis;
-          const Deviation d = judge(full, lean, options_.figures);
+          Deviation d = judge(full, lean, options_.figures);
+          if (full.periods.steady && h.refused.empty())
+            d = with_settled(d, settled(scene, effects_of(scene, a_.units, all_), simulate_.watch), scene, on,
+                             options_.figures);
           h.deviation = d.of, h.error = d.error, h.figure = d.figure, h.within = d.within;
         } catch (const SceneError& error) {
           h.refused = error.what();
@@ -318,6 +337,7 @@ class Adviser {
   const AdviseOptions& options_;
   SimulateOptions simulate_;
   std::vector<std::size_t> kept_by_screens_;  // units that stay although a set without them is within
+  std::optional<Settled> settled_;            // of the full model; none: its run does not come to it
   EffectSet all_;                             // that go together: those of the full model
   Advice a_;
 };

@@ -147,6 +147,7 @@ Findings findings_of(const Advice& a) {
   f.tell("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
   f.say(advice, held_out_table(a));
   f.say(advice, Sentences{.lines = a.warnings, .title = "Warnings", .indent = "warning: ", .key = "warnings"});
+  f.say(runs, Sentences{.lines = a.full.notes, .title = "Notes on the full model", .indent = "note: ", .key = "notes"});
   f.show(lean, Text{.title = "The scene with these effects", .body = a.lean_scene, .verbatim = true, .folded = true});
   return f;
 }

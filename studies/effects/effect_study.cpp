@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
+#include "studies/validity/idle_effects.h"
 
 namespace kurbel {
 namespace {
@@ -126,6 +127,7 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   say("all effects", 0);
   study.full = simulate(scene, effects_of(scene, study.units, on), "full", quiet);
   study.size = size_of(*study.full.model);
+  study.notes = study.full.notes;
   for (std::size_t k = 0; k < study.units.size() && study.full.complete; ++k) {
     say("without " + study.units[k].words, k + 1);
     if (!on[k]) {
@@ -137,6 +139,9 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
     run_without(left, scene, effects_of(scene, study.units, on), quiet);
     on[k] = true;
     if (left.refused.empty()) compare(left, study.full, study.size);
+    if (left.result.model)
+      for (const std::string& note : idle_effects(*left.result.model))
+        study.notes.push_back(fmt::format("without {}: {}", left.effect.words, note));
     study.left_out.push_back(std::move(left));
   }
   std::stable_sort(study.left_out.begin(), study.left_out.end(), [](const LeftOut& a, const LeftOut& b) {

@@ -29,7 +29,8 @@ struct EffectStudy {
   std::vector<EffectUnit> units;
   Result full;
   ModelSize size;
-  std::vector<LeftOut> left_out;  // ranked by their greatest change
+  std::vector<LeftOut> left_out;   // ranked by their greatest change
+  std::vector<std::string> notes;  // how far the models hold, and what went along with an effect
   std::string conclusion;
 };
 

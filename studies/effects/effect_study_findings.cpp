@@ -150,6 +150,7 @@ Findings findings_of(const EffectStudy& s) {
                         {"events", s.full.statistics.events},
                         {"cpu_seconds", s.full.statistics.cpu_seconds}});
   f.tell("effects", each(s.left_out, left_out_record));
+  f.say(full, Sentences{.lines = s.notes, .title = "Notes", .indent = "note: ", .key = "notes"});
   f.show(full, Text{.title = "", .body = s.full.explanation, .verbatim = true});
   f.show_scene(s.scene_file, s.scene_text);
   return f;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -48,20 +49,47 @@ bool makes_machine(const Scene& scene, const std::vector<EffectUnit>& units, con
   }
 }
 
-// Values of these keys in components of these kinds, times the factor; nested tables too.
-std::vector<std::string> scale(Section& section, const std::set<std::string>& keys, double factor) {
+// What to do with a setting: which of its values are multiplied.
+enum class Scales { nothing, value, abscissa };
+using Choice = std::function<Scales(const Key&, const Setting&)>;
+
+void multiply(Setting& setting, Scales which, double factor) {
+  if (which == Scales::abscissa) {
+    for (std::vector<double>* x : {&setting.curve.x, &setting.curve.x_back})
+      for (double& value : *x) value *= factor;
+    return;
+  }
+  setting.number *= factor;
+  for (double& value : setting.numbers) value *= factor;
+  for (std::vector<double>* y : {&setting.curve.y, &setting.curve.y_back})
+    for (double& value : *y) value *= factor;
+}
+
+// Chosen values in a section and the tables within it, times the factor: the keys that were given. What stands there by
+// default goes along, so that it keeps to the others.
+std::vector<std::string> scale(Section& section, const Choice& chosen, double factor) {
   std::vector<std::string> changed;
   for (Setting& setting : section.settings) {
     for (Section& nested : setting.sections)
-      for (const std::string& key : scale(nested, keys, factor)) changed.push_back(setting.key + "." + key);
-    if (!setting.given || !keys.count(setting.key)) continue;
-    setting.number *= factor;
-    for (double& y : setting.curve.y) y *= factor;
-    for (double& y : setting.curve.y_back) y *= factor;
-    changed.push_back(setting.key);
+      for (const std::string& key : scale(nested, chosen, factor)) changed.push_back(setting.key + "." + key);
+    const std::vector<Key>& keys = section.kind->keys;
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
+    const Scales which = key == keys.end() ? Scales::nothing : chosen(*key, setting);
+    if (which == Scales::nothing || !setting.curve.by_formula.empty()) continue;  // a formula stays as it is
+    multiply(setting, which, factor);
+    if (setting.given) changed.push_back(setting.key);
   }
   return changed;
 }
+
+// Of these keys' values, where they were given.
+Choice given_of(std::set<std::string> keys) {
+  return [keys = std::move(keys)](const Key& key, const Setting& setting) {
+    return setting.given && keys.count(key.name) ? Scales::value : Scales::nothing;
+  };
+}
+
+bool is_load(const Section& section) { return section.kind->name == "load" || section.kind->name == "torque source"; }
 
 }  // namespace
 
@@ -161,15 +189,21 @@ std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& unit
   return text + "\n[effects]\nelasticity = [" + elastic + "]\n" + flags;
 }
 
+bool is_speed(const Key& key) { return key.unit == "rad/s" || key.unit == "Hz"; }
+
+bool is_of_a_part(const Key& key) {
+  static const std::set<std::string> parts = {"damping_frequency", "stribeck_speed", "creep_speed"};
+  return parts.count(key.name) > 0;
+}
+
 std::string scale_loads(Scene& scene, double factor) {
-  const std::set<std::string> kinds = {"load", "torque source"};
-  const std::set<std::string> keys = {"torque", "damping", "quadratic", "table", "amplitude"};
-  const std::set<std::string> forces = {"nominal_force",    "force", "pressure", "table", "suction_pressure",
-                                        "delivery_pressure"};
+  const Choice torques = given_of({"torque", "damping", "quadratic", "table", "amplitude"});
+  const Choice forces =
+      given_of({"nominal_force", "force", "pressure", "table", "suction_pressure", "delivery_pressure"});
   std::vector<std::string> changed;
   for (Section& section : scene.components) {
-    if (kinds.count(section.kind->name))
-      for (const std::string& key : scale(section, keys, factor)) changed.push_back(section.name + "." + key);
+    if (is_load(section))
+      for (const std::string& key : scale(section, torques, factor)) changed.push_back(section.name + "." + key);
     for (Setting& setting : section.settings)
       for (Section& nested : setting.sections)
         if (setting.key == "load" || setting.key == "loads")
@@ -179,14 +213,23 @@ std::string scale_loads(Scene& scene, double factor) {
 }
 
 std::string scale_speeds(Scene& scene, double factor) {
-  const std::set<std::string> keys = {"rated_speed", "synchronous_speed", "no_load_speed"};
   std::vector<std::string> changed;
-  for (Section& section : scene.components)
-    for (const std::string& key : scale(section, keys, factor)) changed.push_back(section.name + "." + key);
+  for (Section& section : scene.components) {
+    const bool load = is_load(section);
+    const Choice speeds = [load](const Key& key, const Setting& setting) {
+      if (is_speed(key) && !is_of_a_part(key)) return Scales::value;
+      return key.type == KeyType::curve && setting.given && setting.curve.over == "speed" && !load ? Scales::abscissa
+                                                                                                   : Scales::nothing;
+    };
+    for (const std::string& key : scale(section, speeds, factor)) changed.push_back(section.name + "." + key);
+  }
   StartSettings& start = scene.run.start;
   if (start.speed != 0) start.speed *= factor, changed.push_back("start speed");
   for (auto& [component, given] : start.components)
     if (given.speed && *given.speed != 0) *given.speed *= factor, changed.push_back("start speed of " + component);
+  for (SequenceStep& step : scene.sequence.steps)
+    if (step.when == SequenceStep::When::speed_above || step.when == SequenceStep::When::speed_below)
+      step.value *= factor, changed.push_back("speed that a step of the sequence waits for");
   return changed.empty() ? "" : joined_words(changed);
 }
 

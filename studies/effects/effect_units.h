@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/model/model.h"
+#include "engine/scene/keys.h"
 #include "engine/scene/scene.h"
 
 namespace kurbel {
@@ -48,7 +49,13 @@ ModelSize size_of(const Model& model);
 // The scene text with its [effects] replaced by these.
 std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on);
 
-// Loads, or speeds of motors and start, multiplied by a factor: held-out operating points. What was changed, in words;
+// A key whose value is a speed or a frequency, by its unit in the field table. Those of a part's own properties (at which
+// speed friction falls, at which frequency a damping was measured) are none of operation.
+bool is_speed(const Key& key);
+bool is_of_a_part(const Key& key);
+
+// Loads, or speeds (of motors, mains, governors, switching, start, steps of the sequence: all that is_speed and not
+// is_of_a_part, and characteristics over the speed of what is no load), multiplied by a factor: held-out operating points. What was changed, in words;
 // empty: nothing could be.
 std::string scale_loads(Scene& scene, double factor);
 std::string scale_speeds(Scene& scene, double factor);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "studies/gears/figure_errors.h"
+
 namespace kurbel {
 namespace {
 
@@ -27,6 +29,27 @@ Findings made(std::string title, std::string conclusion, const Lines& lines, con
   f.show(in, formula);
   return f;
 }
+
+// Of the figures of a bevel pair. δ₂ is the difference of the shaft angle and δ₁, and an angle's rounding weighs by its
+// tangent in z_v.
+struct BevelErrors {
+  explicit BevelErrors(const BevelPair& b) {
+    const Moved<BevelPair> near = moved(b);
+    for (const int i : {0, 1}) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      const double angle = b.cone_angle(i);
+      cone_angle[k] = error_by_rounding(
+          b, near, [i](const BevelPair& p) { return p.cone_angle(i); }, b.shaft_angle);
+      virtual_teeth[k] = error_by_rounding(
+          b, near, [i](const BevelPair& p) { return p.virtual_teeth(i); },
+          std::abs(b.virtual_teeth(i) * std::tan(angle)) * b.shaft_angle);
+    }
+    reference_diameter = units_of_rounding * b.reference_diameter(1);
+    cone_distance = error_by_rounding(b, near, &BevelPair::cone_distance);
+  }
+  std::array<double, 2> cone_angle{}, virtual_teeth{};
+  double reference_diameter = 0, cone_distance = 0;
+};
 
 // Efficiency of both directions over the coefficient of friction.
 Plot efficiency_plot(const WormPair& pair) {
@@ -52,14 +75,17 @@ Plot efficiency_plot(const WormPair& pair) {
 
 Findings findings_of(const BevelPair& b) {
   check(b);
-  const Lines rows = {
-      {"of the wheels", "symbol", "1", "2", "unit"},
-      {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), ""},
-      {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree), "°"},
-      {"reference diameter, outer end", "d_e", number(mm * b.reference_diameter(0)),
-       number(mm * b.reference_diameter(1)), "mm"},
-      {"cone distance, outer end", "R_e", number(mm * b.cone_distance()), number(mm * b.cone_distance()), "mm"},
-      {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)), ""}};
+  const BevelErrors e(b);
+  const Lines rows = {{"of the wheels", "symbol", "1", "2", "±", "unit"},
+                      {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), "0", ""},
+                      {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree),
+                       error_text(largest_error(e.cone_angle) / degree), "°"},
+                      {"reference diameter, outer end", "d_e", number(mm * b.reference_diameter(0)),
+                       number(mm * b.reference_diameter(1)), error_text(mm * e.reference_diameter), "mm"},
+                      {"cone distance, outer end", "R_e", number(mm * b.cone_distance()),
+                       number(mm * b.cone_distance()), error_text(mm * e.cone_distance), "mm"},
+                      {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)),
+                       error_text(largest_error(e.virtual_teeth)), ""}};
   const FormulaCard cones{
       .title = "Pitch cones (theory 6.14)",
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
@@ -73,23 +99,33 @@ Findings findings_of(const BevelPair& b) {
                        b.cone_angle(1) / degree, mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
            rows, cones);
   f.tell("ratio", b.ratio());
+  f.tell("ratio_error", units_of_rounding * b.ratio());
   f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
+  f.tell("cone_angle_error", e.cone_angle);
   f.tell("cone_distance", b.cone_distance());
+  f.tell("cone_distance_error", e.cone_distance);
   f.tell("virtual_teeth", std::array{b.virtual_teeth(0), b.virtual_teeth(1)});
+  f.tell("virtual_teeth_error", e.virtual_teeth);
   return f;
 }
 
 Findings findings_of(const WormPair& w, std::optional<double> speed) {
   check(w);
-  Lines rows = {{"of the pair", "symbol", "value", "unit"},
-                {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), ""},
-                {"ratio", "u", number(w.ratio()), ""},
-                {"lead angle", "γ", number(w.lead_angle() / degree), "°"},
-                {"centre distance", "a", number(mm * w.centre_distance()), "mm"},
-                {"friction angle", "ρ′", number(w.friction_angle() / degree), "°"},
-                {"efficiency, worm drives", "η", number(w.efficiency()), ""},
-                {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()), ""}};
-  if (speed) rows.push_back({"sliding speed", "v_g", number(w.sliding_speed(std::abs(*speed))), "m/s"});
+  const Moved<WormPair> near = moved(w);
+  const auto error = [&](const auto& get) { return error_by_rounding(w, near, get); };
+  const auto sliding = [&](const WormPair& p) { return p.sliding_speed(std::abs(speed.value_or(0))); };
+  const auto text = [&](const auto& get, double factor = 1) { return error_text(factor * error(get)); };
+  Lines rows = {
+      {"of the pair", "symbol", "value", "±", "unit"},
+      {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), "0", ""},
+      {"ratio", "u", number(w.ratio()), text(&WormPair::ratio), ""},
+      {"lead angle", "γ", number(w.lead_angle() / degree), text(&WormPair::lead_angle, 1 / degree), "°"},
+      {"centre distance", "a", number(mm * w.centre_distance()), text(&WormPair::centre_distance, mm), "mm"},
+      {"friction angle", "ρ′", number(w.friction_angle() / degree), text(&WormPair::friction_angle, 1 / degree), "°"},
+      {"efficiency, worm drives", "η", number(w.efficiency()), text(&WormPair::efficiency), ""},
+      {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()),
+       text(&WormPair::efficiency_back), ""}};
+  if (speed) rows.push_back({"sliding speed", "v_g", number(sliding(w)), text(sliding), "m/s"});
   const FormulaCard efficiency{
       .title = "Efficiency in both directions (theory 6.15)",
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
@@ -103,15 +139,18 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
                                         : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
            rows, efficiency);
   f.draw(static_cast<Chapter>(0), [w] { return efficiency_plot(w); });
-  for (Field& field : Record{{"ratio", w.ratio()},
-                             {"lead_angle", w.lead_angle()},
-                             {"centre_distance", w.centre_distance()},
-                             {"friction_angle", w.friction_angle()},
-                             {"efficiency", w.efficiency()},
-                             {"efficiency_back", w.efficiency_back()},
-                             {"self_locking", w.self_locking()}})
-    f.tell(field.key, field.value);
-  if (speed) f.tell("sliding_speed", w.sliding_speed(std::abs(*speed)));
+  const auto tell = [&](const std::string& key, const auto& get) {
+    f.tell(key, std::invoke(get, w));
+    f.tell(key + "_error", error(get));
+  };
+  tell("ratio", &WormPair::ratio);
+  tell("lead_angle", &WormPair::lead_angle);
+  tell("centre_distance", &WormPair::centre_distance);
+  tell("friction_angle", &WormPair::friction_angle);
+  tell("efficiency", &WormPair::efficiency);
+  tell("efficiency_back", &WormPair::efficiency_back);
+  f.tell("self_locking", w.self_locking());
+  if (speed) tell("sliding_speed", sliding);
   return f;
 }
 

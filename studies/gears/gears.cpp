@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "drivetrain/gears/gear_keys.h"
@@ -13,9 +15,10 @@ namespace kurbel {
 namespace {
 
 GearStage stage_of(const std::string& name, GearPair pair, std::optional<double> speed) {
-  GearStage stage{.name = name, .pair = std::move(pair), .stiffness = {}, .verdicts = {}, .speed = speed};
+  GearStage stage{.name = name, .pair = std::move(pair), .stiffness = {}, .verdicts = {}, .speed = speed, .moved = {}};
   stage.stiffness = mesh_stiffness(stage.pair);
   stage.verdicts = verdicts(stage.pair);
+  stage.moved = moved(stage.pair);
   return stage;
 }
 
@@ -72,6 +75,26 @@ Gears single_pair(const GearPairData& data, std::optional<double> speed) {
   gears.title = "Gear pair";
   gears.stages.push_back(stage_of("pair", solve_gear_pair(data), speed));
   return gears;
+}
+
+double stiffness_error(const MeshStiffness& stiffness, double value) {
+  constexpr double by_the_standard = 0.08;
+  return stiffness.within ? by_the_standard * std::abs(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double inertia_error(const GearStage& stage, std::size_t wheel) {
+  const MeshedWheel& w = stage.pair.wheel[wheel];
+  if (!(w.width > 0)) return 0;
+  const double finer = wheel_inertia(w, w.width, stage.pair.data.density, w.bore, 2 * outline_points_of_inertia);
+  return 2 * std::abs(finer - w.inertia) +
+         stage.error_of([wheel](const GearPair& p) { return p.wheel[wheel].inertia; });
+}
+
+double backlash_error(const GearStage& stage, const std::function<double(const GearPair&)>& get) {
+  GearPair least = stage.pair;
+  least.backlash_arc = 1e-12 * stage.pair.data.module;
+  least.backlash_normal = least.backlash_arc;
+  return stage.error_of(get) + (stage.pair.backlash_arc == 0 ? std::abs(get(least)) : 0);
 }
 
 Finding worst_of(const GearStage& stage) {

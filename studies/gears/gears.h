@@ -1,6 +1,7 @@
 // gears.h — the gear pairs of a scene, or one alone: geometry, verdicts, and what they give to the drive.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "drivetrain/gears/gear_pair.h"
 #include "engine/scene/scene.h"
 #include "studies/findings/output.h"
+#include "studies/gears/figure_errors.h"
 
 namespace kurbel {
 
@@ -17,7 +19,23 @@ struct GearStage {
   MeshStiffness stiffness;
   std::vector<GearVerdict> verdicts;
   std::optional<double> speed = {};  // of wheel 1 [rad/s]
+  Moved<GearPair> moved = {};        // what its figures' errors are found by
+
+  // What rounding may have done to a figure of the pair, in its unit; NaN: not known.
+  template <class Get>
+  double error_of(Get get, double terms = 0) const {
+    return error_by_rounding(pair, moved, get, terms);
+  }
 };
+
+// Stiffness after ISO 6336-1 B lies between −8 % and +5 % of it for loads of 100 … 1600 N/mm (the standard's own words),
+// for pairs that the method was fitted for; of others nothing is known (NaN).
+double stiffness_error(const MeshStiffness& stiffness, double value);
+// A wheel's moment of inertia by straight pieces of its outline: their number doubled, twice the difference, and
+// rounding.
+double inertia_error(const GearStage& stage, std::size_t wheel);
+// Of j_bn, j_wt and what is made of them: what is below 10⁻¹² modules is told as none.
+double backlash_error(const GearStage& stage, const std::function<double(const GearPair&)>& get);
 
 struct Gears {
   std::string title, scene_file, scene_text;

@@ -59,9 +59,14 @@ std::string conclusion_of(const Gears& g) {
 
 // --- tables ---
 
-QuantitiesOf<MeshedWheel> wheels_of(const GearPair& p) {
+MeasuredQuantities<MeshedWheel> wheels_of(const GearStage& s) {
   using W = const MeshedWheel&;
-  QuantitiesOf<MeshedWheel> q("Wheels", {"of the wheels", "symbol", "1", "2", "unit"}, p.wheel);
+  const GearPair& p = s.pair;
+  const auto rounding = [&s](std::size_t i, const std::function<double(W)>& get) {
+    return s.error_of([&](const GearPair& pair) { return get(pair.wheel[i]); });
+  };
+  const auto quadrature = [&s](std::size_t i, const std::function<double(W)>&) { return inertia_error(s, i); };
+  MeasuredQuantities<MeshedWheel> q("Wheels", {"of the wheels", "symbol", "1", "2", "unit"}, p.wheel, rounding);
   q.quantity("teeth", "teeth", "z", "", &MeshedWheel::teeth)
       .quantity("shift", "profile shift", "x", "", &MeshedWheel::shift)
       .quantity("generating_shift", "generating shift", "x_E", "", &MeshedWheel::generating_shift)
@@ -93,13 +98,20 @@ QuantitiesOf<MeshedWheel> wheels_of(const GearPair& p) {
     return q.only_for_programs("width", &MeshedWheel::width).only_for_programs("inertia", &MeshedWheel::inertia);
   return q.quantity("width", "width", "b", "mm", &MeshedWheel::width, length)
       .quantity("", "bore, or outer diameter of the rim", "", "mm", &MeshedWheel::bore, length)
-      .quantity("inertia", "moment of inertia", "J", "kg·m²", &MeshedWheel::inertia);
+      .quantity_with(quadrature, "inertia", "moment of inertia", "J", "kg·m²", &MeshedWheel::inertia);
 }
 
-QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
+MeasuredQuantities<GearPair> mesh_of(const GearStage& s) {
   using P = const GearPair&;
   constexpr ReadAs five{.digits = 5}, stiffness{.factor = 1e-9, .digits = 5}, mrad{.factor = 1e3, .digits = 5};
-  QuantitiesOf<GearPair> q("Mesh", {"of the mesh", "symbol", "value", "unit"}, std::span(&s.pair, 1));
+  using Get = std::function<double(P)>;
+  const auto by_backlash = [&s](std::size_t, const Get& get) { return backlash_error(s, get); };
+  const auto by_method = [&s](std::size_t, const Get& get) { return stiffness_error(s.stiffness, get(s.pair)); };
+  const auto by_distance = [&s](std::size_t, const Get& get) {
+    return s.error_of(get, 2 * std::abs(s.pair.centre_distance) / s.pair.data.module);
+  };
+  MeasuredQuantities<GearPair> q("Mesh", {"of the mesh", "symbol", "value", "unit"}, std::span(&s.pair, 1),
+                                 [&s](std::size_t, const Get& get) { return s.error_of(get); });
   q.quantity("ratio", "ratio", "u = z₂/z₁", "", &GearPair::ratio)
       .quantity(
           "", "pressure angle, normal", "α_n", "°", [](P p) { return p.data.rack.pressure_angle; }, angle)
@@ -114,24 +126,27 @@ QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
       .quantity("centre_distance", "centre distance", "a_w", "mm", &GearPair::centre_distance, length)
       .quantity("shift_sum", "sum of shifts", "Σx", "", &GearPair::shift_sum)
       .quantity("", "sum of shifts that closes the backlash", "Σx(a_w)", "", &GearPair::mating_shift_sum)
-      .quantity("tip_shortening", "tip shortening", "k", "m_n", &GearPair::tip_shortening, five)
+      .quantity_with(by_distance, "tip_shortening", "tip shortening", "k", "m_n", &GearPair::tip_shortening, five)
       .quantity("base_pitch", "base pitch", "p_et", "mm", &GearPair::base_pitch, length)
       .quantity("contact_ratio", "contact ratio", "ε_α", "", &GearPair::contact_ratio)
       .quantity("overlap_ratio", "overlap ratio", "ε_β", "", &GearPair::overlap_ratio)
       .quantity("", "total contact ratio", "ε_γ", "", &GearPair::total_contact_ratio)
-      .quantity("backlash_normal", "backlash along the normal", "j_bn", "mm", &GearPair::backlash_normal, length)
-      .quantity("", "backlash on the working circle", "j_wt", "mm", &GearPair::backlash_arc, length)
-      .quantity(
-          "", "backlash angle at wheel 1", "", "mrad", [](P p) { return p.backlash_angle(0); }, mrad)
-      .quantity(
-          "", "backlash angle at wheel 2", "", "mrad", [](P p) { return p.backlash_angle(1); }, mrad)
-      .quantity(
-          "", "stiffness of a pair of teeth per width", "c′", "N/(mm·µm)", [&](P) { return s.stiffness.single; },
-          stiffness)
-      .quantity(
-          "", "mesh stiffness per width", "c_γα", "N/(mm·µm)", [&](P) { return s.stiffness.mean; }, stiffness);
+      .quantity_with(by_backlash, "backlash_normal", "backlash along the normal", "j_bn", "mm",
+                     &GearPair::backlash_normal, length)
+      .quantity_with(by_backlash, "", "backlash on the working circle", "j_wt", "mm", &GearPair::backlash_arc, length)
+      .quantity_with(
+          by_backlash, "", "backlash angle at wheel 1", "", "mrad", [](P p) { return p.backlash_angle(0); }, mrad)
+      .quantity_with(
+          by_backlash, "", "backlash angle at wheel 2", "", "mrad", [](P p) { return p.backlash_angle(1); }, mrad)
+      .quantity_with(
+          by_method, "", "stiffness of a pair of teeth per width", "c′", "N/(mm·µm)",
+          [&](P) { return s.stiffness.single; }, stiffness)
+      .quantity_with(
+          by_method, "", "mesh stiffness per width", "c_γα", "N/(mm·µm)", [&](P) { return s.stiffness.mean; },
+          stiffness);
   if (s.stiffness.torsional > 0)
-    q.quantity("", "torsional mesh stiffness about wheel 1", "k", "N·m/rad", [&](P) { return s.stiffness.torsional; });
+    q.quantity_with(by_method, "", "torsional mesh stiffness about wheel 1", "k", "N·m/rad",
+                    [&](P) { return s.stiffness.torsional; });
   q.quantity(
       "", "least teeth without undercut, x = 0", "z_min", "",
       [](P p) { return least_teeth(p.data.rack, p.data.helix); }, five);
@@ -146,20 +161,38 @@ QuantitiesOf<GearPair> mesh_of(const GearStage& s) {
 struct PathPoint {
   std::string name;
   double g = 0, sliding_over_omega = 0;
-  std::array<double, 2> radius, curvature, specific_sliding;
+  std::array<double, 2> radius{}, curvature{}, specific_sliding{};
+  double g_error = 0, sliding_error = 0, length_error = 0;  // the last: largest of what people get as a length
+  std::array<double, 2> specific_sliding_error{};
 };
+
+PathPoint path_point(const GearStage& s, char name) {
+  using P = const GearPair&;
+  const GearPair& p = s.pair;
+  const double g = p.point(name);
+  PathPoint q;
+  q.name = std::string(1, name), q.g = g, q.sliding_over_omega = p.sliding_speed(g, 1);
+  q.radius = p.radius(g), q.curvature = p.curvature(g), q.specific_sliding = p.specific_sliding(g);
+  q.g_error = s.error_of([name](P x) { return x.point(name); });
+  q.sliding_error = s.error_of([name](P x) { return x.sliding_speed(x.point(name), 1); });
+  std::vector<double> lengths = {q.g_error, q.sliding_error};
+  for (const std::size_t i : {0UL, 1UL}) {
+    lengths.push_back(2 * s.error_of([&](P x) { return x.radius(x.point(name))[i]; }));
+    lengths.push_back(s.error_of([&](P x) { return x.curvature(x.point(name))[i]; }));
+    q.specific_sliding_error[i] = s.error_of([&](P x) { return x.specific_sliding(x.point(name))[i]; }, 1);
+  }
+  q.length_error = largest_error(lengths);
+  return q;
+}
 
 Rows path_table(const GearStage& s) {
   using P = const PathPoint&;
   std::vector<PathPoint> points;
-  for (const char name : {'A', 'B', 'C', 'D', 'E'}) {
-    const double g = s.pair.point(name);
-    points.push_back({std::string(1, name), g, s.pair.sliding_speed(g, 1), s.pair.radius(g), s.pair.curvature(g),
-                      s.pair.specific_sliding(g)});
-  }
+  for (const char name : {'A', 'B', 'C', 'D', 'E'}) points.push_back(path_point(s, name));
   return table_of("path", "Along the path of contact", std::move(points))
       .column("point", "point", &PathPoint::name)
       .column("g", "g [mm]", &PathPoint::g, length)
+      .only_for_programs("g_error", &PathPoint::g_error)
       .only_for_people(
           "d₁ [mm]", [](P p) { return 2 * p.radius[0]; }, length)
       .only_for_people(
@@ -168,31 +201,47 @@ Rows path_table(const GearStage& s) {
           "ρ₁ [mm]", [](P p) { return p.curvature[0]; }, length)
       .only_for_people(
           "ρ₂ [mm]", [](P p) { return p.curvature[1]; }, length)
+      .only_for_people(
+          "± [mm]", [](P p) { return p.length_error; }, [](double e) { return error_text(mm * e); })
       .only_for_people(s.speed ? "v_g [m/s]" : "v_g/ω₁ [mm]",
                        [&](P p) {
                          return s.speed ? read_as(s.pair.sliding_speed(p.g, *s.speed), {.digits = 5})
                                         : length(p.sliding_over_omega);
                        })
       .only_for_programs("sliding_over_omega", &PathPoint::sliding_over_omega)
+      .only_for_programs("sliding_over_omega_error", &PathPoint::sliding_error)
       .only_for_programs("specific_sliding", &PathPoint::specific_sliding)
+      .only_for_programs("specific_sliding_error", &PathPoint::specific_sliding_error)
       .only_for_people("ζ₁", [](P p) { return p.specific_sliding[0]; }, {.digits = 5})
-      .only_for_people("ζ₂", [](P p) { return p.specific_sliding[1]; }, {.digits = 5});
+      .only_for_people("ζ₂", [](P p) { return p.specific_sliding[1]; }, {.digits = 5})
+      .only_for_people(
+          "± ζ", [](P p) { return largest_error(p.specific_sliding_error); }, error_text);
 }
 
 // --- for programs and files ---
 
+std::function<double(const GearPair&)> backlash_angle_of(int wheel) {
+  return [wheel](const GearPair& p) { return p.backlash_angle(wheel); };
+}
+
 Record stage_record(const GearStage& s) {
   const GearPair& p = s.pair;
   Record r = {{"name", s.name}, {"module", p.data.module}, {"helix", p.data.helix}};
-  const QuantitiesOf<GearPair> mesh = mesh_of(s);
+  const MeasuredQuantities<GearPair> mesh = mesh_of(s);
   r.insert(r.end(), mesh.records().front().begin(), mesh.records().front().end());
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
-  tell("wheels", wheels_of(p).records());
+  tell("wheels", wheels_of(s).records());
   tell("path", path_table(s).list());
   tell("backlash_angle", std::array{p.backlash_angle(0), p.backlash_angle(1)});
+  tell("backlash_angle_error",
+       std::array{backlash_error(s, backlash_angle_of(0)), backlash_error(s, backlash_angle_of(1))});
+  const auto stiffness_off = [&](double value) { return stiffness_error(s.stiffness, value); };
   tell("mesh_stiffness", Record{{"single", s.stiffness.single},
+                                {"single_error", stiffness_off(s.stiffness.single)},
                                 {"mean", s.stiffness.mean},
+                                {"mean_error", stiffness_off(s.stiffness.mean)},
                                 {"torsional", s.stiffness.torsional},
+                                {"torsional_error", stiffness_off(s.stiffness.torsional)},
                                 {"within_range_of_method", s.stiffness.within}});
   tell("verdicts", each(s.verdicts, [](const GearVerdict& v) {
          return Record{{"finding", word_of(v.finding)}, {"text", v.text}};
@@ -270,21 +319,30 @@ std::vector<FormulaCard> formulas_of(const GearStage& s) {
 
 // --- all of it ---
 
+double greatest_specific_sliding(const GearPair& p) {
+  return std::min(p.specific_sliding(p.start)[0], p.specific_sliding(p.end)[1]);
+}
+
 void add_key_figures(Findings& f, const Gears& g) {
   for (const GearStage& s : g.stages) {
     const std::string prefix = g.stages.size() > 1 ? s.name + ": " : "";
-    const auto add = [&](const char* name, double value, const char* unit, const char* note, int digits,
+    const auto add = [&](const char* name, double value, const char* unit, double error, const char* note,
                          const char* means) {
-      f.figures.push_back({prefix + name, value, unit, {}, note, digits, means});
+      f.figures.push_back({prefix + name, value, unit, std::isfinite(error) ? std::optional(error) : std::nullopt, note,
+                           std::isfinite(error) ? 0 : 3, means});
     };
-    add("centre distance", mm * std::abs(s.pair.centre_distance), "mm", "", 7, "centre_distance");
-    add("contact ratio ε_α", s.pair.contact_ratio, "", "", 4, "contact_ratio");
-    add("greatest specific sliding",
-        std::min(s.pair.specific_sliding(s.pair.start)[0], s.pair.specific_sliding(s.pair.end)[1]), "",
-        "at the foot of a flank", 3, "specific_sliding");
-    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", "", 4, "backlash_angle");
+    const auto distance = [](const GearPair& p) { return std::abs(p.centre_distance); };
+    add("centre distance", mm * distance(s.pair), "mm", mm * s.error_of(distance), "", "centre_distance");
+    add("contact ratio ε_α", s.pair.contact_ratio, "", s.error_of(&GearPair::contact_ratio), "", "contact_ratio");
+    add("greatest specific sliding", greatest_specific_sliding(s.pair), "", s.error_of(greatest_specific_sliding, 1),
+        "at the foot of a flank", "specific_sliding");
+    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", 1e3 * backlash_error(s, backlash_angle_of(0)),
+        "", "backlash_angle");
     if (s.stiffness.torsional > 0)
-      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad", "ISO 6336-1 B", 3, "mesh_stiffness");
+      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad",
+          stiffness_error(s.stiffness, s.stiffness.torsional),
+          s.stiffness.within ? "ISO 6336-1 B, within 8 %" : "ISO 6336-1 B, outside of its range: error not known",
+          "mesh_stiffness");
   }
 }
 
@@ -296,7 +354,7 @@ void say_stage(Findings& f, const GearStage& s) {
   f.say(in, Sentences{.lines = verdicts, .title = "Verdict", .terminal = false});
   f.draw(in, [&s] { return plots_of(s); });
   for (const FormulaCard& formula : formulas_of(s)) f.show(in, formula);
-  Rows wheels = wheels_of(s.pair).rows();
+  Rows wheels = wheels_of(s).rows();
   wheels.heading = fmt::format("{}: {}", s.name, shape_of(s.pair));
   f.say(in, std::move(wheels));
   f.say(in, mesh_of(s).rows());

@@ -232,11 +232,10 @@ Findings findings_of(const Comparison& c) {
          }));
   show_amplification(f, figures, c);
   show_delta_formulas(f, figures, results);
-  f.say(notes, Sentences{.lines = c.notes, .indent = "note: ", .key = "notes", .page = false});
   std::vector<std::string> lines = c.notes;
   for (const Result* r : results)
     for (const std::string& note : r->notes) lines.push_back(r->label + ": " + note);
-  f.say(notes, Sentences{.lines = lines, .terminal = false});
+  f.say(notes, Sentences{.lines = lines, .indent = "note: ", .key = "notes"});
   show_background(f, results);
   return f;
 }

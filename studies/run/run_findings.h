@@ -39,11 +39,6 @@ std::string at_time(const Figure& figure);                       // "at 1.23 s";
 const Figure* largest_peak(const Result& result);                // of torque in any coupling
 const Figure* first_of(const Result& result, QuantityKind what);
 
-// Induction motors on their static curve whose speed swings faster than the curve holds for: above 3 % of the mains'
-// frequency, where the estimate of what their fluxes let through differs by more than 5 % of the rated torque. As far
-// as the trajectory's samples resolve it.
-std::vector<std::string> static_curve_notes(const Model& model, const TrajectoryRecorder& trajectory);
-
 std::string one_line(const Result& result);
 std::string conclusion_of(const Result& result);
 // Before its figures, and behind them.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/induction/induction_law.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 
@@ -27,93 +26,7 @@ std::string of_last_cycle(const Result& r) {
   return first_of(r, QuantityKind::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }
 
-// --- validity of the static curve of induction motors (theory 4.1) ---
-
-// A motor on its static curve, and its supply.
-struct StaticMotor {
-  std::string name;
-  double rated_torque = 0, breakdown_slip = 0, mains = 0;  // [N·m], [1], [Hz]
-  bool has_circuit = false;                                // data of the two-axis model
-};
-
-// Of a frequency converter the supply is no mains.
-std::vector<StaticMotor> static_motors(const Model& model) {
-  std::vector<StaticMotor> list;
-  for (const Section& s : model.scene.components) {
-    const auto motor = induction_data(s);
-    if (!motor || motor->by_converter || (motor->has_circuit && model.effects.transients)) continue;
-    list.push_back({s.name, motor->rated_torque, motor->breakdown_slip, motor->mains, motor->has_circuit});
-  }
-  return list;
-}
-
-// Between two turning points of its speed and back.
-struct DriveSwing {
-  double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
-  double followed = 1;                       // part of a torque's swing that the fluxes let through
-  double missed() const { return torque * (1 - followed); }
-};
-
-// Fluxes follow the curve as T dM/dt + M = M_static(ω), T = 1/(2π s_b f), for small slips: T is the rotor's transient
-// time constant, by which Kloss' curve has its breakdown at s_b.
-double part_followed(double swing, const StaticMotor& motor) {
-  return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
-}
-
-// The swing of which the curve gives most that a real motor would not, above the least share of the mains' frequency.
-DriveSwing worst_swing(const TrajectoryRecorder& trajectory, const StaticMotor& motor, double least_share) {
-  const auto column = [&](const std::string& name) {
-    const auto& channels = trajectory.channels();
-    return static_cast<std::size_t>(
-        std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name.text == name; }) -
-        channels.begin());
-  };
-  const std::size_t speed = column("speed." + motor.name), torque = column("torque." + motor.name);
-  DriveSwing worst;
-  if (std::max(speed, torque) >= trajectory.channels().size()) return worst;
-  const std::vector<double>& t = trajectory.time();
-  const auto change = [&](std::size_t k) { return trajectory.value(k + 1, speed) - trajectory.value(k, speed); };
-  std::vector<std::size_t> turns;
-  for (std::size_t k = 1; k + 1 < t.size(); ++k) {
-    if (!(change(k - 1) * change(k) < 0)) continue;
-    turns.push_back(k);
-    if (turns.size() < 3) continue;
-    const std::size_t begin = turns[turns.size() - 3];
-    DriveSwing swing{.frequency = 1 / (t[k] - t[begin]), .at = t[begin]};
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (std::size_t row = begin; row <= k; ++row) {
-      least = std::min(least, trajectory.value(row, torque));
-      most = std::max(most, trajectory.value(row, torque));
-    }
-    swing.torque = most - least;
-    swing.followed = part_followed(swing.frequency, motor);
-    if (swing.frequency >= least_share * motor.mains && swing.missed() > worst.missed()) worst = swing;
-  }
-  return worst;
-}
-
 }  // namespace
-
-std::vector<std::string> static_curve_notes(const Model& model, const TrajectoryRecorder& trajectory) {
-  constexpr double least_share = 0.03, least_torque = 0.05;  // of the mains' frequency, of the rated torque
-  std::vector<std::string> notes;
-  for (const StaticMotor& motor : static_motors(model)) {
-    const DriveSwing swing = worst_swing(trajectory, motor, least_share);
-    if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
-    notes.push_back(fmt::format(
-        "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
-        "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
-        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}",
-        motor.name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
-        motor.breakdown_slip, 100 * swing.followed,
-        motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
-                          : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "
-                                        "resistance_ratio > 0 (cage motors: about 1) instead of starting_ratio or a "
-                                        "starter, and the effect transients",
-                                        motor.mains)));
-  }
-  return notes;
-}
 
 bool nothing_turned_over(const EnergyBalance& e) {
   return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&

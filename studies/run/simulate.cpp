@@ -19,6 +19,8 @@
 #include "studies/run/measured_errors.h"
 #include "studies/run/multibody.h"
 #include "studies/run/run_findings.h"
+#include "studies/validity/idle_effects.h"
+#include "studies/validity/static_curve.h"
 
 namespace kurbel {
 namespace {
@@ -332,6 +334,7 @@ class Simulation {
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     note_stall(run.outcome);
     note_regularised(run.outcome.regularised);
+    for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
   }
   void note_regularised(const std::vector<std::string>& list) {

@@ -53,6 +53,7 @@ class Reach {
     constexpr double missed = 0.01;
     if (!regime.found || regime.crank <= s_.delta * (1 + missed)) return;
     s_.reached.push_back(told(regime, as, SizedBy::constant_drive, "no flywheel"));
+    note(regime, as);
     meet(as, regime, effects);
     s_.needed = true;
   }
@@ -107,12 +108,23 @@ class Reach {
       return;
     }
     s_.reached.push_back(told(regime, as, by, sized_by));
+    note(regime, as);
     const bool last = as == SizedModel::elastic || !is_elastic(*compile_at(scene_, scene_.effects, options_.at));
     const double off = regime.crank / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
     if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, regime, effects);
+  }
+  // What a model found at several flywheels is said once.
+  void note(const SizedRegime& regime, SizedModel as) {
+    for (const std::string& what : regime.notes) {
+      const std::string which = fmt::format("{}: ", name_of(as));
+      if (std::none_of(s_.notes.begin(), s_.notes.end(), [&](const std::string& n) {
+            return n.starts_with(which + "the drive ") && what.starts_with("the drive ");
+          }))
+        s_.notes.push_back(which + what);
+    }
   }
   static DeltaReached told(const SizedRegime& regime, SizedModel as, SizedBy by, const std::string& sized_by) {
     DeltaReached r;

@@ -25,6 +25,7 @@ struct SizedRegime {
   std::optional<double> crank_error, motor_error;
   double mid_speed = 0;                         // of the link [rad/s]
   double start_speed = 0;                       // of the link at its angle 0 [rad/s]
+  std::vector<std::string> notes;               // how far the model holds in this motion
   int cycles = 0;                               // that the search cost
   std::vector<double> phi, speed, motor_speed;  // a round [rad], [rad/s]; the motor's reduced to the link
 };

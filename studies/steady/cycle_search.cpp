@@ -15,6 +15,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/trace.h"
 #include "studies/steady/round_figures.h"
+#include "studies/validity/static_curve.h"
 
 namespace kurbel {
 namespace {
@@ -279,6 +280,7 @@ class Search {
     out_.shafts = std::move(fine.shafts);
     out_.motors = std::move(fine.motors);
     out_.work_residual = fine.work_residual;
+    out_.notes = static_curve_notes(*map_, out_.point);
     if (options_.traces) follow();
   }
 

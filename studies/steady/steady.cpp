@@ -141,6 +141,7 @@ class Study {
       incomplete(is_interrupted(cycle) ? "interrupted"
                                        : fmt::format("no steady cycle ({}): {}", cycle.label, cycle.why));
     }
+    for (const std::string& note : cycle.notes) out_.notes.push_back(cycle.label + ": " + note);
     out_.cycles.push_back(std::move(cycle));
   }
   void incomplete(const std::string& why) {

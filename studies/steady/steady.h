@@ -76,6 +76,7 @@ struct SteadyCycle {
   double added_torque = 0;   // constant, beside the drive, that the demanded mean speed needs [N·m]
   std::string added_at;      // on this component's shaft
   std::shared_ptr<const Traces> traces;
+  std::vector<std::string> notes;  // how far the model holds in this motion
   double cpu_seconds = 0;
 
   const Figure* find(const std::string& name) const;

@@ -46,13 +46,24 @@ Worst worst_of(const Advice& advice, const SettledRun& full, const SettledRun& l
   return worst;
 }
 
-// A warning counts for what it says: the largest percentage in it.
+// The number that ends at `end`; nothing where none does.
+std::string number_before(const std::string& words, std::size_t end) {
+  const std::size_t begin = words.find_last_not_of("0123456789.e+-", end - 1);
+  return words.substr(begin + 1, end - begin - 1);
+}
+
+// A warning counts for what it says: the largest percentage in it, "12 ± 0.1 %" as a deviation and its error.
 double warned_of(const Advice& advice) {
   double most = 0;
   for (const std::string& words : advice.warnings)
     for (std::size_t sign = words.find(" %"); sign != std::string::npos; sign = words.find(" %", sign + 1)) {
-      const std::size_t begin = words.find_last_not_of("0123456789.e+-", sign - 1);
-      const std::string number = words.substr(begin + 1, sign - begin - 1);
+      const std::string number = number_before(words, sign), apart = " ± ";
+      const std::size_t before = sign - number.size();
+      if (before > apart.size() && words.compare(before - apart.size(), apart.size(), apart) == 0) {
+        const std::string value = number_before(words, before - apart.size());
+        most = std::max(most, (std::strtod(value.c_str(), nullptr) + std::strtod(number.c_str(), nullptr)) / 100);
+        continue;
+      }
       // Signed ones say how far the loads were moved.
       if (!number.empty() && number.front() != '+' && number.front() != '-')
         most = std::max(most, std::strtod(number.c_str(), nullptr) / 100);

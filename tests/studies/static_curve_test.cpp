@@ -4,7 +4,13 @@
 #include <algorithm>
 #include <string>
 
+#include "studies/accuracy/accuracy_findings.h"
+#include "studies/advise/advise_findings.h"
+#include "studies/effects/effect_study_findings.h"
 #include "studies/run/compare.h"
+#include "studies/run/run_findings.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady_findings.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -63,6 +69,66 @@ fan   = { kind = "flywheel", inertia = "2 kg*m2" }
 run   = { until = "5 s" }
 )";
   EXPECT_EQ(note_of(test::run(fan, false)), "");
+}
+
+// One sentence, whoever says it; people, page and programs get it.
+void expect_told(const char* verb, const StudyOutput& output) {
+  const std::string begin = "the drive \"motor\" swings at about", end = "too fast for the curve";
+  for (const std::string& text : {output.table, output.json}) {
+    // In JSON its quotation marks are escaped.
+    EXPECT_NE(text.find("swings at about"), std::string::npos) << verb;
+    EXPECT_NE(text.find("static torque-speed curve lets its torque swing"), std::string::npos) << verb;
+    EXPECT_NE(text.find(end), std::string::npos) << verb;
+  }
+  EXPECT_NE(output.table.find(begin), std::string::npos) << verb;
+}
+
+SimulateOptions quick() {
+  SimulateOptions options;
+  options.measure_error = false;
+  return options;
+}
+
+TEST(StaticCurve, is_judged_in_the_steady_motion) {
+  const Scene scene = press_with("");
+  SteadyOptions options;
+  options.start_search = false;
+  expect_told("steady", output_of(steady(scene, {scene.effects}, options)));
+  Scene two_axes = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
+  two_axes.effects.transients = true;
+  for (const std::string& note : steady(two_axes, {two_axes.effects}, options).notes)
+    EXPECT_EQ(note.find("static torque-speed curve"), std::string::npos);
+}
+
+TEST(StaticCurve, is_judged_in_the_motion_of_the_sized_machine) {
+  SizeOptions options;
+  options.delta = 0.05;
+  expect_told("size", output_of(size_flywheel(press_with(""), options)));
+}
+
+TEST(StaticCurve, is_judged_where_models_are_compared) {
+  const Scene scene = press_with("");
+  expect_told("compare", output_of(compare(scene, models_to_compare(scene), quick())));
+}
+
+TEST(StaticCurve, is_judged_in_the_full_model_of_effects_and_advice) {
+  const Scene scene = press_with("");
+  expect_told("effects", output_of(study_effects(scene, quick())));
+  AdviseOptions options;
+  options.simulate = quick();
+  options.within = 0.05;
+  options.held_out = false;
+  expect_told("advise", output_of(advise(scene, options)));
+}
+
+TEST(StaticCurve, is_judged_on_the_fullest_level_of_accuracy) {
+  AccuracyOptions options;
+  options.time = 2;
+  options.tolerances = {1e-5};
+  options.multibody = false;
+  Scene scene = press_with("");
+  scene.run.until = 1;
+  expect_told("accuracy", output_of(measure_accuracy(scene, options)));
 }
 
 // What docs/how_it_works.md says of the motor's models.

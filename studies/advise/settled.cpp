@@ -1,0 +1,71 @@
+// settled.cpp — the regime's round, and what of it is compared.
+#include "studies/advise/settled.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "studies/steady/cycle_search.h"
+
+namespace kurbel {
+namespace {
+
+bool is_compared(const Figure& figure) {
+  using enum QuantityKind;
+  static const std::set<QuantityKind> compared = {delta,
+                                                  mean_speed,
+                                                  mid_speed,
+                                                  cycle_max_speed,
+                                                  cycle_min_speed,
+                                                  cycle_peak_torque,
+                                                  cycle_rms_torque,
+                                                  peak_drive_torque,
+                                                  mean_drive_torque,
+                                                  rms_drive_torque};
+  return figure.scale > 0 && compared.count(figure.what) > 0;
+}
+
+bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {
+  const std::string in_cycle = "cycle_";
+  const std::string plain = figure.name.starts_with(in_cycle) ? figure.name.substr(in_cycle.size()) : figure.name;
+  return figures.empty() || std::any_of(figures.begin(), figures.end(),
+                                        [&](const std::string& f) { return plain == f || plain.starts_with(f + "."); });
+}
+
+}  // namespace
+
+Settled settled(const Scene& scene, const Effects& effects, const Watch& watch) {
+  Settled found;
+  SteadyOptions options;
+  options.start_search = false;
+  options.watch.interrupted = watch.interrupted;
+  try {
+    SteadyCycle cycle = search_cycle(scene, effects, SteadyStudy{}, options);
+    found.result.figures = std::move(cycle.figures);
+    found.result.tolerance = 1e-10;  // of the looser search
+    if (!cycle.found) found.why = cycle.why;
+  } catch (const std::invalid_argument& none) {
+    found.why = none.what();
+  }
+  return found;
+}
+
+Deviation settled_deviation(const Settled& full, const Settled& lean, const std::vector<std::string>& figures,
+                            double tolerance) {
+  std::vector<std::string> names;
+  for (const Figure& f : full.result.figures)
+    if (is_compared(f) && is_asked(f, figures)) names.push_back(f.name);
+  if (names.empty()) return {};
+  return deviation_of(changes_between(full.result, lean.result, names), tolerance);
+}
+
+Deviation worse_of(const Deviation& a, const Deviation& b) {
+  Deviation worse = b.of > a.of ? b : a;
+  worse.error = std::max(a.of + a.error, b.of + b.error) - worse.of;
+  worse.within = a.within && b.within;
+  worse.not_judged = a.not_judged;
+  worse.not_judged.insert(worse.not_judged.end(), b.not_judged.begin(), b.not_judged.end());
+  return worse;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,132 @@
+// static_curve.cpp — the fastest swings of a motor's speed, and what its curve makes of them.
+#include "studies/validity/static_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivetrain/induction/induction_law.h"
+#include "engine/run/run.h"
+#include "studies/findings/trace.h"
+
+namespace kurbel {
+namespace {
+
+// A motor on its static curve, and its supply.
+struct StaticMotor {
+  std::string name;
+  double rated_torque = 0, breakdown_slip = 0, mains = 0;  // [N·m], [1], [Hz]
+  bool has_circuit = false;                                // data of the two-axis model
+};
+
+// Of a frequency converter the supply is no mains.
+std::vector<StaticMotor> static_motors(const Model& model) {
+  std::vector<StaticMotor> list;
+  for (const Section& s : model.scene.components) {
+    const auto motor = induction_data(s);
+    if (!motor || motor->by_converter || (motor->has_circuit && model.effects.transients)) continue;
+    list.push_back({s.name, motor->rated_torque, motor->breakdown_slip, motor->mains, motor->has_circuit});
+  }
+  return list;
+}
+
+// Between two turning points of its speed and back.
+struct DriveSwing {
+  double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
+  double followed = 1;                       // part of a torque's swing that the fluxes let through
+  double missed() const { return torque * (1 - followed); }
+};
+
+double part_followed(double swing, const StaticMotor& motor) {
+  return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
+}
+
+// The swing of which the curve gives most that a real motor would not, above the least share of the mains' frequency.
+DriveSwing worst_swing(const MotorMotion& m, const StaticMotor& motor, double least_share) {
+  DriveSwing worst;
+  const auto change = [&](std::size_t k) { return m.speed[k + 1] - m.speed[k]; };
+  std::vector<std::size_t> turns;
+  for (std::size_t k = 1; k + 1 < m.time.size(); ++k) {
+    if (!(change(k - 1) * change(k) < 0)) continue;
+    turns.push_back(k);
+    if (turns.size() < 3) continue;
+    const std::size_t begin = turns[turns.size() - 3];
+    DriveSwing swing{.frequency = 1 / (m.time[k] - m.time[begin]), .at = m.time[begin]};
+    const auto [least, most] = std::minmax_element(m.torque.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                   m.torque.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    swing.torque = *most - *least;
+    swing.followed = part_followed(swing.frequency, motor);
+    if (swing.frequency >= least_share * motor.mains && swing.missed() > worst.missed()) worst = swing;
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<std::string> static_curve_notes(const Model& model,
+                                            const std::function<MotorMotion(const std::string&)>& motion_of) {
+  constexpr double least_share = 0.03, least_torque = 0.05;  // of the mains' frequency, of the rated torque
+  std::vector<std::string> notes;
+  for (const StaticMotor& motor : static_motors(model)) {
+    const DriveSwing swing = worst_swing(motion_of(motor.name), motor, least_share);
+    if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
+    notes.push_back(fmt::format(
+        "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
+        "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
+        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}",
+        motor.name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
+        motor.breakdown_slip, 100 * swing.followed,
+        motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
+                          : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "
+                                        "resistance_ratio > 0 (cage motors: about 1) instead of starting_ratio or a "
+                                        "starter, and the effect transients",
+                                        motor.mains)));
+  }
+  return notes;
+}
+
+std::vector<std::string> static_curve_notes(const Model& model, const TrajectoryRecorder& trajectory) {
+  return static_curve_notes(model, [&](const std::string& motor) {
+    const auto column = [&](const std::string& name) {
+      const auto& channels = trajectory.channels();
+      return static_cast<std::size_t>(
+          std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name.text == name; }) -
+          channels.begin());
+    };
+    const std::size_t speed = column("speed." + motor), torque = column("torque." + motor);
+    MotorMotion motion;
+    if (std::max(speed, torque) >= trajectory.channels().size()) return motion;
+    motion.time = trajectory.time();
+    for (std::size_t row = 0; row < motion.time.size(); ++row) {
+      motion.speed.push_back(trajectory.value(row, speed));
+      motion.torque.push_back(trajectory.value(row, torque));
+    }
+    return motion;
+  });
+}
+
+std::vector<std::string> static_curve_notes(const ReturnMap& map, const SteadyPoint& point) {
+  if (static_motors(map.model()).empty()) return {};
+  constexpr double rounds = 2.05;  // a swing a round turns three times within them
+  Equations equations(map.shared_model(), true);
+  TraceRecorder recorder(map.model());
+  const std::vector<double> y = map.place(equations, point.z);
+  RunOptions run{.tolerance = 1e-9,
+                 .method = "auto",
+                 .until = map.start_time() + rounds * point.time * (map.periodicity().by_time ? 1 : 1.5),
+                 .budget = 60,
+                 .interrupted = nullptr,
+                 .progress = {}};
+  run.from = {map.start_time(), y};
+  run.stop = map.round_end(equations, y, rounds);
+  integrate(equations, run, {&recorder});
+  const auto traces = recorder.traces();
+  return static_curve_notes(map.model(), [&](const std::string& motor) {
+    const Trace *speed = traces->find("speed." + motor), *torque = traces->find("torque." + motor);
+    if (!speed || !torque || speed->y.size() != torque->y.size()) return MotorMotion{};
+    return MotorMotion{speed->x, speed->y, torque->y};
+  });
+}
+
+}  // namespace kurbel
