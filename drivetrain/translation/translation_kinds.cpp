@@ -100,7 +100,8 @@ const Fields<ScrewKeys>& screw_fields() {
           .add({.name = "collar_diameter",
                 .unit = "m",
                 .domain = positive,
-                .doc = "mean diameter of the collar that bears the thrust, with collar_friction"},
+                .doc = "mean diameter of the collar that bears the thrust, with collar_friction",
+                .effect = "gear_losses"},
                &Keys::collar)
           .add({.name = "collar_friction",
                 .domain = {.low = 0, .high = 10},

@@ -16,7 +16,6 @@ namespace {
 
 using test::figure;
 using test::run;
-using test::series;
 using Real = long double;
 using State = std::array<Real, 2>;  // φ, ω
 
@@ -104,9 +103,7 @@ TEST(SliderDriver, CylinderDrivesTheCrankAsItsOwnEquationsSay) {
     const Real p1 = away ? 5 - 3 * part : 1.5L - 0.3L * part, p2 = away ? 1.1L + 0.2L * part : 2 + 2.5L * part;
     return -(p1 - 1) * bar * area + (p2 - 1) * bar * behind;
   };
-  expect_agreement(machine, R"({ kind = "cylinder", bore = "200 mm", rod_diameter = "50 mm", outside_pressure = "1 bar",
-  pressure = { over = "travel", unit = ["mm", "bar"], points = [[0, 1.5], [300, 1.2]], return_points = [[0, 5], [300, 2]] },
-  pressure_behind = { over = "travel", unit = ["mm", "bar"], points = [[0, 2], [300, 4.5]], return_points = [[0, 1.1], [300, 1.3]] } })",
+  expect_agreement(machine, R"({ kind = "cylinder", bore = "200 mm", rod_diameter = "50 mm", outside_pressure = "1 bar", pressure = { over = "travel", unit = ["mm", "bar"], points = [[0, 1.5], [300, 1.2]], return_points = [[0, 5], [300, 2]] }, pressure_behind = { over = "travel", unit = ["mm", "bar"], points = [[0, 2], [300, 4.5]], return_points = [[0, 1.1], [300, 1.3]] } })",
                    0.6, 4);
 }
 
@@ -115,8 +112,7 @@ TEST(SliderDriver, CylinderOverTheAngleLeavesTheOtherFaceToTheAir) {
   Machine machine;
   const Real area = std::numbers::pi_v<Real> / 4 * 0.16L * 0.16L;
   machine.force = [=](Real, Real, int travel) { return -(travel < 0 ? 4e5L : 1.2e5L) * area + 1e5L * area; };
-  expect_agreement(machine, R"({ kind = "cylinder", bore = "160 mm", outside_pressure = "1 bar",
-  pressure = { over = "angle", unit = ["deg", "bar"], points = [[0, 4], [180, 4], [180, 1.2], [360, 1.2], [360, 4]] } })",
+  expect_agreement(machine, R"({ kind = "cylinder", bore = "160 mm", outside_pressure = "1 bar", pressure = { over = "angle", unit = ["deg", "bar"], points = [[0, 4], [180, 4], [180, 1.2], [360, 1.2], [360, 4]] } })",
                    0.6, 4);
 }
 

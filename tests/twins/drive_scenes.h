@@ -550,7 +550,6 @@ samples = 31
        .far_text = R"(
 [spindle]
 kind                 = "screw"
-on                   = "hub"
 lead                 = <^-1 m 0.11>
 mean_diameter        = <^-1 m 0.09>
 thread_angle         = "28 deg"
@@ -569,7 +568,6 @@ quadratic            = "3 N*s2/m2"
 work                 = "harmful"
 [lift]
 kind                 = "wedge"
-on                   = "hub"
 wedge_angle          = "25 deg"
 radius               = <^-1 m 0.08>
 friction_coefficient = 0.04
@@ -584,7 +582,6 @@ acts                 = "always"
 damping              = "11 N*s/m"
 [car]
 kind           = "slide"
-on             = "hub"
 radius         = <^-1 m 0.12>
 inertia        = <J 0.1>
 mass           = "25 kg"
