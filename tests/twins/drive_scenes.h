@@ -587,7 +587,7 @@ inertia        = <J 0.1>
 mass           = "25 kg"
 inclination    = <^0+ rad -0.3>
 guide_friction = 0.05
-start_travel   = "0.2 m"
+start_travel   = <^0+ m 0.2>
 [hub]
 kind    = "load"
 damping = <c 5>
@@ -601,7 +601,8 @@ start = { speed = <w+ 14> }
 until = "0.4 s"
 accuracy = 1e-8
 samples = 31
-)"},
+)",
+       .travels = {"spindle", "lift", "car"}},
       {.name = "worm gear driven from either side",
        .near = {"drive"},
        .far = {"worm", "hub"},
