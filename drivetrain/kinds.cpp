@@ -7,6 +7,7 @@
 #include "drivetrain/induction/kinds.h"
 #include "drivetrain/loads/kinds.h"
 #include "drivetrain/motors/kinds.h"
+#include "drivetrain/translation/kinds.h"
 
 namespace kurbel {
 
@@ -15,7 +16,7 @@ std::vector<Kind> drivetrain_kinds() {
   for (std::vector<Kind> (*family)() :
        {inertia_kinds, coupling_kinds, flexible_kinds, clutch_kinds, belt_kinds, fluid_kinds, gearbox_kinds,
         gear_mesh_kinds, planetary_kinds, induction_kinds, dc_kinds, engine_kinds, fluid_motor_kinds, motor_kinds,
-        governor_kinds, source_kinds, load_kinds, bearing_kinds})
+        governor_kinds, source_kinds, load_kinds, bearing_kinds, translation_kinds})
     for (Kind& kind : family()) all.push_back(std::move(kind));
   return all;
 }

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "drivetrain/shared/inclined_plane.h"
+
 namespace kurbel {
 
 // Straight bevel pair. Pitch cones: tan δ₁ = sin Σ/(u + cos Σ), δ₂ = Σ − δ₁; on the outer end d = m z.
@@ -41,15 +43,13 @@ struct WormPair {
   double lead_angle() const { return std::atan(starts * module / worm_diameter); }
   double centre_distance() const { return 0.5 * (worm_diameter + module * teeth); }
   // ρ′ = atan(μ/cos α_n).
-  double friction_angle() const { return std::atan(friction / std::cos(pressure_angle)); }
+  double friction_angle() const { return friction_angle_of_flanks(friction, pressure_angle); }
+  InclinedPlane thread() const { return {lead_angle(), friction_angle()}; }
   // Worm drives: η = tan γ/tan(γ + ρ′).
-  double efficiency() const {
-    const double sum = lead_angle() + friction_angle();
-    return sum < std::numbers::pi / 2 ? std::tan(lead_angle()) / std::tan(sum) : 0;
-  }
+  double efficiency() const { return thread().efficiency(); }
   // Wheel drives: η = tan(γ − ρ′)/tan γ; negative: it locks itself, and this much must be helped.
-  double efficiency_back() const { return std::tan(lead_angle() - friction_angle()) / std::tan(lead_angle()); }
-  bool self_locking() const { return lead_angle() <= friction_angle(); }
+  double efficiency_back() const { return thread().efficiency_back(); }
+  bool self_locking() const { return thread().self_locking(); }
   // v_g = ω₁ d₁/(2 cos γ).
   double sliding_speed(double omega_worm) const { return omega_worm * worm_diameter / (2 * std::cos(lead_angle())); }
 };

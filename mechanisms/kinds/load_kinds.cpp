@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace kurbel {
@@ -15,6 +16,8 @@ using Opposing = LoadKeys<OpposingForce>;
 using Medium = LoadKeys<MediumResistance>;
 using Table = LoadKeys<TableKeys>;
 using Compressor = LoadKeys<CompressorKeys>;
+using Cylinder = LoadKeys<CylinderKeys>;
+using LinearMotor = LoadKeys<LinearMotorForce>;
 
 WorkingEnd working_end(bool from_greatest, const Mechanism& mechanism) {
   return {from_greatest ? mechanism.travel.greatest : mechanism.travel.least, from_greatest ? 1 : -1};
@@ -118,6 +121,43 @@ bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoa
                   1 / (std::pow(law.delivery / law.suction, 1 / law.expansion_exponent) - 1));
   load.law = law;
   return true;
+}
+
+// One chamber: its pressure on an area, which is negative behind the piston.
+bool put_chamber(const Reading<Cylinder>& s, const CurveData& given, double area, const Mechanism& mechanism,
+                 SliderLoad& load, const std::function<bool(const std::string&)>& refuse) {
+  const WorkingEnd end = working_end(s.from_greatest, mechanism);
+  CurveData data = given;
+  if (data.over != "angle") {
+    if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
+    ChamberOverTravel law{{end, data.curve(), {}, mechanism.stroke()}, area, s.outside};
+    if (!data.x_back.empty()) law.retreat = data.back();
+    load.law = std::move(law);
+    return true;
+  }
+  if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
+  if (data.period == 0) data.period = 2 * std::numbers::pi;
+  try {
+    load.law = ChamberOverAngle{{end, data.curve()}, area, s.outside};
+  } catch (const std::invalid_argument& error) {
+    return refuse(error.what());
+  }
+  return true;
+}
+
+bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load) {
+  if (s.rod >= s.bore)
+    return s.refuse(&Cylinder::rod, fmt::format("rod_diameter = {}; must be < bore = {}", in_mm(s.rod), in_mm(s.bore)));
+  const auto area = [](double diameter) { return 0.25 * std::numbers::pi * diameter * diameter; };
+  if (s.behind) {
+    SliderLoad behind = load;
+    behind.name += ".behind";
+    const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::behind, text); };
+    if (!put_chamber(s, *s.behind, area(s.rod) - area(s.bore), mechanism, behind, refuse)) return false;
+    mechanism.loads.push_back(std::move(behind));
+  }
+  const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
+  return put_chamber(s, s.pressure, area(s.bore), mechanism, load, refuse);
 }
 
 template <class Law>
@@ -265,6 +305,61 @@ Fields<Compressor> compressor() {
       .add(work_key(), &Compressor::account, accounts());
 }
 
+Words<Account> driving_accounts() {
+  return {{"driving", Account::driving}, {"useful", Account::useful}, {"harmful", Account::harmful}};
+}
+Key driving_work_key() { return {.name = "work", .fallback = "\"driving\"", .doc = "line of the energy balance"}; }
+
+Fields<Cylinder> cylinder() {
+  return Fields<Cylinder>()
+      .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
+           &Cylinder::bore)
+      .add({.name = "rod_diameter",
+            .unit = "m",
+            .fallback = "\"0 m\"",
+            .domain = not_negative,
+            .doc = "of the piston rod, on the side away from the working end"},
+           &Cylinder::rod)
+      .add({.name = "pressure",
+            .unit = "Pa",
+            .doc =
+                "absolute, in the chamber at the working end, which pushes the slider away from it; over the distance "
+                "to that end (return_points: while the slider moves away) or over the crank angle",
+            .required = true,
+            .choices = {"travel", "angle"}},
+           &Cylinder::pressure)
+      .add({.name = "pressure_behind",
+            .unit = "Pa",
+            .doc = "the same in the other chamber, over the same distance or angle; without: outside_pressure",
+            .choices = {"travel", "angle"}},
+           &Cylinder::behind)
+      .add({.name = "outside_pressure",
+            .unit = "Pa",
+            .fallback = "\"101325 Pa\"",
+            .domain = not_negative,
+            .doc = "absolute, on the rod and on the piston's other face where there is no second chamber"},
+           &Cylinder::outside)
+      .add(working_end_key(), &Cylinder::from_greatest, stroke_ends())
+      .add(driving_work_key(), &Cylinder::account, driving_accounts());
+}
+
+Fields<LinearMotor> linear_motor() {
+  return Fields<LinearMotor>()
+      .add({.name = "stall_force", .unit = "N", .domain = positive, .doc = "F₀ at standstill", .required = true},
+           &LinearMotor::force)
+      .add({.name = "no_load_velocity",
+            .unit = "m/s",
+            .domain = positive,
+            .doc = "v₀ in F = F₀ (σ − v/v₀)",
+            .required = true},
+           &LinearMotor::velocity)
+      .add({.name = "pushes",
+            .fallback = "\"with motion\"",
+            .doc = "σ: with the motion, nothing at standstill; or always towards one end"},
+           &LinearMotor::sense, {{"with motion", 0}, {"extended", 1}, {"folded", -1}})
+      .add(driving_work_key(), &LinearMotor::account, driving_accounts());
+}
+
 // --- on outputs that rock ---
 
 Fields<Table> rocker_table() {
@@ -308,7 +403,13 @@ const Tables<LoadReading>& slider_loads() {
           .add("compressor",
                "gas force of a compressor: compression, delivery, re-expansion of the clearance volume, suction; the "
                "valves open at located events",
-               compressor());
+               compressor())
+          .add(
+              "cylinder",
+              "a cylinder that drives the slider: pressures in one chamber or both, by table or formula over travel or "
+              "crank angle",
+              cylinder())
+          .add("linear motor", "a linear motor that drives the slider, by its force-speed line", linear_motor());
   return made;
 }
 

@@ -32,9 +32,19 @@ struct CompressorKeys : CompressorForce {
   double bore = 0;  // [m]
 };
 
+// A cylinder on the slider: pressures in one chamber or both.
+struct CylinderKeys {
+  bool from_greatest = true;
+  double bore = 0, rod = 0;         // [m]
+  CurveData pressure;               // of the chamber at the working end [Pa]
+  std::optional<CurveData> behind;  // of the other chamber [Pa]
+  double outside = 0;               // [Pa]
+};
+
 using LoadReading =
     std::variant<Reading<LoadKeys<PressKeys>>, Reading<LoadKeys<ConstantForce>>, Reading<LoadKeys<OpposingForce>>,
-                 Reading<LoadKeys<MediumResistance>>, Reading<LoadKeys<TableKeys>>, Reading<LoadKeys<CompressorKeys>>>;
+                 Reading<LoadKeys<MediumResistance>>, Reading<LoadKeys<TableKeys>>, Reading<LoadKeys<CompressorKeys>>,
+                 Reading<LoadKeys<CylinderKeys>>, Reading<LoadKeys<LinearMotorForce>>>;
 
 const Tables<LoadReading>& slider_loads();  // on outputs that slide
 const Tables<LoadReading>& rocker_loads();  // on outputs that rock

@@ -19,46 +19,11 @@
 #include "engine/numerics/dual.h"
 #include "mechanisms/loads/compressor_force.h"
 #include "mechanisms/loads/load_traits.h"
+#include "mechanisms/loads/plain_forces.h"
 #include "mechanisms/loads/rounded_profile.h"
 #include "mechanisms/loads/slider_state.h"
 
 namespace kurbel {
-
-// F = F₀
-struct ConstantForce {
-  static constexpr LoadTraits is{};
-  double force = 0;  // [N]
-  template <class T>
-  T value(const SliderState<T>&) const {
-    return T(force);
-  }
-  bool uses_speed() const { return false; }
-};
-
-// F = −F₀ sgn v; holds the slider at standstill with up to F₀.
-struct OpposingForce {
-  static constexpr LoadTraits is{.opposes = true, .holds = true};
-  double force = 0;  // [N], ≥ 0
-  template <class T>
-  T value(const SliderState<T>& s) const {
-    return T(-force * s.travel);
-  }
-  bool uses_speed() const { return false; }
-  Hold hold(const SliderState<double>&) const { return {-force, force}; }
-};
-
-// F = −(c v + q v |v|): resistance of the medium.
-struct MediumResistance {
-  static constexpr LoadTraits is{};
-  double viscous = 0;    // c [N·s/m], ≥ 0
-  double quadratic = 0;  // q [N·s²/m²], ≥ 0
-  template <class T>
-  T value(const SliderState<T>& s) const {
-    using std::abs;
-    return -(viscous + quadratic * abs(s.v)) * s.v;
-  }
-  bool uses_speed() const { return viscous != 0 || quadratic != 0; }
-};
 
 // Straight pieces with jumps between them; numbered as a Curve's.
 struct Profile {
@@ -219,6 +184,33 @@ struct AngleForce {
   std::string mode_name(const SliderState<double>&) const { return {}; }
 };
 
+// One chamber of a cylinder by its pressure over travel: F = ∓A (p − p_out), away from the working end for A > 0. The
+// chamber on the other side of the piston has A < 0; both count from one end.
+struct ChamberOverTravel : TravelForce {
+  double area = 0, outside = 0;  // A [m²], p_out [Pa]
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return area * (TravelForce::value(s) + static_cast<double>(end.side) * outside);
+  }
+  Hold hold(const SliderState<double>& s) const {
+    if (retreat.empty()) return {};
+    const double d = end.distance(s.x), more = area * (approach.value(d) - retreat.value(d));
+    if (more <= 0) return {};
+    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+  }
+};
+
+// The same over the crank angle.
+struct ChamberOverAngle : AngleForce {
+  double area = 0, outside = 0;  // A [m²], p_out [Pa]
+
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return area * (AngleForce::value(s) + static_cast<double>(end.side) * outside);
+  }
+};
+
 // PressForce with its edges rounded: the effect load_edges is off.
 struct RoundedPressForce {
   static constexpr LoadTraits is{.opposes = true, .holds = true};
@@ -260,7 +252,7 @@ struct RoundedTableForce {
 
 struct SliderLoad {
   LoadLaws<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
-           RoundedPressForce, RoundedTableForce>::Any law;
+           RoundedPressForce, RoundedTableForce, ChamberOverTravel, ChamberOverAngle, LinearMotorForce>::Any law;
   std::string name;  // "press.load"
   Account account = Account::useful;
   double rounding = 0;  // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
@@ -272,8 +264,7 @@ struct SliderLoad {
     return std::visit(
         [](const auto& l) {
           using L = std::decay_t<decltype(l)>;
-          if constexpr (std::is_same_v<L, TravelForce> || std::is_same_v<L, RoundedTableForce>)
-            return !l.retreat.empty();
+          if constexpr (requires { l.retreat; }) return !l.retreat.empty();
           if constexpr (std::is_same_v<L, CompressorForce>) return true;
           return L::is.opposes;
         },
@@ -287,6 +278,7 @@ struct SliderLoad {
   }
   double period() const {
     if (const auto* over_angle = std::get_if<AngleForce>(&law)) return over_angle->curve.period();
+    if (const auto* chamber = std::get_if<ChamberOverAngle>(&law)) return chamber->curve.period();
     const auto* rounded_table = std::get_if<RoundedTableForce>(&law);
     return rounded_table ? rounded_table->period : 0;
   }
@@ -408,6 +400,14 @@ inline double SliderLoad::greatest_force() const {
     double operator()(const RoundedTableForce& l) const {
       return std::max(l.approach.greatest(), l.retreat.greatest());
     }
+    static double of_chamber(double area, double outside, double pressure) {
+      return std::abs(area) * std::max(pressure, outside);
+    }
+    double operator()(const ChamberOverTravel& l) const {
+      return of_chamber(l.area, l.outside, std::max(l.approach.max_abs(), l.retreat.max_abs()));
+    }
+    double operator()(const ChamberOverAngle& l) const { return of_chamber(l.area, l.outside, l.curve.max_abs()); }
+    double operator()(const LinearMotorForce& l) const { return l.force; }
   };
   return std::visit(Greatest{}, law);
 }

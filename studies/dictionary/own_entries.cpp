@@ -58,6 +58,8 @@ std::vector<Definition> entries_of_own() {
                "mean deflection of the contact in the LuGre model of friction", "8"),
       coupling("creep*", "creep of rubber", "rad", "COUPLING",
                "twist of a dashpot in one of its spring-and-dashpot branches", "5"),
+      coupling("travelled", "way of a slide since the start", "m", "SCREW, WEDGE or SLIDE",
+               "how far a slide whose force hangs on its travel has moved", "7"),
       mechanism("bending_*_rate", "rate of bending of the rod", "m/s", "how fast that mode's amplitude changes"),
       mechanism("bending_*", "bending of the rod in a mode", "m", "amplitude of the rod's bending mode of that number",
                 "the deflection at a place, which is the sum over the modes: rod_deflection"),

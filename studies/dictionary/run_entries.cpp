@@ -71,7 +71,9 @@ std::vector<KindEntry> channels_of_mechanisms() {
        {.words = "position of what a mechanism moves",
         .unit = "m",
         .of = "MECHANISM",
-        .is = "of its slider along its line; of what rocks its angle [rad]",
+        .is = "of its slider along its line, of a screw's nut, a wedge's or a pinion's slide its travel; of what rocks "
+              "its "
+              "angle [rad]",
         .theory = "9",
         .verbs = of_files}},
       {velocity,

@@ -159,6 +159,7 @@ class Reducer {
       r_.to = to;
       r_.to_output = true;
       r_.to_rocker = slider_->rocks();
+      r_.turns_back = least_ratio() < 0.15 * largest_ratio();
       return;
     }
     target_node_ = node_named(model(), to);
@@ -212,6 +213,13 @@ class Reducer {
       for (int k = 0; k < 64; ++k)
         largest_ratio_ = std::max(largest_ratio_, std::abs((*slider_)(turn * (k + 0.3) / 64).first));
     return largest_ratio_;
+  }
+
+  // In the sense of the greatest: < 0 where it turns back.
+  double least_ratio() {
+    double least = HUGE_VAL, sense = (*slider_)(0.3 * turn / 64).first < 0 ? -1 : 1;
+    for (int k = 0; k < 64; ++k) least = std::min(least, sense * (*slider_)(turn * (k + 0.3) / 64).first);
+    return least;
   }
 
   // Both sides of every edge are points of the curve.

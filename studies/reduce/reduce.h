@@ -77,6 +77,7 @@ struct Chain {
 struct MachineReduction {
   std::string title, scene_file;
   std::string link, to;    // the reduction link, and what all is reduced to
+  bool turns_back = true;  // it does: dead centres
   bool to_output = false;  // the mechanism's slider or rocker, whose ratio varies
   bool to_rocker = false;
   double to_ratio = 1;  // speed of the chosen shaft over the link's

@@ -24,8 +24,9 @@ std::string conclusion_of(const MachineReduction& r) {
     if (!least || p.inertia < least->inertia) least = &p;
   }
   if (r.to_output)
-    return fmt::format("{}: reduced to {} the machine has {:.5g} {} or more, infinite in the dead centres", r.title,
-                       r.to, least ? least->inertia : 0.0, pretty_unit(names_of(r).inertia_unit));
+    return fmt::format("{}: reduced to {} the machine has {:.5g} {}{}", r.title, r.to, least ? least->inertia : 0.0,
+                       pretty_unit(names_of(r).inertia_unit),
+                       r.turns_back ? " or more, infinite in the dead centres" : "");
   if (r.basis == ReduceBasis::regime)
     return fmt::format("{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.title, r.to,
                        least ? least->inertia : 0.0, most ? most->inertia : 0.0);

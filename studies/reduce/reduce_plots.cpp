@@ -103,7 +103,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
                     at_positions(r, Role::vermillion, mechanism)};
   if (!r.to_output)
     inertia.note = fmt::format("The drive adds a constant {:.6g} kg·m².", r.constant_inertia);
-  else
+  else if (r.turns_back)
     inertia.note = "Near the dead centres it grows beyond all bounds and is left out.";
   Plot slope{
       .title = fmt::format("Its derivative {}_r′", n.inertia),

@@ -45,6 +45,9 @@ KURBEL_SCENE(elevator, "inclined_conveyor.toml")
 KURBEL_SCENE(axle, "drive_axle.toml")
 KURBEL_SCENE(gears, "gear_test_rig.toml")
 KURBEL_SCENE(rig, "back_to_back_rig.toml")
+KURBEL_SCENE(screw, "screw_press.toml")
+KURBEL_SCENE(jack, "screw_jack.toml")
+KURBEL_SCENE(steam, "steam_engine.toml")
 
 namespace kurbel {
 
@@ -77,6 +80,9 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"axle", "driven axle: cardan shaft at an angle, differential", axle()},
       {"gears", "spur gears with varying tooth stiffness, run up through resonance", gears()},
       {"rig", "back-to-back gear rig: a closed loop of shafts with locked-in torque", rig()},
+      {"screw", "screw press: flywheel on the spindle, a blow that spends its energy", screw()},
+      {"jack", "screw jack whose thread locks itself", jack()},
+      {"steam", "double-acting steam engine: a cylinder drives the slider, no motor turns", steam()},
   };
   return templates;
 }

@@ -154,11 +154,36 @@ HardCase with_joint_friction(double part) {
   return c;
 }
 
+// No motor: a cylinder pushes the slider away from the end that it rests beside.
+//     ½ (I + m x′²) ω² = p A (x(φ₀) − x(φ))
+HardCase cylinder_pushes_off(double off) {
+  const Crank crank;
+  const double force = 1200, area = 0.25 * pi * 0.05 * 0.05;
+  const std::string scene = fmt::format(
+      "line = [\"crank\"]\ncrank = {{ {}, load = {{ kind = \"cylinder\", bore = \"50 mm\", outside_pressure = \"0 "
+      "Pa\", "
+      "pressure = {{ over = \"travel\", unit = [\"mm\", \"Pa\"], points = [[0, {:.17g}], [200, {:.17g}]] }} }} "
+      "}}\nrun = {{ start = {{ angle = {} }}, until = \"{} s\" }}\n",
+      crank.keys(), force / area, force / area, quantity(off, "rad"), off < 1e-4 ? 1.3 : 0.5);
+  return {.family = family,
+          .name = fmt::format("ACylinderPushesOffBesideTheEnd{}", off < 1e-4 ? "Close" : ""),
+          .parameter = fmt::format("φ₀ = {:g} rad", off),
+          .scene = scene,
+          .truths = {residual("½ (I + m x′²) ω² = p A (x(φ₀) − x(φ)), over p A 2 r", [=](const Result& r) {
+            const double phi = r.find("final_angle.crank")->value, omega = r.find("final_speed.crank")->value;
+            if (std::abs(phi) < 0.5) return 1.0;  // it has left
+            const auto inertia = crank.reduced_inertia(phi);
+            const auto work = force * (crank.position(off) - crank.position(phi));
+            return static_cast<double>(std::abs(0.5L * inertia * omega * omega - work) / (force * 2 * crank.radius));
+          })}};
+}
+
 }  // namespace
 
 std::vector<HardCase> dead_centre_cases() {
   std::vector<HardCase> cases;
   for (const double off : {1e-2, 1e-5, 1e-9}) cases.push_back(beside_folded(off));
+  for (const double off : {1e-2, 1e-6}) cases.push_back(cylinder_pushes_off(off));
   cases.push_back(on_dead_centre("Extended", 0));
   cases.push_back(on_dead_centre("Folded", pi));
   for (const double part : {0.3, 0.01}) {

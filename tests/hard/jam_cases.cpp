@@ -113,6 +113,36 @@ HardCase stalls(const Motor& motor, bool elastic, bool friction) {
           .heavy = elastic || friction};
 }
 
+// A screw whose lead angle is above its friction angle by next to nothing: left alone, its load runs it down, ever so
+// slowly, and never sticks; below by as little it stays.
+//     (J + m k r t) α = m g r t,   t = tan(γ − ρ′), r = d₂/2
+HardCase runs_down_a_screw(double above) {
+  const double lead = 0.01, radius = 0.02, mass = 2000, inertia = 0.05, gravity = 9.80665, time = 1;
+  const double angle = std::atan(lead / (2 * pi * radius));
+  const double friction = std::tan(angle - above);
+  const double t = std::tan(angle - std::atan(friction)), k = lead / (2 * pi);
+  const double acceleration = above > 0 ? mass * gravity * radius * t / (inertia + mass * k * radius * t) : 0;
+  const std::string scene = fmt::format(
+      "line = [\"wheel\", \"screw\"]\nwheel = {{ kind = \"inertia\", inertia = {} }}\nscrew = {{ kind = \"screw\", "
+      "lead "
+      "= {}, mean_diameter = {}, thread_angle = \"0 deg\", friction_coefficient = {:.17g}, mass = {}, inclination = "
+      "\"-90 deg\" }}\nrun = {{ until = \"{} s\" }}\n",
+      quantity(inertia, "kg*m2"), quantity(lead, "m"), quantity(2 * radius, "m"), friction, quantity(mass, "kg"), time);
+  // t is a small difference of angles: what rounding of the friction changes it by.
+  return {.family = family,
+          .name = above > 0 ? "AScrewBarelyAboveItsFrictionAngleRunsDown" : "AScrewBarelyBelowItsFrictionAngleStays",
+          .parameter = fmt::format("γ − ρ′ = {:g} rad", above),
+          .scene = scene,
+          .truths = {closed_form(
+              "α = m g r tan(γ − ρ′)/(J + m k r tan(γ − ρ′))",
+              above > 0 ? std::vector<Known>{by_its_size("final_speed.wheel", acceleration * time),
+                                             by_its_size("final_angle.wheel", 0.5 * acceleration * time * time)}
+                        : std::vector<Known>{{"final_speed.wheel", 0, 1}, {"final_angle.wheel", 0, 1}})},
+          .energy = above > 0,
+          .condition = std::abs(friction / above),
+          .condition_words = "tan(γ − ρ′) by μ"};
+}
+
 }  // namespace
 
 std::vector<HardCase> jam_cases() {
@@ -122,6 +152,7 @@ std::vector<HardCase> jam_cases() {
   for (const Motor& motor : motors())
     for (const bool elastic : {false, true})
       for (const bool friction : {false, true}) cases.push_back(stalls(motor, elastic, friction));
+  for (const double above : {1e-6, -1e-6}) cases.push_back(runs_down_a_screw(above));
   return cases;
 }
 

@@ -154,6 +154,7 @@ struct TwinScene {
   std::string near_text, far_text;              // tables of all components, in the view of their group
   std::string end;                              // branches, effects, sequence, run
   std::map<std::string, int> output_sign = {};  // of mechanisms' outputs in the mirrored machine; default: 1
+  std::vector<std::string> travels = {};        // slides, whose travel counts the angle that their shaft starts with
   bool reversible = true;                       // the far group has a mirrored form
   std::size_t gears = 4;                        // behind the first of these: laws over the angle fit few ratios
 };
@@ -186,6 +187,8 @@ struct TwinMap {
   View other = {};                              // of those that are not named
   double turned = 0;                            // all angles are that much further [rad]
   std::map<std::string, int> output_sign = {};  // of mechanisms' outputs
+  std::vector<std::string> slides = {};         // whose travel follows the sense of their shaft
+  std::vector<std::string> travels = {};        // slides that were told to start further on
   View of(const std::string& component) const {
     const auto found = view.find(component);
     return found == view.end() ? other : found->second;
@@ -224,6 +227,7 @@ struct TwinMap {
     if (quantity.starts_with("bending_")) return other.sign;
     for (const char* of_output : {"position", "velocity", "acceleration", "force", "load_torque"})
       if (quantity == of_output) {
+        if (std::find(slides.begin(), slides.end(), component_in(name)) != slides.end()) return magnitude ? 1 : v.sign;
         const auto found = output_sign.find(component_in(name));
         return found == output_sign.end() ? 1 : found->second;
       }
@@ -239,6 +243,7 @@ inline TwinMap map_of(const TwinScene& s, const View& near, const View& far) {
   for (const auto* group : {&s.far, &s.far_besides})
     for (const std::string& name : *group) map.view[name] = far;
   if (near.sign < 0) map.output_sign = s.output_sign;
+  map.slides = s.travels;
   return map;
 }
 
@@ -289,6 +294,8 @@ inline void expect_same_channels(const Result& first, const Result& second, cons
     // An output that goes round stands where it stands, whatever whole turns it is told with.
     if (channel.unit == "rad" && channel.name.text.starts_with("position.") && !a.time().empty())
       offset += 2 * M_PI * std::round((b.value(0, m) - factor * a.value(0, k) - offset) / (2 * M_PI));
+    for (const std::string& slide : map.travels)
+      if (channel.name == "position." + slide) offset += b.value(0, m) - factor * a.value(0, k);
     double largest = 1e-4;
     for (std::size_t row = 0; row < a.time().size(); ++row) largest = std::max(largest, std::abs(b.value(row, m)));
     for (std::size_t row = 0; row < a.time().size(); ++row)

@@ -542,6 +542,67 @@ until = "0.6 s"
 accuracy = 1e-8
 samples = 31
 )"},
+      {.name = "screw, wedge and slide driven from either side",
+       .near = {"drive"},
+       .far = {"spindle", "lift", "car", "hub"},
+       .rest = {},
+       .near_text = drive + shaking,
+       .far_text = R"(
+[spindle]
+kind                 = "screw"
+lead                 = <^-1 m 0.11>
+mean_diameter        = <^-1 m 0.09>
+thread_angle         = "28 deg"
+friction_coefficient = 0.05
+collar_diameter      = <^-1 m 0.07>
+collar_friction      = 0.03
+bearing_torque       = <M 0.4>
+inertia              = <J 0.2>
+mass                 = "35 kg"
+inclination          = <^0+ rad 0.4>
+gravity              = "9.7 m/s2"
+guide_friction       = 0.04
+force                = "55 N"
+damping              = "21 N*s/m"
+quadratic            = "3 N*s2/m2"
+work                 = "harmful"
+[lift]
+kind                 = "wedge"
+wedge_angle          = "25 deg"
+radius               = <^-1 m 0.08>
+friction_coefficient = 0.04
+base_friction        = 0.03
+side_friction        = 0.06
+inertia              = <J 0.15>
+wedge_mass           = "6 kg"
+mass                 = "40 kg"
+inclination          = <^0+ rad 1.1>
+force                = <^0+ N 70>
+acts                 = "always"
+damping              = "11 N*s/m"
+[car]
+kind           = "slide"
+radius         = <^-1 m 0.12>
+inertia        = <J 0.1>
+mass           = "25 kg"
+inclination    = <^0+ rad -0.3>
+guide_friction = 0.05
+start_travel   = <^0+ m 0.2>
+[hub]
+kind    = "load"
+damping = <c 5>
+inertia = <J 8>
+)",
+       .end = R"(
+[effects]
+elasticity = true
+[run]
+start = { speed = <w+ 14> }
+until = "0.4 s"
+accuracy = 1e-8
+samples = 31
+)",
+       .travels = {"spindle", "lift", "car"}},
       {.name = "worm gear driven from either side",
        .near = {"drive"},
        .far = {"worm", "hub"},

@@ -40,6 +40,7 @@ TEST_P(Unchanged, StartedWholeTurnsOn) {
   }
   TwinMap map;
   map.turned = turns;
+  map.travels = s.travels;
   SCOPED_TRACE(s.name);
   expect_same_run(run(text, false), run(later, false), map, allowed);
 }

@@ -1,0 +1,262 @@
+// translation_kinds.cpp — screw and nut, wedge, and a slide that a pinion, drum or pulley moves.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "drivetrain/gears/gear_train_keys.h"
+#include "drivetrain/shared/inclined_plane.h"
+#include "drivetrain/shared/shared_keys.h"
+#include "drivetrain/translation/kinds.h"
+#include "drivetrain/translation/slide.h"
+#include "engine/model/network.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double degrees(double angle) { return angle * 180 / pi; }
+
+// A shaft that drives the slide over a pair that loses power. The slide's node turns with the shaft; what passes
+// between them is the torque that the shaft has to give, and the force on the slide times k.
+void build_driven_slide(const Section& s, const SlideKeys& slide, double inertia, double per_radian,
+                        const GearEfficiency* losses, Network& net) {
+  const int in = net.add_node(s.name, "in", inertia);
+  const int out = net.add_node(s.name, "out", 0);
+  net.ports[s.name] = {in, in};
+  join_gear(net, in, out, 1, s.name, losses);
+  put_slide(slide, s.name, out, per_radian, net);
+}
+
+// --- screw ---
+
+struct ScrewKeys {
+  double lead = 0;                                // P [m]
+  std::optional<double> diameter;                 // d₂ [m]
+  double thread_angle = 0;                        // between the flanks [rad]
+  std::optional<double> friction;                 // μ of the flanks
+  std::optional<double> collar, collar_friction;  // d_c [m], μ_c
+  EfficiencyKeys losses;
+  double inertia = 0;  // [kg·m²]
+  SlideKeys slide;
+
+  double lead_angle() const { return std::atan(lead / (pi * diameter.value_or(lead))); }
+  InclinedPlane thread() const {
+    const double base = collar ? collar_friction.value_or(0) * *collar / *diameter : 0;
+    return {lead_angle(), friction_angle_of_flanks(friction.value_or(0), thread_angle / 2), base};
+  }
+};
+
+void check_screw(const Reading<ScrewKeys>& g) {
+  using Keys = ScrewKeys;
+  g.drop_without(&Keys::collar_friction, &Keys::collar);
+  g.drop_without(&Keys::collar, &Keys::collar_friction);
+  g.drop_without(&Keys::friction, &Keys::collar_friction);
+  if (!g.friction) return;
+  for (const auto& key : g.given_keys(&Keys::losses))
+    if (key.starts_with("efficiency"))
+      g.refuse(key,
+               fmt::format("\"{}\" and friction_coefficient both given; keep one: friction gives the efficiency", key));
+  if (!g.diameter) {
+    g.refuse(&Keys::friction,
+             "\"friction_coefficient\" needs \"mean_diameter\": the lead angle is that of the thread "
+             "on it, tan γ = lead/(π d₂)");
+    return;
+  }
+  const InclinedPlane thread = g.thread();
+  if (thread.efficiency() <= 0)
+    g.refuse(&Keys::friction,
+             fmt::format("a lead angle of {:.4g} deg with a friction angle of {:.4g} deg lets the spindle drive "
+                         "nothing; they must add up to less than 90 deg",
+                         degrees(thread.angle), degrees(thread.friction_angle)));
+}
+
+const Fields<ScrewKeys>& screw_fields() {
+  using Keys = ScrewKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "lead",
+                .unit = "m",
+                .domain = positive,
+                .doc = "travel of the nut in a turn: pitch times starts",
+                .required = true},
+               &Keys::lead)
+          .add({.name = "mean_diameter", .unit = "m", .domain = positive, .doc = "d₂; tan γ = lead/(π d₂)"},
+               &Keys::diameter)
+          .add({.name = "thread_angle",
+                .unit = "rad",
+                .fallback = "\"30 deg\"",
+                .domain = {.low = 0, .high = 2, .high_open = true},
+                .doc = "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"},
+               &Keys::thread_angle)
+          .add({.name = "friction_coefficient",
+                .domain = {.low = 0, .high = 10},
+                .doc = "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
+                       "in place of efficiencies",
+                .effect = "gear_losses"},
+               &Keys::friction)
+          .add({.name = "collar_diameter",
+                .unit = "m",
+                .domain = positive,
+                .doc = "mean diameter of the collar that bears the thrust, with collar_friction",
+                .effect = "gear_losses"},
+               &Keys::collar)
+          .add({.name = "collar_friction",
+                .domain = {.low = 0, .high = 10},
+                .doc = "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)",
+                .effect = "gear_losses"},
+               &Keys::collar_friction)
+          .add(efficiency_fields(), &Keys::losses)
+          .add(inertia_key("\"0 kg*m2\"", "of the spindle"), &Keys::inertia)
+          .add(slide_fields(), &Keys::slide)
+          .check(check_screw);
+  return made;
+}
+
+void build_screw(const Section& s, Network& net, Messages& messages) {
+  const std::size_t before = messages.all().size();
+  const auto g = screw_fields().read(s, messages);
+  if (messages.all().size() > before) {
+    single_shaft(s, g.inertia, net);
+    return;
+  }
+  GearEfficiency losses = g.losses;
+  if (g.friction) {
+    losses.forwards = g.thread().efficiency();
+    losses.backwards = g.thread().efficiency_back();
+  }
+  const bool lossy = g.friction || !g.given_keys(&ScrewKeys::losses).empty();
+  build_driven_slide(s, g.slide, g.inertia, g.lead / (2 * pi), lossy ? &losses : nullptr, net);
+}
+
+// --- wedge ---
+
+struct WedgeKeys {
+  double angle = 0, radius = 0;                 // γ [rad], r [m]
+  std::optional<double> friction, base, guide;  // μ of slope, base, guide
+  double inertia = 0, wedge_mass = 0;           // [kg·m²], [kg]
+  SlideKeys slide;
+
+  InclinedPlane plane() const {
+    return {angle, std::atan(friction.value_or(0)), base.value_or(friction.value_or(0)), guide.value_or(0)};
+  }
+};
+
+void check_wedge(const Reading<WedgeKeys>& g) {
+  using Keys = WedgeKeys;
+  g.drop_without(&Keys::friction, &Keys::base, &Keys::guide);
+  const InclinedPlane plane = g.plane();
+  if (g.friction && plane.efficiency() <= 0)
+    g.refuse(
+        &Keys::friction,
+        fmt::format("a wedge of {:.4g} deg with a friction angle of {:.4g} deg{} lifts nothing, however hard it is "
+                    "pushed; make it flatter or smoother",
+                    degrees(plane.angle), degrees(plane.friction_angle), plane.guide > 0 ? " and that guide" : ""));
+}
+
+const Fields<WedgeKeys>& wedge_fields() {
+  using Keys = WedgeKeys;
+  static const auto made =
+      Fields<Keys>()
+          .add({.name = "wedge_angle",
+                .unit = "rad",
+                .domain = {.low = 0, .high = 1.57, .low_open = true, .high_open = true},
+                .doc = "γ: pushed by s, the wedge lifts the slide by s tan γ",
+                .required = true},
+               &Keys::angle)
+          .add({.name = "radius",
+                .unit = "m",
+                .domain = positive,
+                .doc = "of the pinion on the shaft that pushes the wedge by its rack; of a screw lead/(2 π)",
+                .required = true},
+               &Keys::radius)
+          .add({.name = "friction_coefficient",
+                .domain = {.low = 0, .high = 10},
+                .doc = "μ of the slope: the push is V (tan(γ ± ρ) ± μ_b), ρ = atan μ",
+                .effect = "gear_losses"},
+               &Keys::friction)
+          .add({.name = "base_friction",
+                .domain = {.low = 0, .high = 10},
+                .doc = "μ_b of the wedge on its base; default: friction_coefficient",
+                .effect = "gear_losses"},
+               &Keys::base)
+          .add({.name = "side_friction",
+                .domain = {.low = 0, .high = 10},
+                .doc = "μ_g of the slide in its guide, which the wedge pushes it against; default: none",
+                .effect = "gear_losses"},
+               &Keys::guide)
+          .add(inertia_key("\"0 kg*m2\"", "of the shaft with its pinion"), &Keys::inertia)
+          .add({.name = "wedge_mass",
+                .unit = "kg",
+                .fallback = "\"0 kg\"",
+                .domain = not_negative,
+                .doc = "of the wedge"},
+               &Keys::wedge_mass)
+          .add(slide_fields(), &Keys::slide)
+          .check(check_wedge);
+  return made;
+}
+
+void build_wedge(const Section& s, Network& net, Messages& messages) {
+  const std::size_t before = messages.all().size();
+  const auto g = wedge_fields().read(s, messages);
+  if (messages.all().size() > before) {
+    single_shaft(s, g.inertia, net);
+    return;
+  }
+  const InclinedPlane plane = g.plane();
+  const GearEfficiency losses{plane.efficiency(), plane.efficiency_back()};
+  build_driven_slide(s, g.slide, g.inertia + g.wedge_mass * g.radius * g.radius, g.radius * std::tan(g.angle),
+                     g.friction ? &losses : nullptr, net);
+}
+
+// --- slide on a pinion or drum ---
+
+struct RackKeys {
+  double radius = 0;   // r [m]
+  double inertia = 0;  // [kg·m²]
+  SlideKeys slide;
+};
+
+const Fields<RackKeys>& rack_fields() {
+  static const auto made = Fields<RackKeys>()
+                               .add({.name = "radius",
+                                     .unit = "m",
+                                     .domain = positive,
+                                     .doc = "of the pinion, chain wheel or drum: s = r φ",
+                                     .required = true},
+                                    &RackKeys::radius)
+                               .add(own_inertia_key(), &RackKeys::inertia)
+                               .add(slide_fields(), &RackKeys::slide);
+  return made;
+}
+
+void build_rack(const Section& s, Network& net, Messages& messages) {
+  const auto g = rack_fields().read(s, messages);
+  put_slide(g.slide, s.name, single_shaft(s, g.inertia, net), g.radius, net);
+}
+
+}  // namespace
+
+std::vector<Kind> translation_kinds() {
+  return {
+      {.name = "screw",
+       .doc = "spindle and nut (jack, spindle press, lead screw): turns into travel, with the friction of thread and "
+              "collar; mass and forces of what the nut moves",
+       .keys = screw_fields().keys(),
+       .build = build_screw},
+      {.name = "wedge",
+       .doc = "a wedge that a pinion pushes under a slide: friction on slope, base and guide; mass and forces of the "
+              "slide",
+       .keys = wedge_fields().keys(),
+       .build = build_wedge},
+      {.name = "slide",
+       .doc = "a body on a line, level or inclined, that a pinion, chain or drum moves",
+       .keys = rack_fields().keys(),
+       .build = build_rack},
+  };
+}
+
+}  // namespace kurbel
