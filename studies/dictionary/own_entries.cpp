@@ -50,6 +50,18 @@ std::vector<Definition> entries_of_own() {
             "a current that could be "
             "measured in the rotor",
             "4"),
+      coupling(
+          "engagement_heat", "heat of the hottest engagement", "J", "CLUTCH",
+          "heat that a clutch or brake takes from where it begins to slip to where it ends that; the most of the run",
+          "1.3"),
+      coupling("slip_time", "time of slipping", "s", "CLUTCH", "time of the run in which a clutch or brake makes heat",
+               "1.3"),
+      coupling("heat_power", "mean heat power", "W", "CLUTCH", "heat of a clutch or brake in the run over the time run",
+               "1.3"),
+      coupling("strand_force", "largest force in the tight strand", "N", "BELT",
+               "pretension and half of the largest torque over the driving pulley's radius, fixed centres", "5"),
+      coupling("rim_speed", "largest speed of the rim", "m/s", "FLYWHEEL",
+               "rim_radius times the shaft's angular velocity, where that is largest", "1.3"),
       coupling("integral", "integral part of a governor", "N*m", "GOVERNOR",
                "torque that the governor has summed up from past errors of the speed", "4"),
       coupling("slipped_angle", "angle slipped by a belt", "rad", "BELT",

@@ -1,0 +1,27 @@
+// rating_keys.h — what a component may bear, where that is no part of its motion: heat of what slips, speed of a rim.
+// The verdicts on them stand in studies/limits.
+#pragma once
+
+#include <optional>
+
+#include "engine/scene/fields.h"
+
+namespace kurbel {
+
+// Of what slips, by its maker's data; empty: not stated.
+struct HeatRating {
+  std::optional<double> engagement;  // of one engagement [J]
+  std::optional<double> power;       // mean over a run [W]
+};
+const Fields<HeatRating>& heat_rating_fields();
+
+// Of a flywheel; empty: not stated.
+struct RimRating {
+  std::optional<double> radius;   // mean radius of the rim r [m]
+  std::optional<double> speed;    // allowable r ω [m/s]
+  std::optional<double> density;  // ρ [kg/m³]
+  std::optional<double> stress;   // allowable hoop stress of the free thin ring, σ = ρ (r ω)² [Pa]
+};
+const Fields<RimRating>& rim_rating_fields();
+
+}  // namespace kurbel
