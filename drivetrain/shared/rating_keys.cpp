@@ -48,4 +48,31 @@ const Fields<RimRating>& rim_rating_fields() {
   return made;
 }
 
+const Fields<DutyRating>& duty_rating_fields() {
+  using Rating = DutyRating;
+  using Duty = Rating::Duty;
+  static const auto made =
+      Fields<Rating>()
+          .add({.name = "duty",
+                .doc = "that its rated torque M_N is stated for, after IEC 60034-1: kurbel run holds the RMS torque, a "
+                       "lower bound of heating, against what makes the same heat"},
+               &Rating::duty, {{"S1", Duty::continuous}, {"S2", Duty::short_time}, {"S3", Duty::intermittent}})
+          .add({.name = "duty_time", .unit = "s", .domain = positive, .doc = "S2: how long M_N may act"}, &Rating::time)
+          .add({.name = "duty_share",
+                .domain = {.low = 0, .high = 1, .low_open = true},
+                .doc = "S3: part of the time in which M_N may act; the run is to be of whole duty cycles"},
+               &Rating::share)
+          .check([](const Reading<Rating>& r) {
+            if ((r.duty == Duty::short_time) != r.time.has_value())
+              r.refuse(r.time ? r.key(&Rating::time) : r.key(&Rating::duty),
+                       r.time ? "\"duty_time\" belongs to duty = \"S2\"; drop it"
+                              : "duty = \"S2\" needs \"duty_time\"; give that, too");
+            if ((r.duty == Duty::intermittent) != r.share.has_value())
+              r.refuse(r.share ? r.key(&Rating::share) : r.key(&Rating::duty),
+                       r.share ? "\"duty_share\" belongs to duty = \"S3\"; drop it"
+                               : "duty = \"S3\" needs \"duty_share\"; give that, too");
+          });
+  return made;
+}
+
 }  // namespace kurbel

@@ -1,4 +1,5 @@
-// rating_keys.h — what a component may bear, where that is no part of its motion: heat of what slips, speed of a rim.
+// rating_keys.h — what a component may bear, where that is no part of its motion: heat of what slips, speed of a rim,
+// duty of a motor.
 // The verdicts on them stand in studies/limits.
 #pragma once
 
@@ -23,5 +24,14 @@ struct RimRating {
   std::optional<double> stress;   // allowable hoop stress of the free thin ring, σ = ρ (r ω)² [Pa]
 };
 const Fields<RimRating>& rim_rating_fields();
+
+// Of a motor: the duty that its rated torque is stated for (IEC 60034-1); empty: not stated.
+struct DutyRating {
+  enum class Duty { none, continuous, short_time, intermittent };  // —, S1, S2, S3
+  Duty duty = Duty::none;
+  std::optional<double> time;   // S2: M_N may act so long [s]
+  std::optional<double> share;  // S3: of the time, in which M_N may act
+};
+const Fields<DutyRating>& duty_rating_fields();
 
 }  // namespace kurbel

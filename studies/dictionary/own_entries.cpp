@@ -60,6 +60,8 @@ std::vector<Definition> entries_of_own() {
                "1.3"),
       coupling("strand_force", "largest force in the tight strand", "N", "BELT",
                "pretension and half of the largest torque over the driving pulley's radius, fixed centres", "5"),
+      coupling("motor_rms_torque", "RMS torque of a motor over a run", "N*m", "MOTOR",
+               "root of the mean square of its torque over the time run; a lower bound of heating", "4"),
       coupling("rim_speed", "largest speed of the rim", "m/s", "FLYWHEEL",
                "rim_radius times the shaft's angular velocity, where that is largest", "1.3"),
       coupling("integral", "integral part of a governor", "N*m", "GOVERNOR",

@@ -8,6 +8,7 @@
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/belt_rating.h"
+#include "drivetrain/induction/induction_law.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
 
@@ -32,6 +33,7 @@ class Rater {
     if (rates_belt(section_)) belt();
     if (section_.has("allowable_shear_stress")) shaft();
     if (section_.has("rim_radius")) rim();
+    if (section_.has("duty")) motor();
   }
 
  private:
@@ -114,6 +116,23 @@ class Rater {
         *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
   }
 
+  void motor() {
+    const DutyRating rating = duty_rating_fields().read(section_);
+    const auto rms = found("motor_rms_torque." + section_.name);
+    const auto data = induction_data(section_);
+    if (!rms || !data) return;
+    // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
+    const double span = result_.until - result_.begins_at,
+                 part = rating.time ? *rating.time / span : rating.share.value_or(1);
+    add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, data->rated_torque * std::sqrt(part), "N*m",
+        [&](double times) {
+          return fmt::format("it holds from a rated torque of {:.4g} N·m on", data->rated_torque * times);
+        });
+    std::string& note = out_.back().note;
+    note +=
+        fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", data->rated_torque);
+  }
+
   const Result& result_;
   const Section& section_;
   std::vector<Verdict>& out_;
@@ -126,6 +145,14 @@ std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model) {
   for (const Section& s : model.scene.components)
     if (rates_heat(s)) rated.push_back(s.name);
   return rated.empty() ? nullptr : std::make_unique<HeatRecorder>(rated);
+}
+
+std::unique_ptr<DutyRecorder> duty_recorder_of(const Model& model) {
+  std::vector<DutyRecorder::Motor> rated;
+  for (const Section& s : model.scene.components)
+    if (const auto data = s.has("duty") ? induction_data(s) : std::nullopt)
+      rated.push_back({.component = s.name, .rated_torque = data->rated_torque});
+  return rated.empty() ? nullptr : std::make_unique<DutyRecorder>(std::move(rated));
 }
 
 std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
@@ -146,14 +173,19 @@ std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
   return wanted;
 }
 
-std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,
-                                   double energy, double duration) {
+std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const DutyRecorder* duty,
+                                   const std::vector<Figure>& known, double energy, double duration) {
   std::vector<Figure> figures;
   if (heat && duration > 0)
     for (const HeatRecorder::Heated& h : heat->heated()) {
       figures.push_back(figure_of("engagement_heat", h.component, h.largest, "J", energy));
       figures.push_back(figure_of("slip_time", h.component, h.slips, "s", duration));
       figures.push_back(figure_of("heat_power", h.component, h.total / duration, "W", energy / duration));
+    }
+  if (duty && duration > 0)
+    for (const DutyRecorder::Motor& m : duty->motors()) {
+      figures.push_back(
+          figure_of("motor_rms_torque", m.component, std::sqrt(m.square / duration), "N*m", m.rated_torque));
     }
   for (const Section& s : model.scene.components) {
     if (!rates_belt(s)) continue;
@@ -173,6 +205,7 @@ std::vector<Figure> rating_figure_list(const Model& model) {
       for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
         list.push_back(figure_of(words, s.name, 0, unit, 0));
     if (rates_belt(s)) list.push_back(figure_of("strand_force", s.name, 0, "N", 0));
+    if (s.has("duty")) list.push_back(figure_of("motor_rms_torque", s.name, 0, "N*m", 0));
     if (s.has("rim_radius")) list.push_back(figure_of("rim_speed", s.name, 0, "m/s", 0));
   }
   return list;

@@ -186,7 +186,8 @@ class Figures {
   }
   void collect_ratings() {
     const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
-    for (Figure& f : rating_figures(model_, run_.heat.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
+    for (Figure& f :
+         rating_figures(model_, run_.heat.get(), run_.duty.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
       run_.figures.push_back(std::move(f));
   }
   double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }

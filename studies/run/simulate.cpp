@@ -225,6 +225,7 @@ class Simulation {
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->heat = heat_recorder_of(model);
+    run->duty = duty_recorder_of(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -245,6 +246,7 @@ class Simulation {
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
                                         run->energy.get()};
     if (run->heat) observers.push_back(run->heat.get());
+    if (run->duty) observers.push_back(run->duty.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);

@@ -162,6 +162,47 @@ TEST(Ratings, ShearStressOfAShaft) {
   }
 }
 
+// A motor by Kloss held at its rated speed gives M_N; half the voltage a quarter of that. 1 s of each in 4 s:
+// RMS √((1 + 1/16)/4) M_N. The duty's own is M_N √part.
+TEST(Ratings, DutyOfAMotorByASquareProfile) {
+  const auto text = [](const char* duty) {
+    return fmt::format(R"(
+      line = ["motor", "held"]
+      held = {{ kind = "prescribed speed", speed = "1440 rpm" }}
+      sequence = {{ steps = [{{ at = "1 s", set = "motor", to = 0.5 }}, {{ at = "2 s", set = "motor", to = 0 }}] }}
+      [motor]
+      kind = "induction motor"
+      rated_power = "15 kW"
+      rated_speed = "1440 rpm"
+      synchronous_speed = "1500 rpm"
+      breakdown_ratio = 2.8
+      inertia = "0.1 kg*m2"
+      {}
+      [run]
+      until = "4 s"
+      accuracy = 1e-9
+      start = {{ speed = "1440 rpm" }}
+    )",
+                       duty);
+  };
+  const double rated = 15e3 / (1440 * pi / 30);
+  const double rms = rated * std::sqrt((1 + 1.0 / 16) / 4);
+  const auto judged = [&](const char* duty, double part) {
+    const Result r = test::run(text(duty));
+    EXPECT_NEAR(figure(r, "motor_rms_torque.motor"), rms, 1e-9 * rated);
+    const auto verdicts = judge_ratings(r);
+    EXPECT_EQ(verdicts.size(), 1u);
+    EXPECT_NEAR(verdicts.at(0).limit, rated * std::sqrt(part), 1e-9 * rated);
+    return verdicts.at(0);
+  };
+  EXPECT_EQ(judged("duty = \"S1\"", 1).state(), Compliance::holds);
+  EXPECT_EQ(judged("duty = \"S3\"\nduty_share = 0.4", 0.4).state(), Compliance::holds);
+  EXPECT_EQ(judged("duty = \"S2\"\nduty_time = \"3 s\"", 0.75).state(), Compliance::holds);
+  const Verdict exceeded = judged("duty = \"S3\"\nduty_share = 0.25", 0.25);
+  EXPECT_EQ(exceeded.state(), Compliance::exceeded);
+  EXPECT_NE(exceeded.note.find(fmt::format("{:.4g} N·m on", rms / 0.5)), std::string::npos) << exceeded.note;
+}
+
 // What is not rated is not watched; the sentence is of terminal and page alike, and people get a table.
 TEST(Ratings, NothingRatedNothingTold) {
   const auto text = [](const char* rating) {
