@@ -6,6 +6,7 @@
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/belt.h"
+#include "drivetrain/friction/belt_rating.h"
 #include "drivetrain/friction/kinds.h"
 #include "engine/model/network.h"
 #include "engine/scene/effects.h"
@@ -33,12 +34,18 @@ struct BeltKeys {
   double pretension = 0, friction = 0;                              // F₀ [N], μ
   std::optional<double> wrap_angle, centre_distance, groove_angle;  // α [rad], [m], γ [rad]
   std::optional<double> stiffness, axial_stiffness;                 // k [N·m/rad], EA [N]
+  std::optional<double> allowable_tension, slip_reserve;            // [N]; M over torque, ≥ 1
   SideInertias inertia;
   Damping damping;
 
   // α on the pulley that the belt wraps less.
   double wrap() const {
     return wrap_angle ? *wrap_angle : open_belt_wrap(diameter_in, diameter_out, centre_distance.value());
+  }
+  // M at which it slips, on the driving pulley [N·m].
+  double limit() const {
+    const double counts = groove_angle ? friction / std::sin(0.5 * *groove_angle) : friction;
+    return 0.5 * diameter_in * eytelwein_force(pretension, counts, wrap());
   }
   // Of one strand of the open drive [m].
   double strand() const {
@@ -93,6 +100,15 @@ const Fields<BeltKeys>& belt_fields() {
                 .domain = positive,
                 .doc = "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"},
                &Keys::axial_stiffness)
+          .add({.name = "allowable_tension",
+                .unit = "N",
+                .domain = positive,
+                .doc = "force that a strand may bear, limit for kurbel run"},
+               &Keys::allowable_tension)
+          .add({.name = "slip_reserve",
+                .domain = {.low = 1},
+                .doc = "demanded: torque at which it slips over the largest one, for kurbel run"},
+               &Keys::slip_reserve)
           .add(side_inertia_fields(), &Keys::inertia)
           .add(damping_fields(), &Keys::damping);
   return made;
@@ -123,20 +139,24 @@ void build_belt(const Section& s, Network& net, Messages& messages) {
   const auto b = belt_fields().read(s, messages);
   const auto [in, out] = two_shafts(s, b.inertia, net);
   if (!fits(b)) return;
-  const double friction = b.groove_angle ? b.friction / std::sin(0.5 * *b.groove_angle) : b.friction;
   BeltData data{.name = s.name,
                 .ratio = b.diameter_out / b.diameter_in,
                 .radius = 0.5 * b.diameter_in,
                 .stiffness = b.stiffness.value_or(0),
                 .axial_stiffness = b.axial_stiffness.value_or(0),
                 .damping = b.damping};
-  data.limit = data.radius * eytelwein_force(b.pretension, friction, b.wrap());
+  data.limit = b.limit();
   if (b.axial_stiffness) data.stiffness = 2 * data.axial_stiffness * data.radius * data.radius / b.strand();
   if (data.stiffness > 0) return net.connect(in, out, data.ratio, s.name, data);
   net.connect(in, out, data.ratio, s.name, RigidBelt{data.limit, data.describe()});
 }
 
 }  // namespace
+
+BeltRating belt_rating(const Section& section) {
+  const BeltKeys b = belt_fields().read(section);
+  return {b.pretension, 0.5 * b.diameter_in, b.limit(), b.allowable_tension, b.slip_reserve};
+}
 
 std::vector<Kind> belt_kinds() {
   return {

@@ -6,6 +6,7 @@
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/clutch.h"
 #include "drivetrain/friction/kinds.h"
+#include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 
@@ -109,17 +110,20 @@ const Fields<CapacityKeys>& capacity_fields() {
 
 struct ClutchKeys {
   Capacity capacity;
+  HeatRating heat;
   SideInertias inertia;
 };
 const Fields<ClutchKeys>& clutch_fields() {
   static const auto made = Fields<ClutchKeys>()
                                .add(capacity_fields(), &ClutchKeys::capacity)
+                               .add(heat_rating_fields(), &ClutchKeys::heat)
                                .add(side_inertia_fields(), &ClutchKeys::inertia);
   return made;
 }
 
 struct LimiterKeys {
   double torque = 0, slipping_part = 1;  // M_s [N·m]
+  HeatRating heat;
   SideInertias inertia;
 };
 const Fields<LimiterKeys>& limiter_fields() {
@@ -132,6 +136,7 @@ const Fields<LimiterKeys>& limiter_fields() {
                 .domain = {.low = 0, .high = 1},
                 .doc = "torque while it slips over the limit"},
                &LimiterKeys::slipping_part)
+          .add(heat_rating_fields(), &LimiterKeys::heat)
           .add(side_inertia_fields(), &LimiterKeys::inertia);
   return made;
 }
@@ -153,12 +158,14 @@ const Fields<OneWayKeys>& one_way_fields() {
 
 struct BrakeKeys {
   Capacity capacity;
+  HeatRating heat;
   double inertia = 0;  // [kg·m²]
   Window window;
 };
 const Fields<BrakeKeys>& brake_fields() {
   static const auto made = Fields<BrakeKeys>()
                                .add(capacity_fields(), &BrakeKeys::capacity)
+                               .add(heat_rating_fields(), &BrakeKeys::heat)
                                .add(own_inertia_key(), &BrakeKeys::inertia)
                                .add(window_fields(), &BrakeKeys::window);
   return made;

@@ -160,7 +160,9 @@ const Fields<InductionKeys>& induction_fields() {
     add_nameplate(fields);
     add_circuit(fields);
     add_starting(fields);
-    return fields.add(inertia_key("", "rotor inertia"), &Keys::inertia).add(window_fields(), &Keys::window);
+    return fields.add(inertia_key("", "rotor inertia"), &Keys::inertia)
+        .add(window_fields(), &Keys::window)
+        .add(duty_rating_fields(), &Keys::duty);
   }();
   return made;
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/scene/fields.h"
 
@@ -45,6 +46,7 @@ struct StartingKeys {
 struct InductionKeys : CatalogueKeys, NameplateKeys, CircuitKeys, StartingKeys {
   double inertia = 0;  // [kg·m²]
   Window window;
+  DutyRating duty;
 };
 
 const Words<Starting>& starting_methods();

@@ -1,6 +1,7 @@
 // inertia_kinds.cpp — rigid bodies: inertia and flywheel.
 #include "drivetrain/loads/kinds.h"
 
+#include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 
@@ -9,13 +10,18 @@ namespace {
 
 struct BodyKeys {
   double inertia = 0;  // [kg·m²]
+  RimRating rim;
 };
 const Fields<BodyKeys>& body_fields() {
-  static const auto made = Fields<BodyKeys>().add(inertia_key("", "moment of inertia"), &BodyKeys::inertia);
+  static const auto made = Fields<BodyKeys>()
+                               .add(inertia_key("", "moment of inertia"), &BodyKeys::inertia)
+                               .add(rim_rating_fields(), &BodyKeys::rim);
   return made;
 }
 
-void build_inertia(const Section& s, Network& net, Messages&) { single_shaft(s, body_fields().read(s).inertia, net); }
+void build_inertia(const Section& s, Network& net, Messages& messages) {
+  single_shaft(s, body_fields().read(s, messages).inertia, net);
+}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/limits/ratings.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
@@ -38,6 +39,7 @@ class Figures {
     collect_heat();
     collect_stopping();
     collect_impacts();
+    collect_ratings();
   }
 
  private:
@@ -182,6 +184,12 @@ class Figures {
       add(QuantityKind::work, name_of(kind), sum, "J", energy_scale());
     }
   }
+  void collect_ratings() {
+    const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
+    for (Figure& f :
+         rating_figures(model_, run_.heat.get(), run_.duty.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
+      run_.figures.push_back(std::move(f));
+  }
   double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
 
   const Model& model_;
@@ -298,6 +306,7 @@ std::vector<Figure> figure_list(const Model& model) {
   for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(QuantityKind::work, kind, "J");
   for (const ElasticJoint& e : model.elastic)
     if (e.slips) add(QuantityKind::slip_heat, model.network.joints[at(e.joint)].component, "J");
+  for (Figure& f : rating_figure_list(model)) list.push_back(std::move(f));
   // Of a signal that makes the link stop.
   if (!model.scene.sequence.steps.empty()) {
     add(QuantityKind::stopping_time, link, "s");

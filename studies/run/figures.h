@@ -9,6 +9,8 @@
 #include "engine/run/run.h"
 #include "studies/findings/result.h"
 #include "studies/findings/trace.h"
+#include "studies/limits/duty_recorder.h"
+#include "studies/limits/heat_recorder.h"
 #include "studies/run/periods.h"
 
 namespace kurbel {
@@ -24,6 +26,8 @@ struct OneRun {
   CycleRecorder cycles;
   std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
+  std::unique_ptr<HeatRecorder> heat;  // null: none is rated
+  std::unique_ptr<DutyRecorder> duty;  // the same
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names

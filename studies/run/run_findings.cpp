@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
+#include "studies/limits/limits_findings.h"
+#include "studies/limits/ratings.h"
 
 namespace kurbel {
 namespace {
@@ -118,6 +121,19 @@ void judge_completion(Findings& f, const Comparison& c) {
   }
 }
 
+// Nothing is told where nothing is rated.
+void show_ratings(Findings& f, Chapter in, const Result& r) {
+  const std::vector<Verdict> verdicts = judge_ratings(r);
+  if (verdicts.empty()) return;
+  Rows table = verdict_table(verdicts);
+  table.key = "ratings", table.heading = "ratings";
+  f.say(in, std::move(table));
+  const std::string sentence = ratings_sentence(verdicts);
+  f.conclusion += "; " + sentence;
+  f.page_conclusion +=
+      " " + (std::string(1, static_cast<char>(std::toupper(sentence.front()))) + sentence.substr(1)) + ".";
+}
+
 }  // namespace
 
 std::vector<KeyFigure> key_figures_of(const Result& r) {
@@ -190,6 +206,7 @@ Findings findings_of(const Result& r) {
   f.say(figures, figures_table(r, true));
   f.say(figures, Sentences{.lines = balance_words(r), .page = false});
   f.say(figures, figures_table(r, false));
+  show_ratings(f, figures, r);
   show_delta_formulas(f, figures, {&r});
   std::vector<std::string> lines = r.notes;
   if (r.complete && !r.periods.verdict.empty())

@@ -14,6 +14,7 @@
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
 #include "studies/run/measured_errors.h"
@@ -222,7 +223,11 @@ class Simulation {
     auto run = std::make_unique<OneRun>();
     run->trajectory =
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
-    run->extremes = std::make_unique<ExtremeRecorder>(extremes_of(model));
+    std::vector<ExtremeOf> extremes = extremes_of(model);
+    for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
+    run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
+    run->heat = heat_recorder_of(model);
+    run->duty = duty_recorder_of(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -242,6 +247,8 @@ class Simulation {
       };
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
                                         run->energy.get()};
+    if (run->heat) observers.push_back(run->heat.get());
+    if (run->duty) observers.push_back(run->duty.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);

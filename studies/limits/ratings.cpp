@@ -1,0 +1,238 @@
+// ratings.cpp — figures of what is rated, and the verdicts on them.
+#include "studies/limits/ratings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivetrain/couplings/coupling_keys.h"
+#include "drivetrain/friction/belt_rating.h"
+#include "drivetrain/induction/induction_law.h"
+#include "drivetrain/shared/rating_keys.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+bool rates_heat(const Section& s) { return s.has("allowable_heat") || s.has("allowable_heat_power"); }
+bool rates_belt(const Section& s) { return s.has("allowable_tension") || s.has("slip_reserve"); }
+
+Figure figure_of(const char* words, const std::string& of, double value, const char* unit, double scale) {
+  return Figure::of_name(Name::own(words, of), value, unit, scale);
+}
+
+// What a run found of one component, against what it states.
+class Rater {
+ public:
+  Rater(const Result& result, const Section& section, std::vector<Verdict>& out)
+      : result_(result), section_(section), out_(out) {}
+
+  void all() {
+    if (rates_heat(section_)) heat();
+    if (rates_belt(section_)) belt();
+    if (section_.has("allowable_shear_stress")) shaft();
+    if (section_.has("rim_radius")) rim();
+    if (section_.has("duty")) motor();
+  }
+
+ private:
+  // `mends` makes words of the value that would hold; it gets how many times too large the value may be.
+  template <class Mends>
+  void add(const char* requirement, const Measured& value, double limit, const char* unit, const Mends& mends) {
+    Verdict v{section_.name, requirement, value.value, limit, unit, "", value.error};
+    if (v.state() != Compliance::holds) v.note = mends((value.value + value.error) / limit);
+    if (!result_.errors_measured) v.note += std::string(v.note.empty() ? "" : "; ") + "its error was not measured";
+    out_.push_back(std::move(v));
+  }
+  std::optional<Measured> found(const std::string& name) const {
+    const Figure* f = result_.find(name);
+    if (!f) return {};
+    return Measured{std::abs(f->value), f->error.value_or(0)};
+  }
+
+  void heat() {
+    const HeatRating rating = heat_rating_fields().read(section_);
+    const auto hottest = found("engagement_heat." + section_.name), power = found("heat_power." + section_.name);
+    if (rating.engagement && hottest)
+      add("heat of an engagement: W ≤ W_allowable", *hottest, *rating.engagement, "J", [](double times) {
+        return fmt::format(
+            "as W goes with the square of the difference of speed: it holds where that is {:.0f} % of "
+            "what it is",
+            std::floor(100 / std::sqrt(times)));
+      });
+    if (rating.power && power)
+      add("mean heat power: W_total/t ≤ P_allowable", *power, *rating.power, "W", [](double times) {
+        return fmt::format("it holds with {:.0f} % of these engagements in the same time", std::floor(100 / times));
+      });
+  }
+
+  void belt() {
+    const BeltRating b = belt_rating(section_);
+    const auto peak = found("peak_torque." + section_.name), strand = found("strand_force." + section_.name);
+    if (b.tension && strand)
+      add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", *strand, *b.tension, "N", [&](double) {
+        const double left = *b.tension - b.pretension, pull = strand->value + strand->error - b.pretension;
+        if (left <= 0) return std::string("the pretension alone is as much");
+        return fmt::format("it holds from diameter_in = {:.4g} mm on, at the same torque and pretension",
+                           2e3 * b.radius * pull / left);
+      });
+    if (b.reserve && peak)
+      add("reserve against slip: S |τ| ≤ M", {*b.reserve * peak->value, *b.reserve * peak->error}, b.limit, "N*m",
+          [&](double times) {
+            return fmt::format(
+                "{}it holds from pretension = {:.4g} N on{}", peak->value >= b.limit * (1 - 1e-9) ? "it slips; " : "",
+                b.pretension * times,
+                peak->value >= b.limit * (1 - 1e-9) ? " at the least: what it would carry then is more" : "");
+          });
+  }
+
+  void shaft() {
+    const ShaftKeys shaft = shaft_fields().read(section_);
+    const double modulus = 2 * shaft.polar_moment() / *shaft.diameter;
+    std::optional<Measured> largest;  // of its segments
+    for (const Figure& f : result_.figures)
+      if (f.what == QuantityKind::peak_torque && (f.of == section_.name || f.of.starts_with(section_.name + ".")))
+        if (!largest || std::abs(f.value) > largest->value) largest = Measured{std::abs(f.value), f.error.value_or(0)};
+    if (!largest) return;
+    add("shear stress: |T|/W_p ≤ τ_allowable", {largest->value / modulus, largest->error / modulus},
+        *shaft.allowable_shear_stress, "Pa", [&](double times) {
+          return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
+                             1e3 * *shaft.diameter * std::cbrt(times));
+        });
+  }
+
+  void rim() {
+    const RimRating rating = rim_rating_fields().read(section_);
+    const auto speed = found("rim_speed." + section_.name);
+    if (!speed) return;
+    const auto smaller = [&](double times) {
+      return fmt::format("it holds up to rim_radius = {:.4g} mm at this speed", 1e3 * *rating.radius / times);
+    };
+    if (rating.speed) add("rim speed: r |ω| ≤ v_allowable", *speed, *rating.speed, "m/s", smaller);
+    if (!rating.stress) return;
+    const double density = *rating.density, v = speed->value;
+    add("hoop stress of the rim: ρ (r ω)² ≤ σ_allowable", {density * v * v, 2 * density * v * speed->error},
+        *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
+  }
+
+  void motor() {
+    const DutyRating rating = duty_rating_fields().read(section_);
+    const auto rms = found("motor_rms_torque." + section_.name);
+    const auto data = induction_data(section_);
+    if (!rms || !data) return;
+    // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
+    const double span = result_.until - result_.begins_at,
+                 part = rating.time ? *rating.time / span : rating.share.value_or(1);
+    add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, data->rated_torque * std::sqrt(part), "N*m",
+        [&](double times) {
+          return fmt::format("it holds from a rated torque of {:.4g} N·m on", data->rated_torque * times);
+        });
+    std::string& note = out_.back().note;
+    note +=
+        fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", data->rated_torque);
+  }
+
+  const Result& result_;
+  const Section& section_;
+  std::vector<Verdict>& out_;
+};
+
+}  // namespace
+
+std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model) {
+  std::vector<std::string> rated;
+  for (const Section& s : model.scene.components)
+    if (rates_heat(s)) rated.push_back(s.name);
+  return rated.empty() ? nullptr : std::make_unique<HeatRecorder>(rated);
+}
+
+std::unique_ptr<DutyRecorder> duty_recorder_of(const Model& model) {
+  std::vector<DutyRecorder::Motor> rated;
+  for (const Section& s : model.scene.components)
+    if (const auto data = s.has("duty") ? induction_data(s) : std::nullopt)
+      rated.push_back({.component = s.name, .rated_torque = data->rated_torque});
+  return rated.empty() ? nullptr : std::make_unique<DutyRecorder>(std::move(rated));
+}
+
+std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  for (const Section& s : model.scene.components) {
+    if (!s.has("rim_radius")) continue;
+    const int node = model.network.ports.at(s.name).out, shaft = model.shaft_of_node[at(node)];
+    const double gain = *rim_rating_fields().read(s).radius * model.gain_of_node[at(node)];
+    ExtremeOf rim{.name = Name::own("rim_speed", s.name),
+                  .unit = "m/s",
+                  .scale = std::abs(gain) * model.speed_scale * model.scale_ratio[at(node)] /
+                           std::max(1e-300, std::abs(model.gain_of_node[at(node)])),
+                  .value = [=](const Snapshot& now) { return gain * now.now.speed[shaft]; },
+                  .rate = [=](const Snapshot& now) { return gain * now.alpha[shaft]; }};
+    rim.slope = rim.rate;
+    wanted.push_back(std::move(rim));
+  }
+  return wanted;
+}
+
+std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const DutyRecorder* duty,
+                                   const std::vector<Figure>& known, double energy, double duration) {
+  std::vector<Figure> figures;
+  if (heat && duration > 0)
+    for (const HeatRecorder::Heated& h : heat->heated()) {
+      figures.push_back(figure_of("engagement_heat", h.component, h.largest, "J", energy));
+      figures.push_back(figure_of("slip_time", h.component, h.slips, "s", duration));
+      figures.push_back(figure_of("heat_power", h.component, h.total / duration, "W", energy / duration));
+    }
+  if (duty && duration > 0)
+    for (const DutyRecorder::Motor& m : duty->motors()) {
+      figures.push_back(
+          figure_of("motor_rms_torque", m.component, std::sqrt(m.square / duration), "N*m", m.rated_torque));
+    }
+  for (const Section& s : model.scene.components) {
+    if (!rates_belt(s)) continue;
+    const BeltRating belt = belt_rating(s);
+    for (const Figure& f : known)
+      if (f.what == QuantityKind::peak_torque && f.of == s.name)
+        figures.push_back(
+            figure_of("strand_force", s.name, belt.tight_strand(f.value), "N", belt.tight_strand(belt.limit)));
+  }
+  return figures;
+}
+
+std::vector<Figure> rating_figure_list(const Model& model) {
+  std::vector<Figure> list;
+  for (const Section& s : model.scene.components) {
+    if (rates_heat(s))
+      for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
+        list.push_back(figure_of(words, s.name, 0, unit, 0));
+    if (rates_belt(s)) list.push_back(figure_of("strand_force", s.name, 0, "N", 0));
+    if (s.has("duty")) list.push_back(figure_of("motor_rms_torque", s.name, 0, "N*m", 0));
+    if (s.has("rim_radius")) list.push_back(figure_of("rim_speed", s.name, 0, "m/s", 0));
+  }
+  return list;
+}
+
+std::vector<Verdict> judge_ratings(const Result& result) {
+  std::vector<Verdict> verdicts;
+  if (!result.complete || !result.model) return verdicts;
+  for (const Section& s : result.model->scene.components) Rater(result, s, verdicts).all();
+  return verdicts;
+}
+
+std::string ratings_sentence(const std::vector<Verdict>& verdicts) {
+  const auto count = [&](Compliance state) {
+    return std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; });
+  };
+  const auto exceeded = count(Compliance::exceeded), open = count(Compliance::undecided);
+  if (verdicts.empty()) return "";
+  if (exceeded + open == 0)
+    return verdicts.size() == 1 ? "its rating holds" : fmt::format("all {} ratings hold", verdicts.size());
+  if (exceeded == 0) return fmt::format("{} of {} ratings undecided", open, verdicts.size());
+  const Verdict* worst = nullptr;
+  for (const Verdict& v : verdicts)
+    if (v.state() == Compliance::exceeded && (!worst || v.value / v.limit > worst->value / worst->limit)) worst = &v;
+  return fmt::format("{} of {} ratings EXCEEDED, worst \"{}\", {}: {:.0f} % of what is allowed", exceeded,
+                     verdicts.size(), worst->component, worst->requirement.substr(0, worst->requirement.find(':')),
+                     100 * worst->value / worst->limit);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,39 @@
+// ratings.h — do clutches, brakes, belts, shafts, flywheels, motors hold what a run brings? By the ratings that they state.
+//
+//     engagement: W = ∫ |M_k Δω| dt ≤ allowable_heat, the hottest one         W_total/t ≤ allowable_heat_power
+//     belt:       F₀ + |τ|/(2 r₁) ≤ allowable_tension                         slip_reserve · |τ| ≤ M (Euler, Eytelwein)
+//     shaft:      |T|/W_p ≤ allowable_shear_stress                            W_p = π (D⁴ − d⁴)/(16 D)
+//     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress
+//     motor:      √(∫ M² dt/t) ≤ M_N √part,  part = 1 (S1), duty_time/t (S2), duty_share (S3): a lower bound of heating
+// Every figure is one of the run, with the error that other runs measure. Nothing rated, nothing watched.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "studies/findings/result.h"
+#include "studies/limits/duty_recorder.h"
+#include "studies/limits/heat_recorder.h"
+#include "studies/limits/verdicts.h"
+
+namespace kurbel {
+
+// Watches those whose heat is rated; null: none.
+std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model);
+// The same of motors whose duty is stated.
+std::unique_ptr<DutyRecorder> duty_recorder_of(const Model& model);
+// Rim speeds of flywheels whose rim is given.
+std::vector<ExtremeOf> rim_speeds_of(const Model& model);
+// Of what slips, of motors and of belts, from what was watched and from peak torques among `known`. Heat is judged by `energy` [J],
+// times by `duration` [s].
+std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const DutyRecorder* duty,
+                                   const std::vector<Figure>& known, double energy, double duration);
+// Those that a run can yield: names and units.
+std::vector<Figure> rating_figure_list(const Model& model);
+
+// Of a complete run; an incomplete one has not shown what it would bring.
+std::vector<Verdict> judge_ratings(const Result& result);
+// "clutch: heat of an engagement is 132 % of what is allowed; 1 of 3 ratings exceeded"; empty: nothing is rated.
+std::string ratings_sentence(const std::vector<Verdict>& verdicts);
+
+}  // namespace kurbel
