@@ -28,7 +28,7 @@ struct GearStage {
   }
 };
 
-// Stiffness after ISO 6336-1 B lies between −8 % and +5 % of it for loads of 100 … 1600 N/mm (the standard's own words),
+// Stiffness after ISO 6336-1 B lies between −8 % and +5 % of it for loads of 100 … 1600 N/mm (as it is quoted; the standard itself was not at hand),
 // for pairs that the method was fitted for; of others nothing is known (NaN).
 double stiffness_error(const MeshStiffness& stiffness, double value);
 // A wheel's moment of inertia by straight pieces of its outline: their number doubled, twice the difference, and
