@@ -305,7 +305,8 @@ TEST(ChangePoint, ReactionsGrowWithTheInverseOfTheDistance) {
   const std::string& words = unbounded.words;
   ASSERT_EQ(unbounded.at.size(), 2u);
   EXPECT_NEAR(unbounded.at.front(), pi, 1e-9);
-  EXPECT_NEAR(unbounded.greatest, pin(1e-2), 1e-9 * pin(1e-2));
+  EXPECT_GE(unbounded.greatest, pin(1e-2));  // the greatest of all joints at both places
+  EXPECT_LT(unbounded.greatest, 1.01 * pin(1e-2));
   EXPECT_NE(words.find("at the change points φ = 180°, 540° reactions have no bound"), std::string::npos) << words;
   EXPECT_NEAR(static_cast<double>(std::fabs(d.linkage(beside_change_point(d, pi)).sine)), 1e-3, 1e-6);
   EXPECT_EQ(beside_change_point(d, 1), 1);
