@@ -96,13 +96,21 @@ void place_on_shafts(Model& m, PoolSet& pools) {
   }
 }
 
+// Of a mechanism its loads are switched; one without any has nothing to be switched.
+bool can_be_set(const Network::ShaftElement& e) {
+  if (e.element->cycle == 0) return true;
+  const auto& accounts = e.element->further_accounts;
+  return std::any_of(accounts.begin(), accounts.end(),
+                     [&](const auto& account) { return account.first.starts_with(e.component + ".load"); });
+}
+
 // What a component does not understand it must not be told.
 void check_sequence(Compilation& c) {
   for (const SequenceStep& step : c.model.scene.sequence.steps)
     for (const std::string& component : step.set) {
       bool any = false, reversible = true, switched = false;
       for (const Network::ShaftElement& e : c.net().elements)
-        if (e.component == component) {
+        if (e.component == component && can_be_set(e)) {
           any = true, reversible = reversible && e.element->is.reversible;
           switched = switched || !e.element->is.commanded;
         }
@@ -111,7 +119,7 @@ void check_sequence(Compilation& c) {
           any = true, reversible = false;
       if (!any)
         c.messages.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
-                                            "clutch or a brake",
+                                            "mechanism with loads, a clutch or a brake",
                                             component));
       else if (switched && !step.law.empty())
         c.messages.add(step.at, fmt::format("[sequence]: \"{}\" is on or off and can follow no law; give its torque "

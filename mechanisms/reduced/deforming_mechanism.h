@@ -57,6 +57,8 @@ class DeformingMechanismPool final : public ElementPool {
   void first_states(const Instant& now, double* own) const override;
   void add_channels(std::vector<Channel>& channels) const override;
 
+  void set_timed_modes(double t, int* mode, char* active) const override;
+
  private:
   using Motion = SliderCrankMotion<double>;
   using Vector = SliderCrankDynamics::Vector;

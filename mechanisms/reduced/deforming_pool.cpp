@@ -67,6 +67,7 @@ template SliderState<double> DeformingMechanismPool::slider(const Placed& p, con
 template <class T>
 T DeformingMechanismPool::force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                    std::size_t load) const {
+  if (!now.active[p.at.id]) return T(0.0);  // switched off by an operating sequence
   const SliderLoad& law = p.mechanism.loads[load];
   SliderState<T> s = slider(p, now, m, load);
   if (s.travel != creeps) return law.value(s);
@@ -85,6 +86,10 @@ T DeformingMechanismPool::load_force(const Placed& p, const Instant& now, const 
   T sum(0.0);
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) sum = sum + force_of(p, now, m, k);
   return sum;
+}
+
+void DeformingMechanismPool::set_timed_modes(double /*t*/, int* /*mode*/, char* active) const {
+  for (const Placed& p : placed_) active[p.at.id] = 1;
 }
 
 DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, const Instant& now,

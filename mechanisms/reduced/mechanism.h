@@ -113,6 +113,8 @@ class MechanismPool final : public ReactingPool {
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const Instant& now) const override;
   bool regularise(int guard, int* mode) const override;
+  // An operating sequence may switch the loads off; the links move on.
+  void set_timed_modes(double t, int* mode, char* active) const override;
   void first_modes(const Instant& now, int* mode) const override;
   void follow_directions(const Instant& now, int* mode) const override;
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override;
@@ -140,6 +142,9 @@ class MechanismPool final : public ReactingPool {
   };
   static Reduced reduced_at(const Placed& p, double phi);
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
+  static bool is_loaded(const Placed& p, const Instant& now) {
+    return !p.mechanism.loads.empty() && now.active[p.at.id];
+  }
   double load_force(const Placed& p, const Instant& now) const;
   struct FrictionMemory;
   static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state,

@@ -81,6 +81,7 @@ MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
 
 double MechanismPool::load_force(const Placed& p, const Instant& now) const {
   double sum = 0;
+  if (!is_loaded(p, now)) return sum;
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     const SliderState<double> s = slider(p, now, k);
     sum += p.mechanism.loads[k].value(s);
@@ -99,7 +100,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
       torque += here.weight;
       if (sums.work_rate) sums.work_rate[p.at.account] += here.weight * omega;
     }
-    if (!p.mechanism.loads.empty()) {
+    if (is_loaded(p, now)) {
       const double x = here.position, ratio = here.ratio;
       SliderState<double> s{phi, x, ratio * omega, 0, 0};
       s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (s.v >= 0 ? 1 : -1);
@@ -231,7 +232,7 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
     const D x_ratio = angle.chain(ratio, here.output_velocity().slope);
     const D v = x_ratio * speed;
     D force(0.0);
-    for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    for (std::size_t k = 0; is_loaded(p, now) && k < p.mechanism.loads.size(); ++k) {
       const SliderState<double> s = slider(p, now, k);
       const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
       force = force + p.mechanism.loads[k].value(dual);
@@ -305,6 +306,10 @@ GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   return {load.name, load.piece_name(s), load.piece_kind()};
 }
 
+void MechanismPool::set_timed_modes(double /*t*/, int* /*mode*/, char* active) const {
+  for (const Placed& p : placed_) active[p.at.id] = 1;
+}
+
 void MechanismPool::first_modes(const Instant& now, int* mode) const {
   for (const Placed& p : placed_) {
     const auto here = p.mechanism.reduced->at(angle_of(p.at, now));
@@ -363,6 +368,7 @@ void MechanismPool::follow_directions(const Instant& now, int* mode) const {
 // Forces that the loads can hold against the output, besides what they exert there.
 Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
   Hold sum;
+  if (!is_loaded(p, now)) return sum;
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     const Hold force = p.mechanism.loads[k].hold(slider(p, now, k));
     sum.low += force.low;

@@ -45,7 +45,12 @@ std::vector<ToldSwing> swings_told(const ModesStudy& study) {
     if (mode != study.modes.end() && mode->only_of_mean) continue;
     // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
     if (mode != study.modes.end() && !mode->periodic.empty()) {
-      for (const PeriodicSwing& s : mode->periodic) list.push_back({s.exponent.imag(), -s.exponent.real(), s.error});
+      for (const PeriodicSwing& s : mode->periodic) {
+        told = {s.exponent.imag(), -s.exponent.real(), s.error};
+        if (mode->fades_within_round)
+          told.least = mode->least / mode->omega, told.greatest = mode->greatest / mode->omega;
+        list.push_back(told);
+      }
       continue;
     }
     if (mode != study.modes.end() && mode->omega > 0 && mode->greatest > 0)

@@ -1,0 +1,112 @@
+// switched_loads_test.cpp — an operating sequence switches the loads of a mechanism: a press that strikes every third time, a
+// compressor whose valves are held open, held against energies in closed form and against the machine without loads.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/published/published.h"
+
+namespace kurbel {
+namespace {
+
+using test::figure;
+using test::run;
+using test::with;
+
+constexpr double pi = std::numbers::pi;
+
+// A flywheel alone moves a slider against 200 N, both ways.
+const std::string crank = R"(
+line = ["wheel", "crank"]
+[wheel]
+kind = "flywheel"
+inertia = "2 kg*m2"
+[crank]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "350 mm"
+crank_inertia = "0.5 kg*m2"
+slider_mass = "3 kg"
+load = { kind = "opposing", force = "200 N" }
+[run]
+start = { speed = "30 rad/s" }
+until = "2 s"
+accuracy = 1e-9
+)";
+
+double inertia(double phi) {
+  const double s = std::sin(phi), c = std::cos(phi), sin_b = 0.1 / 0.35 * s;
+  const double slope = -0.1 * s - 0.35 * sin_b * (0.1 * c / (0.35 * std::sqrt(1 - sin_b * sin_b)));
+  return 2.5 + 3 * slope * slope;
+}
+double position(double phi) { return 0.1 * std::cos(phi) + std::sqrt(0.35 * 0.35 - std::pow(0.1 * std::sin(phi), 2)); }
+
+// Way of the slider from 270° on, both strokes counted.
+double way_from_270(double phi) {
+  double way = 0;
+  for (double end = 2 * pi, from = 1.5 * pi; from < phi; from = end, end += pi)
+    way += std::abs(position(std::min(phi, end)) - position(from));
+  return way;
+}
+
+// Loaded from 270° for one turn, then off for two: ½ I ω² + F·(way under load) stays.
+TEST(SwitchedLoads, EveryThirdStrokeTakesItsWork) {
+  const Result r = run(crank + R"(
+[sequence]
+repeat = true
+steps = [
+  { angle = "270 deg", of = "crank", set = "crank", to = 1 },
+  { angle = "270 deg", of = "crank", set = "crank", to = 0 },
+  { angle = "270 deg", of = "crank", set = "crank", to = 0 },
+]
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double phi = figure(r, "final_angle.crank"), speed = figure(r, "final_speed.crank");
+  // On from the start until the first step that switches off: the first at 270° changes nothing.
+  double way = way_from_270(1.5 * pi + 2 * pi);                                               // 270° … 630°
+  way += std::abs(position(pi) - position(0)) + std::abs(position(1.5 * pi) - position(pi));  // 0 … 270°
+  for (double begin = (270 + 3 * 360) * pi / 180; begin < phi; begin += 6 * pi)
+    way += way_from_270(1.5 * pi + std::min(2 * pi, phi - begin));
+  EXPECT_GT(phi, (270 + 4 * 360) * pi / 180);
+  const double energy = 0.5 * inertia(0) * 900;
+  EXPECT_NEAR(0.5 * inertia(phi) * speed * speed, energy - 200 * way, 1e-7 * energy);
+  EXPECT_NEAR(figure(r, "work.useful"), -200 * way, 1e-6 * 200 * way);
+  EXPECT_LT(r.energy.relative, 1e-9);
+}
+
+// Off from the start it is the machine without loads.
+TEST(SwitchedLoads, OffTheyAreNotThere) {
+  const std::string off = crank + "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank\", to = 0 }]\n";
+  const std::string none = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }\n", "");
+  const Result a = run(off), b = run(none);
+  ASSERT_TRUE(a.complete && b.complete) << a.diagnosis << b.diagnosis;
+  EXPECT_NEAR(figure(a, "final_speed.crank"), figure(b, "final_speed.crank"), 1e-10 * 30);
+  EXPECT_EQ(figure(a, "work.useful"), 0);
+}
+
+// A motor that starts against them, or without: valves held open for half a second.
+TEST(SwitchedLoads, StartWithoutThemIsFaster) {
+  const std::string text = with(with(crank, "[wheel]\nkind = \"flywheel\"",
+                                     "[wheel]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = "
+                                     "\"40 rad/s\""),
+                                "start = { speed = \"30 rad/s\" }", "start = \"rest\"");
+  const Result against = run(text);
+  const Result without =
+      run(text +
+          "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank\", to = 0 }, { at = \"1 s\", set = \"crank\", to = 1 "
+          "}]\n");
+  ASSERT_TRUE(against.complete && without.complete);
+  const auto speed_at = [](const Result& r, double t) {
+    const auto w = test::series(r, "speed.crank");
+    return w[static_cast<std::size_t>(std::lround(t / 2 * static_cast<double>(w.size() - 1)))];
+  };
+  EXPECT_GT(speed_at(without, 0.9), 1.05 * speed_at(against, 0.9));
+  const Result never = run(text + "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank\", to = 0 }]\n");
+  EXPECT_EQ(speed_at(without, 0.9), speed_at(never, 0.9));
+  EXPECT_LT(speed_at(without, 2), 0.97 * speed_at(never, 2));
+}
+
+}  // namespace
+}  // namespace kurbel
