@@ -167,6 +167,7 @@ class Search {
     if (now.speed > far_beyond) return run_away(now.speed);
     aligned_ = aligned_ || by_time;
     events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
+    events_seen_ += outcome.events.size();
     if (std::ssize(events_) > most_remembered) events_.erase(events_.begin(), events_.end() - most_remembered);
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now);
@@ -262,8 +263,8 @@ class Search {
   bool find_own_period() {
     constexpr std::size_t most_between = 8;
     constexpr double same_time = 1e-6;
-    if (events_.size() < 4 || events_.size() == looked_at_) return false;
-    looked_at_ = events_.size();
+    if (events_.size() < 4 || events_seen_ == looked_at_) return false;
+    looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
     std::vector<double> times;  // of the last event of its kind, latest first
     const auto wanted = [&](const Event& e) { return !sequence || e.kind == EventKind::command; };
@@ -391,7 +392,7 @@ class Search {
   bool angle_changes_most_ = false, found_unstable_ = false;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
   std::vector<Event> events_;   // the last ones
-  std::size_t looked_at_ = 0;
+  std::size_t events_seen_ = 0, looked_at_ = 0;
 };
 
 }  // namespace
