@@ -262,7 +262,7 @@ class Search {
   // The same event again and again after the same time, with the whole state: so many events may lie between.
   bool find_own_period() {
     constexpr std::size_t most_between = 8;
-    constexpr double same_time = 1e-6;
+    constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
@@ -273,7 +273,10 @@ class Search {
       if (e->component == last->component && e->what == last->what) times.push_back(e->t);
     for (std::size_t k = 1; k <= most_between && 2 * k < times.size(); ++k) {
       const double period = times[0] - times[k], before = times[k] - times[2 * k];
-      if (!(period > 0) || std::abs(period - before) > same_time * period) continue;
+      const double change = std::abs(period - before);
+      if (!(period > 0) || change > same_time * period) continue;
+      // While it still settles as fast as this, a few rounds more are worth it: the period is taken as it is.
+      if (change > settled_time * period && change < settling * std::exchange(period_changes_, change)) return false;
       const auto map = std::make_shared<ReturnMap>(shared_, map_options(), period);
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
       if (!go_where_least_happens(times[0], period)) return false;
@@ -393,6 +396,7 @@ class Search {
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
   std::vector<Event> events_;   // the last ones
   std::size_t events_seen_ = 0, looked_at_ = 0;
+  double period_changes_ = HUGE_VAL;  // of its own, at the last look [s]
 };
 
 }  // namespace

@@ -188,6 +188,11 @@ class Comparison {
   void judge_multipliers(const SteadyCycle& cycle, const std::vector<std::string>& notes) {
     if (cycle.neutral || !dies_away()) return;
     const Decay decay = decay_of(run_);
+    if (cycle.point.multipliers.empty() && decay.factor > 0) {
+      row_.figures.push_back({Topic::multipliers, "largest", decay.factor, 0, 0, Verdict::refused,
+                              "a period told by events: no multipliers, and steady says so"});
+      return;
+    }
     const double told = std::pow(cycle.point.largest(), 1 / periods_in(cycle));
     if (decay.measured) return compare(Topic::multipliers, "largest", decay.factor, told, decay.error + 1e-3, notes);
     if (decay.periods == 0 && decay.factor == 0) return;

@@ -144,6 +144,8 @@ TEST(Agreement, SteadySpeaksOfClutchesFilmsAndLimitersThatSlip) {
                            "viscous_damper_crank"})
     expect_agreement(name, steady_alone);
 }
+// Its steps wait for angles, its motor for seconds: hundreds of events pass before it comes again.
+TEST(Agreement, SteadySpeaksOfASequenceThatGoesRoundByAngles) { expect_agreement("press_every_third", steady_alone); }
 TEST(Agreement, SteadySpeaksOfTheMachineThatItsSequenceLeaves) {
   for (const char* name : {"brake_released", "voltage_in_steps", "load_window", "starting_motor_off"})
     expect_agreement(name, steady_alone);
