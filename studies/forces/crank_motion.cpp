@@ -29,6 +29,14 @@ const std::vector<std::string>& mechanism_kinds() {
   return kinds;
 }
 
+// Whether an operating sequence leaves the loads of a component switched off; one that goes round leaves them as they come.
+bool left_off(const Sequence& sequence, const std::string& component) {
+  bool off = false;
+  for (const SequenceStep& step : sequence.steps)
+    if (std::find(step.set.begin(), step.set.end(), component) != step.set.end()) off = step.to <= 0.5;
+  return off && !sequence.repeat;
+}
+
 std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component, const Effects& effects) {
   const Network whole = build_network(scene);
   Network network;
@@ -53,6 +61,8 @@ const Network::ShaftElement& mechanism_element(const Network& network, const std
 
 OutputLoads::OutputLoads(const Scene& scene, const std::string& component, const Effects& effects)
     : OutputLoads(alone(scene, component, effects)) {
+  switched_off_ = left_off(scene.sequence, component);
+  for (const WorkAccount& account : model().accounts) is_load_.push_back(account.name.starts_with(component + ".load"));
   for (std::size_t k = 0; k < model().pool_channels.size(); ++k) {
     const auto& name = model().pool_channels[k].name;
     if (name.of == component && (name.what == QuantityKind::force || name.what == QuantityKind::load_torque))
@@ -74,14 +84,19 @@ std::vector<double> OutputLoads::edges(int direction) {
 }
 
 double OutputLoads::force(double phi, double omega) {
-  if (channel_ < 0) return 0;
+  if (channel_ < 0 || switched_off_) return 0;
   const std::vector<double> y = equations_.modes_from_scratch(0, within(phi), omega);
   return model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
 }
 
 std::span<const double> OutputLoads::shares(double phi, double omega) {
   machine_.set_modes(within(phi), omega);
-  return machine_.at(within(phi), omega, true).share;
+  const std::span<const double> all = machine_.at(within(phi), omega, true).share;
+  if (!switched_off_) return all;
+  without_loads_.assign(all.begin(), all.end());
+  for (std::size_t i = 0; i < without_loads_.size(); ++i)
+    if (is_load_[i]) without_loads_[i] = 0;
+  return without_loads_;
 }
 
 // --- where the cycle is looked at ---

@@ -27,6 +27,8 @@ class OutputLoads {
   std::vector<double> edges(int direction);
   void add_edges(const std::vector<double>& of_a_turn) { added_ = of_a_turn; }
 
+  // By the operating sequence, in the end: then no load acts.
+  bool switched_off() const { return switched_off_; }
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
   double force(double phi, double omega);
   // Of each of model().accounts, reduced to the crank [N·m]; omega ≠ 0.
@@ -43,6 +45,9 @@ class OutputLoads {
 
   Equations equations_;
   int channel_ = -1;
+  bool switched_off_ = false;
+  std::vector<bool> is_load_;  // per account
+  std::vector<double> without_loads_;
   std::vector<double> added_;
 };
 

@@ -202,6 +202,9 @@ class Study {
     out_.prescribed->label = "prescribed";
     out_.unbounded = unbounded_reactions(out_.data, *loads_, speed.value);
     if (out_.unbounded.any()) out_.notes.push_back(out_.unbounded.words);
+    if (loads_->switched_off())
+      out_.notes.push_back(
+          fmt::format("loads of {} count as the operating sequence leaves them: switched off", out_.mechanism));
     out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   }
 

@@ -388,6 +388,9 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   out.prescribed->label = "prescribed";
   out.unbounded = unbounded_reactions(data, loads, speed.value);
   if (out.unbounded.any()) out.notes.push_back(out.unbounded.words);
+  if (loads.switched_off())
+    out.notes.push_back(
+        fmt::format("loads of {} count as the operating sequence leaves them: switched off", out.mechanism));
   mark_unbounded(out.unbounded, *out.prescribed);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   if (!options.simulate) return out;

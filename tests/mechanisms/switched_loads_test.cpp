@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/forces/forces.h"
 #include "tests/published/published.h"
 
 namespace kurbel {
@@ -84,6 +85,23 @@ TEST(SwitchedLoads, OffTheyAreNotThere) {
   ASSERT_TRUE(a.complete && b.complete) << a.diagnosis << b.diagnosis;
   EXPECT_NEAR(figure(a, "final_speed.crank"), figure(b, "final_speed.crank"), 1e-10 * 30);
   EXPECT_EQ(figure(a, "work.useful"), 0);
+}
+
+// What `forces` says of a crank whose load is left off is what it says of one without.
+TEST(SwitchedLoads, ForcesAreThoseOfTheMachineAsItIsLeft) {
+  const std::string driven = with(crank, "[wheel]\nkind = \"flywheel\"",
+                                  "[wheel]\nkind = \"dc shunt motor\"\nstall_torque = \"60 N*m\"\nno_load_speed = "
+                                  "\"40 rad/s\"");
+  const std::string none = with(driven, "load = { kind = \"opposing\", force = \"200 N\" }\n", "");
+  const Forces off =
+      find_forces(test::scene_from(driven + "[sequence]\nsteps = [{ at = \"1 s\", set = \"crank\", to = 0 }]\n"), {});
+  const Forces without = find_forces(test::scene_from(none), {});
+  ASSERT_TRUE(off.simulated && without.simulated);
+  for (std::size_t k = 0; k < joint_count; ++k) {
+    EXPECT_NEAR(off.prescribed->reaction[k].value, without.prescribed->reaction[k].value, 1e-9 * 3000);
+    EXPECT_NEAR(off.simulated->reaction[k].value, without.simulated->reaction[k].value, 1e-6 * 3000);
+  }
+  EXPECT_NE(off.notes.front().find("switched off"), std::string::npos);
 }
 
 // A motor that starts against them, or without: valves held open for half a second.
