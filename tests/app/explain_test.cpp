@@ -1,4 +1,5 @@
 // explain_test.cpp — kurbel explain on the command line.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -16,7 +17,7 @@ struct Said {
 };
 
 Said explain(const std::string& arguments) {
-  const std::string command = std::string(KURBEL_EXECUTABLE) + " explain " + arguments + " 2>&1";
+  const std::string command = fmt::format("{} explain {} 2>&1", KURBEL_EXECUTABLE, arguments);
   Said said;
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> part;
