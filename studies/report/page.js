@@ -316,7 +316,7 @@
         // Shafts to both neighbours.
         const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
         const out = kind === 'gearbox' ? y + 34 * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : y;
-        shaftsOf[k] = {in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
+        shaftsOf[k] = {middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
         ends[r] = {first: ends[r] ? ends[r].first : {x: x - gap / 2, y}, last: {x: x + w + gap / 2, y: out}};
         if (n > 0 || kind === 'coupling' || kind === 'gearbox') shaft(x - gap / 2, middle, y);
         if (n < list.length - 1 || kind === 'coupling' || kind === 'gearbox') shaft(middle, x + w + gap / 2, out);
@@ -369,7 +369,7 @@
       if (!to || !own) return;
       const a = tie.out ? to.out : to.in, b = tie.atEnd ? own.last : own.first, r = rowOf(tie.part);
       const shelf = rowHeight * r + 292 + 8 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
-      draw('polyline', {points: `${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
+      draw('polyline', {points: `${to.middle},${a.y} ${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
       draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
     const angleOf = (motion, s, at) => at(motion.angle) + (motion[s.side].length ? m.enlargement * at(motion[s.side][s.k]) : 0);

@@ -128,10 +128,13 @@ void show_ratings(Findings& f, Chapter in, const Result& r) {
   Rows table = verdict_table(verdicts);
   table.key = "ratings", table.heading = "ratings";
   f.say(in, std::move(table));
+  // What is exceeded comes before any figure.
   const std::string sentence = ratings_sentence(verdicts);
-  f.conclusion += "; " + sentence;
-  f.page_conclusion +=
-      " " + (std::string(1, static_cast<char>(std::toupper(sentence.front()))) + sentence.substr(1)) + ".";
+  const std::string said = std::string(1, static_cast<char>(std::toupper(sentence.front()))) + sentence.substr(1) + ".";
+  const bool exceeded = std::any_of(verdicts.begin(), verdicts.end(),
+                                    [](const Verdict& v) { return v.state() == Compliance::exceeded; });
+  f.conclusion = exceeded ? sentence + "; " + f.conclusion : f.conclusion + "; " + sentence;
+  f.page_conclusion = exceeded ? said + " " + f.page_conclusion : f.page_conclusion + " " + said;
 }
 
 }  // namespace
