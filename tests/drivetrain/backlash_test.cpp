@@ -7,13 +7,16 @@
 
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::digits;
 using test::figure;
 using test::run;
+using test::Validation;
 using test::with;
 
 // --- tests/cases/el06_backlash.toml: Modelica.Mechanics.Rotational.Examples.Backlash ---
@@ -44,27 +47,36 @@ start = {{ disc = {{ angle = "90 deg" }} }}
 }
 
 TEST(TorsionPendulumWithBacklash, FollowsTheLawWithoutPulling) {
+  const Validation is(Against::published,
+                      "Modelica.Mechanics.Rotational.Examples.Backlash (case el06), law that never pulls, recomputed");
   const struct {
     double t, angle, speed;
   } expected[] = {{0.1, 0.24983586, 52.89371861}, {0.5, -0.30995803, -17.22842571}, {1, -0.15558142, -7.02293729}};
   for (const auto& e : expected) {
     const Result r = run(torsion_pendulum("backlash = \"45 deg\"", e.t), false);
     // The last printed digit; at 1 s the case itself is converged to 1.4e-8 only.
-    EXPECT_NEAR(figure(r, "final_angle.disc"), e.angle, 7e-9);
-    EXPECT_NEAR(figure(r, "final_speed.disc"), e.speed, 1.5e-8);
+    is.near(fmt::format("angle at {} s", e.t), "rad", 1, r.find("final_angle.disc"), e.angle, 7e-9);
+    is.near(fmt::format("speed at {} s", e.t), "rad/s", 1, r.find("final_speed.disc"), e.speed, 1.5e-8);
   }
 }
 TEST(TorsionPendulumWithBacklash, FollowsTheClippedLaw) {
+  const Validation is(Against::published,
+                      "Modelica.Mechanics.Rotational.Examples.Backlash (case el06), clipped law, recomputed");
   const Result r = run(torsion_pendulum("backlash = \"45 deg\"\ncontact = \"clipped\"", 1), false);
-  EXPECT_NEAR(figure(r, "final_angle.disc"), 0.103475, 6e-7);
-  EXPECT_NEAR(figure(r, "final_speed.disc"), -6.213397, 6e-7);
+  is.near("angle at 1 s", "rad", 1, r.find("final_angle.disc"), 0.103475, 6e-7);
+  is.near("speed at 1 s", "rad/s", 1, r.find("final_speed.disc"), -6.213397, 6e-7);
 }
 // The published series keeps its own tolerance: 2.1e-5 rad with the gap, 1.7e-5 rad without.
 TEST(TorsionPendulumWithBacklash, FollowsTheModelicaSeries) {
+  const Validation is(
+      Against::published,
+      "Modelica.Mechanics.Rotational.Examples.Backlash (case el06), published series (largest difference)");
   const Result gap = run(torsion_pendulum("backlash = \"45 deg\"", 1), false),
                none = run(torsion_pendulum("", 1), false);
-  EXPECT_LT(test::largest_difference(gap, "angle.disc", test::published_series("el06_backlash.csv", 1, 2)), 3e-5);
-  EXPECT_LT(test::largest_difference(none, "angle.disc", test::published_series("el06_backlash.csv", 1, 4)), 3e-5);
+  is.near("angle with the gap", "rad",
+          test::largest_difference(gap, "angle.disc", test::published_series("el06_backlash.csv", 1, 2)), 0, 3e-5);
+  is.near("angle without a gap", "rad",
+          test::largest_difference(none, "angle.disc", test::published_series("el06_backlash.csv", 1, 4)), 0, 3e-5);
 }
 
 // --- a step torque on two free inertias ---

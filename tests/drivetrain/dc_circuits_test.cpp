@@ -9,12 +9,15 @@
 
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
+using test::Validation;
 
 // U = 220 V, R = 0.5 Ω, k = 1.8 N·m/A, J = 2 kg·m²
 std::string shunt(double inductance, const std::string& more = "", const std::string& rest = "") {
@@ -82,19 +85,20 @@ accuracy = 1e-10
 )";
 
 TEST(DcShuntCircuit, DynamicBrakingIsThatOfDubey) {
+  const Validation is(Against::published, "Dubey: Fundamentals of Electrical Drives, ex. 5.9 (dynamic braking)");
   const Eigen::VectorXcd lambda = test::state_matrix(dubey_5_9).eigenvalues();
   std::vector<double> found;
   for (const auto& l : lambda)
     if (std::abs(l) > 1e-9) found.push_back(l.real());
   std::sort(found.begin(), found.end());
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_NEAR(found[0], -4.1873549114, 1e-9);
-  EXPECT_NEAR(found[1], -0.9626450886, 1e-9);
+  is.near("faster eigenvalue", "1/s", found[0], -4.1873549114, 1e-9);
+  is.near("slower eigenvalue", "1/s", found[1], -0.9626450886, 1e-9);
   const Result r = run(dubey_5_9);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const Figure* peak = r.find("peak_current.motor");
   ASSERT_NE(peak, nullptr);
-  EXPECT_NEAR(peak->value, -272.2293976, 1e-7);
+  is.near("greatest braking current", "A", 1, peak, -272.2293976, 1e-7);
   // With i = M_L/K + A e^{at} + B e^{bt}; the case's 0.4418569 s was read off samples.
   const double a = found[1], b = found[0], rest = 51.637821286 / 1.9671550966,
                slope = -1.9671550966 * 109.955742876 / 0.12;

@@ -9,13 +9,16 @@
 
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
 using test::series;
+using test::Validation;
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
@@ -50,6 +53,7 @@ run = {{ start = {{ speed = "{} rad/s" }}, until = "{} s", accuracy = 1e-9, samp
 // Modelica.Mechanics.Rotational.Examples.LossyGearDemo1 (tests/cases/fr06_lossygear.toml, reference results of
 // MAP-LIB): J = 1 and 1.5 kg·m², i = 2, η = 0.5 either way, 10 sin 2πt on the first, −10 + 2.5 t on the second.
 TEST(GearLosses, LossyGearDemoSticksAndMovesAsPublished) {
+  const Validation is(Against::published, "Modelica.Mechanics.Rotational.Examples.LossyGearDemo1 (case fr06)");
   const Result result = run(R"(
 line = ["first", "gear", "second"]
 first = { kind = "torque source", amplitude = "10 N*m", frequency = "1 Hz", inertia = "1 kg*m2" }
@@ -62,24 +66,29 @@ run = { until = "0.5 s", accuracy = 1e-9, samples = 51 }
   const double forward = time_of(result, "gear", "moves forwards");
   const double stuck_2 = time_of(result, "gear", "is held by its losses", forward);
   const double back = time_of(result, "gear", "moves backwards", forward);
-  EXPECT_NEAR(stuck_1, 0.080476, 5e-4);
-  EXPECT_NEAR(forward, 0.199520, 5e-4);
-  EXPECT_NEAR(stuck_2, 0.371342, 5e-4);
-  EXPECT_NEAR(back, 0.464540, 5e-4);
+  is.near("first held by its losses", "s", stuck_1, 0.080476, 5e-4);
+  is.near("moves forwards", "s", forward, 0.199520, 5e-4);
+  is.near("held again", "s", stuck_2, 0.371342, 5e-4);
+  is.near("moves backwards", "s", back, 0.464540, 5e-4);
   // Exactly: it moves forwards when η M₁ i + M₂ > 0, backwards when M₁ i + η M₂ < 0.
   const auto first = [](double t) { return 10 * std::sin(two_pi * t); };
   const auto second = [](double t) { return -10 + 2.5 * t; };
   EXPECT_NEAR(forward, zero_of([&](double t) { return 0.5 * 2 * first(t) + second(t); }, 0.1, 0.25), 1e-10);
   EXPECT_NEAR(back, zero_of([&](double t) { return 2 * first(t) + 0.5 * second(t); }, 0.4, 0.5), 1e-10);
-  EXPECT_NEAR(figure(result, "final_angle.second"), 1.65918e-5, 1e-6);
-  EXPECT_NEAR(figure(result, "final_speed.second"), -0.01626377, 2e-4);
-  EXPECT_LT(test::largest_difference(result, "angle.second", test::published_series("fr06_lossygear.csv", 1, 2)), 1e-6);
-  EXPECT_LT(test::largest_difference(result, "speed.second", test::published_series("fr06_lossygear.csv", 1, 3)), 2e-4);
+  is.near("angle of the second shaft at 0.5 s", "rad", 1, result.find("final_angle.second"), 1.65918e-5, 1e-6);
+  is.near("speed of the second shaft at 0.5 s", "rad/s", 1, result.find("final_speed.second"), -0.01626377, 2e-4);
+  is.near("largest difference to the series, angle", "rad",
+          test::largest_difference(result, "angle.second", test::published_series("fr06_lossygear.csv", 1, 2)), 0,
+          1e-6);
+  is.near("largest difference to the series, speed", "rad/s",
+          test::largest_difference(result, "speed.second", test::published_series("fr06_lossygear.csv", 1, 3)), 0,
+          2e-4);
   EXPECT_LT(result.energy.relative, 1e-9);
 }
 
 // J ω̇ = −λ on the first, λ − L on the second, L = (1 − η) λ + b: λ = b/(1 + η) = 0.5 N·m, ω̇ = −500 rad/s².
 TEST(GearLosses, RunsDownByItsOwnLossesAndStays) {
+  const Validation is(Against::closed_form, "Lossy gear that runs down by its own losses: λ = b/(1 + η)");
   const Result result = run(R"(
 line = ["first", "gear", "second"]
 first = { kind = "flywheel", inertia = "0.001 kg*m2" }
@@ -88,13 +97,13 @@ second = { kind = "flywheel", inertia = "0.001 kg*m2" }
 run = { start = { speed = "10 rad/s" }, until = "0.1 s", accuracy = 1e-9 }
 )");
   ASSERT_TRUE(result.complete) << result.diagnosis;
-  EXPECT_NEAR(time_of(result, "gear", "is held by its losses"), 0.02, 1e-13);
+  is.near("time to standstill", "s", time_of(result, "gear", "is held by its losses"), 0.02, 1e-13);
   EXPECT_EQ(result.events.size(), 1u);
-  EXPECT_NEAR(figure(result, "final_angle.first"), 0.1, 1e-13);
-  EXPECT_NEAR(figure(result, "final_angle.second"), 0.1, 1e-13);
+  is.near("angle of the first shaft", "rad", 1, result.find("final_angle.first"), 0.1, 1e-13);
+  is.near("angle of the second shaft", "rad", 1, result.find("final_angle.second"), 0.1, 1e-13);
   EXPECT_EQ(figure(result, "final_speed.first"), 0.0);
   EXPECT_EQ(figure(result, "final_speed.second"), 0.0);
-  EXPECT_NEAR(result.energy.by_account.at("gear"), -0.1, 1e-12);  // all that was in motion
+  is.near("work of the losses", "J", result.energy.by_account.at("gear"), -0.1, 1e-12);  // all that was in motion
 }
 
 // With no torque on the input the output is held up to b₂ i; beyond it λ = η₂ (μ + b₂).

@@ -7,13 +7,16 @@
 #include "drivetrain/gears/planetary.h"
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
 using test::series;
+using test::Validation;
 
 // Torques on all three shafts; speeds at the start of sun and ring.
 std::string three_shafts(double sun, double ring, double carrier, const std::string& gear, double sun_speed,
@@ -109,6 +112,8 @@ run = { until = "1 s", accuracy = 1e-10 }
 // Khurmi, Theory of Machines, ch. 13 (tests/cases/pl01_planetary.toml): arm 18 → sun 58.5 with a ring of 72 held
 // (example 13.6); compound planets 20 and 35 between 50 and a held ring of 105: 110 → 50 (13.10).
 TEST(PlanetaryGear, SpeedsArePublishedOnes) {
+  const Validation is(Against::published,
+                      "Khurmi, Gupta: Theory of Machines, ch. 13 (gear trains): runs of ex. 6 and 10");
   const auto out = [](const std::string& gear, double speed) {
     return figure(run(fmt::format(R"(
 line = ["drive", "gear", "load"]
@@ -122,10 +127,14 @@ run = {{ until = "0.1 s" }}
                   "final_speed.load") *
            60 / test::two_pi;
   };
-  EXPECT_NEAR(out("sun = 32, ring = 72, in = \"carrier\", out = \"sun\", fixed = \"ring\"", 18), 58.5, 1e-9);
-  EXPECT_NEAR(out("sun = 50, planet = 20, second_planet = 35, ring = 105, fixed = \"ring\"", 110), 50, 1e-9);
-  EXPECT_NEAR(out("sun = 30, ring = 80, in = \"sun\", out = \"ring\", fixed = \"carrier\"", 80), -30, 1e-9);
-  EXPECT_NEAR(out("sun = 30, ring = 80, in = \"ring\", out = \"carrier\", fixed = \"sun\"", 110), 80, 1e-9);
+  is.near("ex. 6: speed of the sun, ring held", "rpm",
+          out("sun = 32, ring = 72, in = \"carrier\", out = \"sun\", fixed = \"ring\"", 18), 58.5, 1e-9);
+  is.near("ex. 10: speed of the carrier, compound planets", "rpm",
+          out("sun = 50, planet = 20, second_planet = 35, ring = 105, fixed = \"ring\"", 110), 50, 1e-9);
+  is.near("carrier held: speed of the ring", "rpm",
+          out("sun = 30, ring = 80, in = \"sun\", out = \"ring\", fixed = \"carrier\"", 80), -30, 1e-9);
+  is.near("sun held: speed of the carrier", "rpm",
+          out("sun = 30, ring = 80, in = \"ring\", out = \"carrier\", fixed = \"sun\"", 110), 80, 1e-9);
 }
 
 // As in an automatic gearbox: the ring runs free, then a brake takes hold of it, and sun and carrier turn by 1 − i₀.

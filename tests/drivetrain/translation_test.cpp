@@ -13,13 +13,16 @@
 #include "drivetrain/shared/inclined_plane.h"
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
 using test::series;
+using test::Validation;
 using Real = long double;
 
 constexpr double pi = std::numbers::pi, two_pi = 2 * pi;
@@ -28,6 +31,8 @@ constexpr double gravity = 9.80665;
 // Shigley's Mechanical Engineering Design (Budynas, Nisbett, 9th ed., 2011), example 8–1: square thread, 32 mm, pitch
 // 4 mm, double, f = f_c = 0.08, d_c = 40 mm, 6.4 kN: 26.18 N·m raise it, 9.77 N·m lower it, e = 0.311.
 TEST(Screw, RaisesAndLowersWithTheTorquesOfTheTextbook) {
+  const Validation is(Against::published,
+                      "Budynas, Nisbett: Shigley's Mechanical Engineering Design, 9th ed., ex. 8–1 (power screw)");
   for (const int sense : {1, -1}) {
     const Result r = run(fmt::format(R"(
 line = ["motor", "screw"]
@@ -38,9 +43,9 @@ run = {{ until = "1 s", samples = 3, accuracy = 1e-9 }}
                                      10 * sense));
     ASSERT_TRUE(r.complete) << r.diagnosis;
     const double torque = sense * series(r, "torque.screw.in").back();
-    EXPECT_NEAR(torque, sense > 0 ? 26.18 : 9.77, 0.005);
+    is.near(sense > 0 ? "torque that raises" : "torque that lowers", "N·m", torque, sense > 0 ? 26.18 : 9.77, 0.005);
     if (sense > 0) {
-      EXPECT_NEAR(6400 * 0.008 / (two_pi * torque), 0.311, 0.0005);
+      is.near("efficiency when raising", "", 6400 * 0.008 / (two_pi * torque), 0.311, 0.0005);
     }
     // In the units of translation.
     EXPECT_NEAR(series(r, "velocity.screw").back(), sense * 0.08 / two_pi, 1e-15);

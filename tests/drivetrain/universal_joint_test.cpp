@@ -7,31 +7,40 @@
 
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::digits;
 using test::figure;
 using test::run;
+using test::Validation;
 
 constexpr double degree = M_PI / 180;
 
 // --- tests/cases/el07_hooke.toml: Theory of Machines (the textbook's notebooks, chapter 9), its tolerance 1e-7 ---
 
 TEST(HookeJoint, FollowsTheTextbook) {
+  const Validation is(Against::published, "Khurmi, Gupta: Theory of Machines, ch. 9 (Hooke's joint; case el07)");
   const double omega = 1500 * 2 * M_PI / 60;
   const HookeJoint ex2{20 * degree};
   const double steepest = ex2.steepest(), acceleration = -ex2.ratio_slope(steepest) * omega * omega;
-  EXPECT_NEAR(steepest / degree, 41.45868, 2e-5);  // the case is off by 1.5 in its last digit
-  EXPECT_NEAR(acceleration, 3083.40203, 1e-7 * 3083);
-  EXPECT_NEAR(0.12 * acceleration, 370.00824, 1e-7 * 370);
-  EXPECT_NEAR(HookeJoint{18 * degree}.unity() / degree, 44.281274216, 1e-7 * 44);
-  EXPECT_NEAR(HookeJoint::angle_for_fluctuation(0.12) / degree, 19.644201760, 1e-7 * 19);
-  EXPECT_NEAR(HookeJoint::angle_for_fluctuation(100.0 / 1200) / degree, 16.422907928, 1e-7 * 16);
+  is.near("ex. 2: angle of the greatest acceleration", "°", steepest / degree, 41.45868,
+          2e-5);  // the case is off by 1.5 in its last digit
+  is.near("ex. 2: greatest acceleration", "rad/s²", acceleration, 3083.40203, 1e-7 * 3083);
+  is.near("ex. 2: torque of the inertia", "N·m", 0.12 * acceleration, 370.00824, 1e-7 * 370);
+  is.near("ex. 3: angle of equal speeds, 18°", "°", HookeJoint{18 * degree}.unity() / degree, 44.281274216, 1e-7 * 44);
+  is.near("ex. 4: angle of the shafts for 12 % fluctuation", "°", HookeJoint::angle_for_fluctuation(0.12) / degree,
+          19.644201760, 1e-7 * 19);
+  is.near("ex. 5: angle of the shafts for ± 50 of 1200 rpm", "°",
+          HookeJoint::angle_for_fluctuation(100.0 / 1200) / degree, 16.422907928, 1e-7 * 16);
   const HookeJoint ex7{20 * degree};  // two joints that add up
-  EXPECT_NEAR(500 * std::pow(ex7.greatest_ratio(), 2), 566.237165716, 1e-7 * 566);
-  EXPECT_NEAR(500 * std::pow(ex7.least_ratio(), 2), 441.511110775, 1e-7 * 441);
+  is.near("ex. 7: greatest speed of the driven shaft", "rpm", 500 * std::pow(ex7.greatest_ratio(), 2), 566.237165716,
+          1e-7 * 566);
+  is.near("ex. 7: least speed of the driven shaft", "rpm", 500 * std::pow(ex7.least_ratio(), 2), 441.511110775,
+          1e-7 * 441);
 }
 TEST(HookeJoint, AdvanceSlopeAndExtremesBelongTogether) {
   for (const double beta : {0.0, 5.0, 20.0, 45.0, 75.0}) {

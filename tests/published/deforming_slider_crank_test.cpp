@@ -9,6 +9,7 @@
 #include "engine/run/run.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/support/scenes.h"
+#include "tests/support/validation.h"
 
 namespace kurbel::test {
 namespace {
@@ -67,34 +68,38 @@ void expect_close(double found, double expected, double relative) {
 }
 
 TEST(FlexibleRod, MotionAndReactionsOfSimeonsSliderCrank) {
+  const Validation is(Against::published,
+                      "Simeon: slider crank with a flexible rod, Test Set for IVP Solvers, at 0.1 s");
   const Scene scene = scene_from(simeon);
   auto end = at_the_end(with_stretching_masses(scene, 15), 1e-12);
   const double x = end["position.crank"], u = end["stretching_end.crank"];
-  expect_close(x, 0.1697373326718410, 1e-8);
+  is.close("position of the slider", "m", x, 0.1697373326718410, 1e-8);
   // r sin φ + (l + u) sin β = 0
-  expect_close(std::asin(-0.15 * std::sin(15.0) / (0.3 + u)), -0.3311734987910881, 1e-8);
-  expect_close(end["bending_1.crank"], 1.893192460247178e-4, 1e-6);
-  expect_close(end["bending_2.crank"], 2.375751865617931e-5, 1e-6);
-  expect_close(end["stretching_middle.crank"], -5.323907988763734e-6, 1e-5);
-  expect_close(u, -8.363283141616840e-6, 1e-5);
-  expect_close(end["velocity.crank"], -8.753116989887888, 1e-6);
+  is.close("angle of the rod", "rad", std::asin(-0.15 * std::sin(15.0) / (0.3 + u)), -0.3311734987910881, 1e-8);
+  is.close("first bending mode", "m", end["bending_1.crank"], 1.893192460247178e-4, 1e-6);
+  is.close("second bending mode", "m", end["bending_2.crank"], 2.375751865617931e-5, 1e-6);
+  is.close("stretching of the middle", "m", end["stretching_middle.crank"], -5.323907988763734e-6, 1e-5);
+  is.close("stretching of the end", "m", u, -8.363283141616840e-6, 1e-5);
+  is.close("velocity of the slider", "m/s", end["velocity.crank"], -8.753116989887888, 1e-6);
   // Multipliers: force of the guide, force on the slider along it, torque on the crank; all with the other sign.
-  expect_close(end["guide_reaction.crank"], 62.32893262533717, 2e-5);
-  expect_close(0.075552 * end["acceleration.crank"], 163.7910131687472, 2e-5);
-  expect_close(end["torque.coupling"], -25.29853213732781, 2e-5);
+  is.close("force of the guide", "N", end["guide_reaction.crank"], 62.32893262533717, 2e-5);
+  is.close("force on the slider", "N", 0.075552 * end["acceleration.crank"], 163.7910131687472, 2e-5);
+  is.close("torque on the crank", "N·m", end["torque.coupling"], -25.29853213732781, 2e-5);
 }
 
 // The published start is that of smooth motion: the rod stretched as its own inertia and the slider's pull it. In
 // equilibrium q̈ = 0, which smooth motion is only nearly: 1e-4 of the amplitudes.
 TEST(FlexibleRod, EquilibriumAtTheStartIsSimeonsSmoothMotion) {
+  const Validation is(Against::published,
+                      "Simeon: slider crank with a flexible rod, Test Set for IVP Solvers, smooth motion at the start");
   Scene scene = scene_from(simeon);
   scene.run.start.equilibrium = true;
   Equations equations(with_stretching_masses(scene, 15), false);
   const std::vector<double> y = equations.start(0);
   const double* own = y.data() + y.size() - 8;
   EXPECT_NEAR(own[0], 0, 1e-12);
-  expect_close(own[2], 0.103339863e-4, 2e-4);
-  expect_close(own[3], 0.169327969e-4, 2e-4);
+  is.close("stretching of the middle at the start", "m", own[2], 0.103339863e-4, 2e-4);
+  is.close("stretching of the end at the start", "m", own[3], 0.169327969e-4, 2e-4);
 }
 
 // With the masses that belong to the shape functions the motion is the same within what stretching does.
@@ -130,6 +135,8 @@ accuracy = 1e-9
 )";
 
 TEST(JointClearance, FirstContactOfFloresSliderCrank) {
+  const Validation is(Against::published,
+                      "Flores, Leine, Glocker (2010): slider-crank with clearance, free flight to the first contact");
   const Scene scene = scene_from(flores);
   const auto model = compile(scene, scene.effects);
   Equations equations(model, false);
@@ -139,24 +146,25 @@ TEST(JointClearance, FirstContactOfFloresSliderCrank) {
   ASSERT_FALSE(outcome.events.empty());
   const Event& touch = outcome.events.front();
   EXPECT_NE(touch.what.find("touches"), std::string::npos);
-  expect_close(touch.t, 0.002692502752, 1e-6);
+  is.close("time of the first contact", "s", touch.t, 0.002692502752, 1e-6);
   // The state there.
   Equations flight(model, false);
   const RunOutcome there =
       integrate(flight, {.tolerance = 1e-12, .method = "dop853", .until = touch.t, .progress = {}}, {});
   const Snapshot& s = flight.snapshot(there.t, there.state);
   const double phi = s.node_angle[model->reduction_node], omega = s.now.speed[0];
-  expect_close(phi, 0.35530446, 1e-7);
-  expect_close(omega, 109.55768154, 1e-7);
+  is.close("angle of the crank there", "rad", phi, 0.35530446, 1e-7);
+  is.close("speed of the crank there", "rad/s", omega, 109.55768154, 1e-7);
   const double y = s.now.own[0], y_rate = s.now.own[2];
-  expect_close(y, 1e-3, 1e-9);
-  expect_close(std::asin((y - 0.153 * std::sin(phi)) / 0.306), -0.17150954, 1e-7);
-  expect_close(y_rate, 0.84161232, 1e-6);  // gap speed: the slider does not tilt
+  is.close("place of the slider across the guide", "m", y, 1e-3, 1e-9);
+  is.close("angle of the rod there", "rad", std::asin((y - 0.153 * std::sin(phi)) / 0.306), -0.17150954, 1e-7);
+  is.close("approach speed", "m/s", y_rate, 0.84161232, 1e-6);  // gap speed: the slider does not tilt
   EXPECT_NEAR(s.now.own[1], 0, 1e-15);
   Equations earlier(model, false);
   const RunOutcome before =
       integrate(earlier, {.tolerance = 1e-12, .method = "dop853", .until = 2.1e-3, .progress = {}}, {});
-  expect_close(earlier.snapshot(before.t, before.state).now.own[0] / 1e-3, 0.5572862855, 1e-7);
+  is.close("place of the slider across the guide at 2.1 ms, over 1 mm", "",
+           earlier.snapshot(before.t, before.state).now.own[0] / 1e-3, 0.5572862855, 1e-7);
 }
 
 }  // namespace

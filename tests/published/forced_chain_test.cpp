@@ -5,13 +5,16 @@
 #include <Eigen/Dense>
 
 #include "tests/published/published.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
 using test::two_pi;
+using test::Validation;
 
 // --- Modelica.Mechanics.Rotational.Examples.First: motor 0.1, gear 10, J2 = 2 with 10 N·m·s/rad to the frame, k = 1e4,
 // J3 = 2 ---
@@ -52,23 +55,30 @@ start = {}
 }
 
 TEST(GearedForcedChain, TransientAfterOneSecondMatchesTheConvergedSolution) {
+  const Validation is(Against::published,
+                      "Modelica.Mechanics.Rotational.Examples.First (case el04), recomputed to convergence");
   const Result r = run(first(1, 51, "\"rest\""));
   ASSERT_TRUE(r.complete) << r.diagnosis;
-  EXPECT_NEAR(figure(r, "final_angle.j2"), 0.16232823, 6e-9);  // own_t1, eight decimals
-  EXPECT_NEAR(figure(r, "final_speed.j2"), -0.11224931, 6e-9);
-  EXPECT_NEAR(figure(r, "final_angle.j3"), 0.16286164, 6e-9);
-  EXPECT_NEAR(figure(r, "final_speed.j3"), -0.13814528, 6e-9);
+  is.near("angle of J2 after 1 s", "rad", 1, r.find("final_angle.j2"), 0.16232823, 6e-9);  // own_t1, eight decimals
+  is.near("speed of J2 after 1 s", "rad/s", 1, r.find("final_speed.j2"), -0.11224931, 6e-9);
+  is.near("angle of J3 after 1 s", "rad", 1, r.find("final_angle.j3"), 0.16286164, 6e-9);
+  is.near("speed of J3 after 1 s", "rad/s", 1, r.find("final_speed.j3"), -0.13814528, 6e-9);
   EXPECT_NEAR(figure(r, "final_angle.motor"), 10 * figure(r, "final_angle.j2"), 1e-14);
 }
 
 // The published series holds to its own tolerance: 3e-6 rad, 2e-4 rad/s. Its damper is mounted the other way round.
 TEST(GearedForcedChain, TransientFollowsTheModelicaSeries) {
+  const Validation is(
+      Against::published,
+      "Modelica.Mechanics.Rotational.Examples.First (case el04), published series (largest difference)");
   const Result r = run(first(1, 51, "\"rest\""));
-  EXPECT_LT(test::largest_difference(r, "angle.j3", test::published_series("el04_first.csv", 1, 4)), 5e-6);
-  EXPECT_LT(test::largest_difference(r, "speed.j3", test::published_series("el04_first.csv", 1, 5)), 3e-4);
+  is.near("angle of J3", "rad", test::largest_difference(r, "angle.j3", test::published_series("el04_first.csv", 1, 4)),
+          0, 5e-6);
+  is.near("speed of J3", "rad/s",
+          test::largest_difference(r, "speed.j3", test::published_series("el04_first.csv", 1, 5)), 0, 3e-4);
   Columns damper = test::published_series("el04_first.csv", 1, 2);
   for (double& phi : damper.y) phi = -phi;
-  EXPECT_LT(test::largest_difference(r, "angle.j2", damper), 5e-6);
+  is.near("angle of J2", "rad", test::largest_difference(r, "angle.j2", damper), 0, 5e-6);
 }
 
 // Complex amplitudes X of J ẍ + C ẋ + K x = F e^{iωt}.
@@ -91,6 +101,8 @@ std::string periodic_start(const std::vector<std::string>& names, const Eigen::V
 }
 
 TEST(GearedForcedChain, PeriodicRegimeHasTheAmplitudesOfTheClosedForm) {
+  const Validation is(Against::closed_form,
+                      "Chain of motor, gear and two inertias under a harmonic torque: complex amplitudes (case el04)");
   const double omega = two_pi * 5, geared = 0.1 * 10 * 10 + 2;  // motor's inertia counts with i²
   Eigen::Matrix2d j, c, k;
   j << geared, 0, 0, 2;
@@ -100,9 +112,9 @@ TEST(GearedForcedChain, PeriodicRegimeHasTheAmplitudesOfTheClosedForm) {
   EXPECT_NEAR(std::abs(x[0]), 0.0069899, 6e-8);                                           // the case's own digits
   EXPECT_NEAR(std::abs(x[1]), 0.00870898, 6e-9);
   const Result r = run(first(1, 501, periodic_start({"j2", "j3"}, x, omega)));  // five periods
-  EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j2", omega), std::abs(x[0]), 1e-11);
-  EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j3", omega), std::abs(x[1]), 1e-11);
-  EXPECT_NEAR(std::abs(figure(r, "peak_spring_torque.spring")), 17.19084363, 1e-7);
+  is.near("amplitude of J2", "rad", test::harmonic_amplitude(r, "angle.j2", omega), std::abs(x[0]), 1e-11);
+  is.near("amplitude of J3", "rad", test::harmonic_amplitude(r, "angle.j3", omega), std::abs(x[1]), 1e-11);
+  is.near("greatest torque of the spring", "N·m", std::abs(figure(r, "peak_spring_torque.spring")), 17.19084363, 1e-7);
   // It is periodic: the end is the start.
   EXPECT_NEAR(figure(r, "final_angle.j3"), x[1].imag(), 1e-11);
   EXPECT_NEAR(figure(r, "final_speed.j3"), omega * x[1].real(), 1e-10);
@@ -149,6 +161,9 @@ start = {}
 }
 
 TEST_P(ThreeDiscs, SteadyAmplitudesAndTorquesMatchTheClosedForm) {
+  const Validation is(
+      Against::closed_form,
+      "Three discs under a harmonic torque, below, between and above their natural frequencies (case el04)");
   const ForcedCase& given = GetParam();
   Eigen::Matrix3d c, k;
   c << 15, -15, 0, -15, 15, 0, 0, 0, 0;
@@ -158,11 +173,16 @@ TEST_P(ThreeDiscs, SteadyAmplitudesAndTorquesMatchTheClosedForm) {
   const Result r = run(three_discs(given.omega, periodic_start({"j1", "j2", "j3"}, x, given.omega)));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const double last_digit = 6e-9;  // eight decimals are given
-  EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j1", given.omega), given.amplitude1, last_digit);
-  EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j2", given.omega), given.amplitude2, last_digit);
-  EXPECT_NEAR(test::harmonic_amplitude(r, "angle.j3", given.omega), given.amplitude3, last_digit);
-  EXPECT_NEAR(std::abs(figure(r, "peak_torque.k1")), given.torque1, 1e-8 * given.torque1);
-  EXPECT_NEAR(std::abs(figure(r, "peak_torque.k2")), given.torque2, 1e-8 * given.torque2);
+  is.near(fmt::format("{} rad/s: amplitude of disc 1", given.omega), "rad",
+          test::harmonic_amplitude(r, "angle.j1", given.omega), given.amplitude1, last_digit);
+  is.near(fmt::format("{} rad/s: amplitude of disc 2", given.omega), "rad",
+          test::harmonic_amplitude(r, "angle.j2", given.omega), given.amplitude2, last_digit);
+  is.near(fmt::format("{} rad/s: amplitude of disc 3", given.omega), "rad",
+          test::harmonic_amplitude(r, "angle.j3", given.omega), given.amplitude3, last_digit);
+  is.close(fmt::format("{} rad/s: torque between 1 and 2", given.omega), "N·m", std::abs(figure(r, "peak_torque.k1")),
+           given.torque1, 1e-8);
+  is.close(fmt::format("{} rad/s: torque between 2 and 3", given.omega), "N·m", std::abs(figure(r, "peak_torque.k2")),
+           given.torque2, 1e-8);
   // Four periods later every disc is where it began: no other motion is mixed in.
   for (const auto& [name, i] : {std::pair{"j1", 0}, {"j2", 1}, {"j3", 2}})
     EXPECT_NEAR(figure(r, std::string("final_angle.") + name), x[i].imag(), 1e-10) << name;

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include "tests/published/published.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
+using test::Against;
 using test::figure;
 using test::run;
+using test::Validation;
 
 // A disc (J = 1 kg·m², spring 100 N·m/rad to the frame) rubs on a shaft that turns at 0.1 rad/s: static 6 N·m,
 // kinetic 4 N·m. The same numbers as the mass on a belt.
@@ -40,25 +43,29 @@ accuracy = 1e-11
 )";
 
 TEST(FrictionOscillator, SticksAndSlipsWithThePeriodOfTheClosedForm) {
+  const Validation is(Against::closed_form, "Stick–slip on a belt: spring, static and kinetic friction (case el03)");
   const Result r = run(stick_slip);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   std::vector<double> locks, slips;
   for (const Event& e : r.events) (e.what == "locks" ? locks : slips).push_back(e.t);
   ASSERT_GE(locks.size(), 9u);
   ASSERT_GE(slips.size(), 10u);
-  EXPECT_NEAR(slips[0], 0.6, 1e-10);  // from x = 0 to 0.06 at the speed of the belt
+  is.near("end of the first sticking", "s", slips[0], 0.6, 1e-10);  // from x = 0 to 0.06 at the speed of the belt
   for (std::size_t k = 0; k < 9; ++k) {
     EXPECT_NEAR(locks[k] - slips[k], 0.40688878715914056, 1e-8) << k;
     EXPECT_NEAR(slips[k + 1] - locks[k], 0.4, 1e-8) << k;
   }
-  EXPECT_NEAR(slips[9] - slips[0], 9 * 0.8068887871591406, 1e-8);
+  is.near("nine periods, first to last slip", "s", slips[9] - slips[0], 9 * 0.8068887871591406, 1e-8);
   const auto speed = test::series(r, "speed.disc");
-  EXPECT_NEAR(*std::min_element(speed.begin(), speed.end()), -0.223606797749979, 1e-5);  // of samples
-  EXPECT_NEAR(figure(r, "peak_spring_torque.spring"), 6.23606797749979, 1e-8);           // k x_max
+  is.near("least speed of the disc", "rad/s", *std::min_element(speed.begin(), speed.end()), -0.223606797749979,
+          1e-5);  // of samples
+  is.near("greatest torque of the spring", "N·m", 1, r.find("peak_spring_torque.spring"), 6.23606797749979,
+          1e-8);  // k x_max
 }
 
 // J = 0.02 kg·m², k = 8 N·m/rad, dry friction 0.4 N·m, released at 0.53 rad: each half-swing loses 2 M_f/k = 0.1 rad.
 TEST(FrictionOscillator, PendulumLosesTheSameEachSwingAndStopsOffTheMiddle) {
+  const Validation is(Against::closed_form, "Torsional pendulum with dry friction (case el03)");
   const Result r = run(R"(
 line = ["pendulum", "spring", "frame"]
 [pendulum]
@@ -95,9 +102,9 @@ samples = 10001
   }
   EXPECT_EQ(turns, 4u);
   const auto twist = test::series(r, "twist.spring");
-  EXPECT_NEAR(twist.back(), -0.03, 1e-10);
+  is.near("twist where it stops", "rad", twist.back(), -0.03, 1e-10);
   EXPECT_EQ(figure(r, "final_speed.pendulum"), 0);
-  EXPECT_NEAR(r.energy.by_line.at("harmful"), -0.5 * 8 * (0.53 * 0.53 - 0.03 * 0.03), 1e-9);
+  is.near("energy lost", "J", r.energy.by_line.at("harmful"), -0.5 * 8 * (0.53 * 0.53 - 0.03 * 0.03), 1e-9);
 }
 
 }  // namespace

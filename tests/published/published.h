@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/linear/eigen_modes.h"
 #include "engine/events/equations.h"
+#include "engine/linear/eigen_modes.h"
 #include "engine/scene/csv.h"
 #include "tests/support/scenes.h"
+#include "tests/support/validation.h"
 
 namespace kurbel::test {
 
@@ -94,12 +95,14 @@ inline std::vector<double> natural_frequencies(const std::string& text) {
   return frequencies;
 }
 
-inline void expect_frequencies(const std::string& text, const std::vector<double>& expected, double unit,
-                               double relative) {
+// A row of the page for each mode; the unit is 2π for Hz, 2π/60 for a number per minute, 1 for rad/s.
+inline void expect_frequencies(const Validation& is, const std::string& text, const std::vector<double>& expected,
+                               double unit, double relative) {
+  const std::string name = unit == two_pi ? "Hz" : unit == 1 ? "rad/s" : "1/min";
   const std::vector<double> found = natural_frequencies(text);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_NEAR(found[i] / unit, expected[i], relative * expected[i]) << "mode " << i + 1;
+    is.close("natural frequency " + std::to_string(i + 1), name, found[i] / unit, expected[i], relative);
   // The same from M and K, where rigid motion comes first.
   const Scene scene = scene_from(text);
   const UndampedModes modes = undamped_modes(linearise(compile(scene, scene.effects), {}));

@@ -7,13 +7,16 @@
 
 #include "studies/modes/modes.h"
 #include "tests/published/published.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
 
 using fmt::format;
+using test::Against;
 using test::published_series;
 using test::two_pi;
+using test::Validation;
 
 constexpr double rpm = two_pi / 60;
 constexpr double lbf_in = 4.4482216152605 * 0.0254;  // [N·m]
@@ -93,16 +96,22 @@ std::vector<std::pair<double, double>> marine_curve(const ModesStudy& study) {
 }
 
 TEST(MarineTurbineSet, FrequenciesAreThePublishedOnes) {
+  const Validation is(Against::published,
+                      "Gunter, Chen: marine turbines, two stages of gears, one propeller, ex. 8.1 (case tv01)");
   const ModesStudy study = marine_study();
   ASSERT_EQ(study.modes.size(), 5u);
   const double printed[] = {177.7, 220.2, 1282.6};  // one decimal
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(study.modes[i].omega / rpm, printed[i], 0.05);
+  for (std::size_t i = 0; i < 3; ++i)
+    is.near(format("natural frequency {}, as printed", i + 1), "1/min", study.modes[i].omega / rpm, printed[i], 0.05);
   const double own[] = {177.71115153, 220.17628309, 1282.5845570, 2496.8671891, 2883.3823815};
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(study.modes[i].omega / rpm, own[i], 1e-8 * own[i]);
+  for (std::size_t i = 0; i < 5; ++i)
+    is.close(format("natural frequency {}, recomputed", i + 1), "1/min", study.modes[i].omega / rpm, own[i], 1e-8);
 }
 
 // Holzer's way from the propeller to both turbines, at the frequency found.
 TEST(MarineTurbineSet, FirstModeSwingsThePropellerAgainstAllElse) {
+  const Validation is(Against::closed_form,
+                      "Marine turbines: first mode by Holzer's way from the propeller to both turbines");
   const ModesStudy study = marine_study();
   const double w2 = std::pow(177.71115153 * rpm, 2), first = 9.4094, lp = 40.0424 / first, hp = 78.2365 / first;
   const double bull = 1 - w2 * 2.454e6 / 826e6;
@@ -115,29 +124,39 @@ TEST(MarineTurbineSet, FirstModeSwingsThePropellerAgainstAllElse) {
   const auto [lp_quill, lp_wheel] = branch(1.509e4, 30.51e6, lp, 1.283e4, 203.94e6);
   const auto [hp_quill, hp_wheel] = branch(261.2, 14.26e6, hp, 2.723e4, 24.17e6);
   const double lp_turbine = first * bull / lp_quill, hp_turbine = first * bull / hp_quill;
-  EXPECT_NEAR(shape_ratio(study, 0, "lp_turbine", "propeller"), lp_turbine, 1e-8 * std::abs(lp_turbine));
-  EXPECT_NEAR(shape_ratio(study, 0, "lp_intermediate", "propeller"), lp_turbine * lp_wheel, 1e-7);
-  EXPECT_NEAR(shape_ratio(study, 0, "hp_turbine", "propeller"), hp_turbine, 1e-8 * std::abs(hp_turbine));
-  EXPECT_NEAR(shape_ratio(study, 0, "hp_intermediate", "propeller"), hp_turbine * hp_wheel, 1e-7);
+  is.near("LP turbine over propeller", "", shape_ratio(study, 0, "lp_turbine", "propeller"), lp_turbine,
+          1e-8 * std::abs(lp_turbine));
+  is.near("LP intermediate wheel over propeller", "", shape_ratio(study, 0, "lp_intermediate", "propeller"),
+          lp_turbine * lp_wheel, 1e-7);
+  is.near("HP turbine over propeller", "", shape_ratio(study, 0, "hp_turbine", "propeller"), hp_turbine,
+          1e-8 * std::abs(hp_turbine));
+  is.near("HP intermediate wheel over propeller", "", shape_ratio(study, 0, "hp_intermediate", "propeller"),
+          hp_turbine * hp_wheel, 1e-7);
   EXPECT_LT(bull, 0);
 }
 
 TEST(MarineTurbineSet, FifthOrderIsCriticalWhereTheCurveHasItsPeak) {
+  const Validation is(Against::published,
+                      "Gunter, Chen: marine turbines, two stages of gears, one propeller, ex. 8.1 (case tv01)");
   const ModesStudy study = marine_study();
   ASSERT_EQ(study.critical.size(), 2u);  // both modes below 98 rpm · 5
   EXPECT_EQ(study.critical[0].order, 5);
-  EXPECT_NEAR(study.critical[0].speed / rpm, 177.71115153 / 5, 1e-7);
-  EXPECT_NEAR(study.critical[1].speed / rpm, 220.17628309 / 5, 1e-7);
+  is.near("critical speed of the fifth order, first mode", "rpm", study.critical[0].speed / rpm, 177.71115153 / 5,
+          1e-7);
+  is.near("critical speed of the fifth order, second mode", "rpm", study.critical[1].speed / rpm, 220.17628309 / 5,
+          1e-7);
   const auto curve = marine_curve(study);
   const auto top =
       *std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  EXPECT_NEAR(top.first, 35.46, 0.3);      // as read off the figure
-  EXPECT_NEAR(top.second, 4.149e6, 60e3);  // the same
+  is.near("speed of the greatest torque, read off the figure", "rpm", top.first, 35.46, 0.3);  // as read off the figure
+  is.near("greatest torque of the propeller shaft, read off the figure", "lbf·in", top.second, 4.149e6,
+          60e3);  // the same
   const Scene scene = test::scene_from(marine_turbines(blade_torque_at_85_rpm * std::pow(35.6 / 85, 2)));
   const ModesStudy there = find_modes(scene, scene.effects, {.speed = 35.6 * rpm});
   // k |θ| of the full matrices; here the shaft's damper counts, too, and the wave is a spline through 72 points.
   const double damper = 2 * 0.00398 * 5 * 35.6 / 177.71115153;
-  EXPECT_NEAR(amplitude_in(there, "propeller_shaft") / lbf_in, 4.174976e6 * std::hypot(1, damper), 10);
+  is.near("torque of the propeller shaft at 35.6 rpm by full matrices", "lbf·in",
+          amplitude_in(there, "propeller_shaft") / lbf_in, 4.174976e6 * std::hypot(1, damper), 10);
   EXPECT_NEAR(study.modes[0].ratio, 0.0391 + 0.00398, 2e-4);  // propeller's damping in the mode, and the modal one
 }
 
@@ -269,7 +288,8 @@ std::vector<double> Crankshaft::sums_of_amplitudes(double n) const {
 
 ModesStudy crankshaft_study(const Crankshaft& shaft, double n) {
   const Scene scene = test::scene_from(shaft.scene(n));
-  return find_modes(scene, scene.effects, {.speed = n * rpm, .slowest = 0.999 * n * rpm, .fastest = 1.001 * n * rpm, .orders = 12});
+  return find_modes(scene, scene.effects,
+                    {.speed = n * rpm, .slowest = 0.999 * n * rpm, .fastest = 1.001 * n * rpm, .orders = 12});
 }
 
 class DieselCrankshaft : public ::testing::TestWithParam<double> {};
@@ -278,6 +298,8 @@ class DieselCrankshaft : public ::testing::TestWithParam<double> {};
 // of the pulley, the diagram's finer orders. Against the source's own procedure with the same data the difference is
 // that of viscous and hysteretic damping away from the first mode's frequency.
 TEST_P(DieselCrankshaft, SwingsByThePublishedTorques) {
+  const Validation is(Against::published,
+                      "Mendes, Meirelles, Zampieri (2008): crankshaft of a six-cylinder diesel engine (case tv02)");
   const double n = GetParam();
   const Crankshaft shaft;
   const ModesStudy study = crankshaft_study(shaft, n);
@@ -287,28 +309,31 @@ TEST_P(DieselCrankshaft, SwingsByThePublishedTorques) {
   EXPECT_NEAR(pulley, exact[0], 0.0065 * exact[0]);
   const double printed_flywheel = Crankshaft::between(published_series("tv02_flywheel_torque.csv", 1, 2), n),
                printed_pulley = Crankshaft::between(published_series("tv02_pulley_torque.csv", 1, 2), n);
-  EXPECT_NEAR(flywheel, printed_flywheel, 0.045 * printed_flywheel);
-  EXPECT_NEAR(pulley, printed_pulley, (n < 1940 ? 0.18 : 0.08) * printed_pulley);
+  is.close(format("{} rpm: torque at the flywheel, read off the figure", n), "N·m", flywheel, printed_flywheel, 0.045);
+  is.close(format("{} rpm: torque at the pulley, read off the figure", n), "N·m", pulley, printed_pulley,
+           (n < 1940 ? 0.18 : 0.08));
 }
 INSTANTIATE_TEST_SUITE_P(ThroughTheSixthOrder, DieselCrankshaft,
                          ::testing::Values(1850.4, 2049.7, 2149.3, 2249.8, 2324.1),
                          [](const auto& info) { return format("At{:.0f}Rpm", info.param); });
 
 TEST(DieselCrankshaftCriticals, SixthOrderAndItsNeighboursMeetTheFirstModeWhereTheFiguresPeak) {
+  const Validation is(Against::published,
+                      "Mendes, Meirelles, Zampieri (2008): crankshaft of a six-cylinder diesel engine (case tv02)");
   const Crankshaft shaft;
   const Scene scene = test::scene_from(shaft.scene(2149.3));
   const ModesStudy study =
       find_modes(scene, scene.effects, {.slowest = 1000 * rpm, .fastest = 2550 * rpm, .orders = 12});
-  EXPECT_NEAR(study.modes[0].omega / two_pi, 216.58, 0.006);
+  is.near("first natural frequency", "Hz", study.modes[0].omega / two_pi, 216.58, 0.006);
   const auto critical = [&](double order) {
     for (const CriticalSpeed& c : study.critical)
       if (c.mode == 1 && c.order == order) return c.speed / rpm;
     return 0.0;
   };
-  EXPECT_NEAR(critical(6), 216.583605 * 60 / 6, 0.01);
+  is.near("critical speed of the sixth order", "rpm", critical(6), 216.583605 * 60 / 6, 0.01);
   // Highest points of both figures: 2149 and 2148 rpm, and 1749 rpm in the pulley's.
-  EXPECT_NEAR(critical(6), 2149, 25);
-  EXPECT_NEAR(critical(7.5), 1749, 25);
+  is.near("critical speed of the sixth order, read off the figure", "rpm", critical(6), 2149, 25);
+  is.near("critical speed of order 7½, read off the figure", "rpm", critical(7.5), 1749, 25);
 }
 
 // --- TV03: Holzer's table (Thomson, ex. 12.4-1) ---
@@ -326,6 +351,7 @@ effects = { elasticity = true }
 // The table's last line is the torque that must be taken off the last disc so that the first one swings by 1 rad: the
 // forced undamped chain answers to it with the table's angles and torques.
 TEST(HolzerTable, TorqueLeftOverForcesTheTablesMotion) {
+  const Validation is(Against::published, "Thomson: Theory of Vibration, ex. 12.4-1, Holzer's table (case tv03)");
   struct Row {
     double omega, torque1, torque2, torque3;
     double half1, half2, half3;  // units in the last printed place, half of them
@@ -336,12 +362,15 @@ TEST(HolzerTable, TorqueLeftOverForcesTheTablesMotion) {
     const Scene scene = test::scene_from(text);
     const ModesStudy study = find_modes(scene, scene.effects, {});
     const double given = row.half3 / row.torque3;  // the torque that forces is itself rounded
-    EXPECT_NEAR(amplitude_in(study, "k1"), row.torque1, row.half1 + given * row.torque1);
-    EXPECT_NEAR(amplitude_in(study, "k2"), row.torque2, row.half2 + given * row.torque2);
+    is.close(format("{} rad/s: torque after disc 1", row.omega), "N·m", amplitude_in(study, "k1"), row.torque1,
+             row.half1 + given);
+    is.close(format("{} rad/s: torque after disc 2", row.omega), "N·m", amplitude_in(study, "k2"), row.torque2,
+             row.half2 + given);
   }
 }
 
 TEST(HolzerTable, NaturalFrequenciesLeaveNoTorqueOverAndShapesAreTheTables) {
+  const Validation is(Against::closed_form, "Holzer's table of three discs at its natural frequencies (case tv03)");
   std::string text = test::with(three_discs, "AMPLITUDE", "1");
   const Scene scene = test::scene_from(test::with(text, "FREQUENCY", "1"));
   const ModesStudy study = find_modes(scene, scene.effects, {});
@@ -349,11 +378,11 @@ TEST(HolzerTable, NaturalFrequenciesLeaveNoTorqueOverAndShapesAreTheTables) {
   const double own[] = {123.665800, 202.658349};
   for (std::size_t i = 0; i < 2; ++i) {
     const double w = study.modes[i].omega, w2 = w * w;
-    EXPECT_NEAR(w, own[i], 6e-7);
+    is.near(format("natural frequency {}", i + 1), "rad/s", w, own[i], 6e-7);
     const double second = 1 - w2 * 5 / 0.10e6, third = second - w2 * (5 + 11 * second) / 0.20e6;
     EXPECT_NEAR(w2 * (5 + 11 * second + 22 * third), 0, 1e-9 * w2 * 22);
-    EXPECT_NEAR(shape_ratio(study, i, "b", "a"), second, 1e-11);
-    EXPECT_NEAR(shape_ratio(study, i, "c", "a"), third, 1e-11);
+    is.near(format("mode {}: second disc over the first", i + 1), "", shape_ratio(study, i, "b", "a"), second, 1e-11);
+    is.near(format("mode {}: third disc over the first", i + 1), "", shape_ratio(study, i, "c", "a"), third, 1e-11);
   }
 }
 

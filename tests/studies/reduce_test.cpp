@@ -7,9 +7,13 @@
 
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/published/published.h"
+#include "tests/support/validation.h"
 
 namespace kurbel {
 namespace {
+
+using test::Against;
+using test::Validation;
 
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 
@@ -169,6 +173,8 @@ TEST(Reduce, DriveBecomesTheChainThatAnEngineerDrawsByHand) {
 // Dubey 2.1 (tests/cases/mo02_closed_forms.toml) without its gear losses, which a reduction of inertia has not: motor,
 // a load through a gear of 0.1, a mass hoisted at 1.5 m/s with the motor at 1420 rpm.
 TEST(Reduce, GearTrainOfDubey) {
+  const Validation is(Against::published,
+                      "Dubey: Fundamentals of Electrical Drives, ex. 2.1, reduced inertia without losses");
   const double hoist = 1000 * std::pow(1.5 / (1420 * pi / 30), 2);
   const std::string scene = R"(
 line = ["motor", "gear", "load"]
@@ -178,7 +184,7 @@ gear  = { kind = "gearbox", stages = [{ teeth = [20, 200] }] }
 load  = { kind = "load", torque = "10 N*m", inertia = "10 kg*m2" }
 )";
   const MachineReduction r = reduce(test::scene_from(scene), {});
-  EXPECT_NEAR(r.positions.front().inertia, 0.4017533212, 1e-9);
+  is.near("inertia reduced to the motor", "kg·m²", r.positions.front().inertia, 0.4017533212, 1e-9);
   EXPECT_NEAR(r.positions.front().load, 1.0, 1e-12);  // 10 N·m through 0.1
 }
 
