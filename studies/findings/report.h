@@ -34,6 +34,8 @@ struct KeyFigure {
 struct Axis {
   std::string label, unit = {};  // unit as it is to be read
   bool logarithmic = false;
+  std::optional<double> least = {}, greatest = {};  // ends of what is shown; default: of the data
+  std::vector<std::string> names = {};              // of 1, 2, 3 …: an axis of parts instead of numbers
 };
 
 struct Series {
@@ -44,12 +46,29 @@ struct Series {
   bool points = false;                   // markers beside the line
   bool line = true;                      // false: markers alone
   std::vector<std::string> labels = {};  // what a point is, for those who point at it; none, or one each
+  std::vector<double> sizes = {};        // of markers, over the usual one; none, or one each
+  // Written beside its first and its last point, in its colour; a series that says its name so is not in the legend.
+  std::string text_at_start = {}, text_at_end = {};
 };
 
 // Something that happened, on the x-axis.
 struct EventMark {
   double x = 0;
   std::string text;
+};
+
+// A stretch of the x-axis: barred speeds, a range of operation; of no width: a line.
+struct Band {
+  double from = 0, to = 0;
+  std::string text;
+  Role role = Role::vermillion;
+};
+
+// Colours over a plane: z[i][k] at y[i] and x[k]; both ascend. Lines of the plot lie above it.
+struct ColourMap {
+  std::string name, unit;  // of what the colours stand for
+  std::vector<double> x, y;
+  std::vector<std::vector<double>> z;  // NaN: nothing known there
 };
 
 struct Plot {
@@ -60,6 +79,9 @@ struct Plot {
   std::string note = {};
   bool equal_axes = false;  // one unit is as long on either axis: polar diagrams, loci
   bool bars = false;        // harmonics and the like
+  bool wide = false;        // takes the whole width of the page
+  std::vector<Band> bands = {};
+  std::optional<ColourMap> map = {};
 };
 
 // The ground of a table's cell, where cells are verdicts.

@@ -31,6 +31,25 @@ std::vector<Passing> passing_of(const ModesStudy& found) {
   return passing;
 }
 
+// One order's amplitude about the mean at that speed, as a load of its joint.
+void find_severity(double factor, ModesStudy& found) {
+  for (CriticalSpeed& c : found.critical) {
+    const auto nearest =
+        std::min_element(found.sweep.begin(), found.sweep.end(), [&c](const SpeedResponse& a, const SpeedResponse& b) {
+          return std::abs(a.speed - c.speed) < std::abs(b.speed - c.speed);
+        });
+    if (nearest == found.sweep.end()) return;
+    JointLoad load;
+    load.mean.value = nearest->joints[c.joint].mean;
+    load.upper.value = load.mean.value + c.amplitude, load.lower.value = load.mean.value - c.amplitude;
+    load.swing.value = c.amplitude;
+    load.frequency = c.order * c.speed / (2 * std::numbers::pi);
+    load.frequency_factor = frequency_factor(load.frequency);
+    load.weighted.value = load.frequency_factor * c.amplitude;
+    c.share = share_of_bearable(found.limited[c.joint], load, factor);
+  }
+}
+
 void judge_history(ModesStudy& found) {
   if (!found.history || found.history->value.empty()) return;
   const TorqueHistory& h = *found.history;
@@ -61,6 +80,7 @@ JointLoad load_of(const JointResponse& response) {
 void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
                         ModesStudy& found) {
   found.limited = limited_joints(model);
+  find_severity(factor, found);
   std::vector<SpeedLoads> sweep;
   for (const SpeedResponse& s : found.sweep) sweep.push_back({s.speed, loads_of(s)});
   found.barred = barred_ranges(found.limited, sweep, factor, [&at](double speed) { return loads_of(at(speed)); });

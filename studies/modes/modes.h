@@ -98,8 +98,9 @@ struct CriticalSpeed {
   int mode = 0;
   double order = 0;
   std::size_t harmonic = 0;
-  double amplitude = 0;  // of this order alone, in the joint where it is largest over its mean [N·m]
+  double amplitude = 0;  // of this order alone, in the joint where it is largest, reduced to the link [N·m]
   std::size_t joint = 0;
+  double share = 0;  // of what that joint may bear (barred_ranges.h): how severe it is
 };
 
 struct ParametricZone {

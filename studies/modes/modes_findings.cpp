@@ -9,6 +9,7 @@
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
+#include "studies/modes/campbell.h"
 #include "studies/modes/modes_plots.h"
 #include "studies/modes/spot_findings.h"
 
@@ -18,7 +19,7 @@ namespace {
 using namespace modes;
 
 constexpr double cycle_error = 1e-5;  // of a peak read from 4096 samples of a round
-constexpr std::size_t critical_shown = 16, responses_shown = 40, most_for_programs = 1000;
+constexpr std::size_t responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.
 ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
@@ -106,6 +107,7 @@ Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
   table.always().text_in(1, 0);
   table.column("number", "mode", &Mode::number)
+      .column("name", "swings", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_programs("omega", &Mode::omega)
       .column(
           "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(8))
@@ -181,36 +183,6 @@ Rows response_table(const ModesStudy& m) {
               [&](double r) { return r > 0 ? read_as(r, digits(4)) : std::string("—"); })
       .column("amplitude", "its amplitude", of(&JointResponse::dominant_amplitude), digits(5))
       .column("power", "dissipated [W]", of(&JointResponse::power), digits(4));
-}
-
-Rows critical_table(const ModesStudy& m) {
-  return table_of("critical_speeds", "Strongest critical speeds", m.critical)
-      .headed(fmt::format("critical speeds ({} of {}, by amplitude)", std::min(critical_shown, m.critical.size()),
-                          m.critical.size()))
-      .text_in(0)
-      .people_see(strongest_critical(m, critical_shown))
-      .column("speed", fmt::format("speed [{}]", m.speed_unit.name), &CriticalSpeed::speed, in_unit(m.speed_unit, 6))
-      .column("mode", "mode", &CriticalSpeed::mode)
-      .column("order", "order", &CriticalSpeed::order, digits(4))
-      .column("amplitude", "amplitude of that order [N·m]", &CriticalSpeed::amplitude, digits(5))
-      .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; });
-}
-
-Rows zone_table(const ModesStudy& m) {
-  return table_of("parametric_zones", "Parametric instability by the varying inertia, first order", m.zones)
-      .headed("parametric instability by the varying inertia, first order")
-      .text_in(0)
-      .column("mode", "mode", &ParametricZone::mode)
-      .column(
-          "order", "order of the inertia", [&](const ParametricZone& z) { return m.excitations.order(z.harmonic); },
-          digits(4))
-      .column("speed", fmt::format("around [{}]", m.speed_unit.name), &ParametricZone::centre, in_unit(m.speed_unit, 6))
-      .column("variation", "variation ε", &ParametricZone::variation, digits(4))
-      .only_for_people(
-          fmt::format("half width [{}]", m.speed_unit.name),
-          [](const ParametricZone& z) { return z.centre * z.half_width; }, in_unit(m.speed_unit, 4))
-      .column("relative_half_width", "state", &ParametricZone::half_width,
-              [](double half_width) { return half_width > 0 ? "unstable inside" : "closed by damping"; });
 }
 
 struct LoadClass {

@@ -1,4 +1,4 @@
-// modes_plots.cpp — shapes, Campbell diagram, response over the speed, spectra.
+// modes_plots.cpp — shapes, response over the speed, spectra.
 #include "studies/modes/modes_plots.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
+#include "studies/modes/campbell.h"
 #include "studies/modes/spot_findings.h"
 
 namespace kurbel::modes {
@@ -21,6 +22,13 @@ std::string numbered(const std::vector<std::string>& names, const std::string& b
   for (std::size_t i = 0; i < names.size() && i < 24; ++i)
     text += fmt::format("{}{} {}", i ? ", " : begin, i + 1, names[i]);
   return text;
+}
+
+// Parts along an axis: by name, or by number where there are too many.
+Axis axis_of(const std::string& label, std::vector<std::string> names) {
+  if (names.size() > 40) return {.label = label};
+  for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');
+  return {.label = label, .names = std::move(names)};
 }
 
 // Amplitudes of a spectrum's lines up to `end`.
@@ -41,11 +49,13 @@ Series level(const ModesStudy& m, const std::string& name, Role role, double y) 
 // Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
 Plot shape_plot(const ModesStudy& m) {
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
-            .x = {"shaft", ""},
+            .x = axis_of("shaft", m.shaft_names),
             .y = {"relative amplitude", ""},
-            .series = {}};
+            .series = {},
+            .wide = m.shaft_names.size() > 8};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
-    Series s{.name = fmt::format("mode {}, {:.4g} Hz", m.modes[k].number, hertz(m.modes[k].natural())),
+    Series s{.name = fmt::format("mode {}, {:.4g} Hz: {}", m.modes[k].number, hertz(m.modes[k].natural()),
+                                 name_of(m, m.modes[k])),
              .role = further_role(k),
              .x = {},
              .y = {}};
@@ -61,16 +71,15 @@ Plot shape_plot(const ModesStudy& m) {
     for (double& y : s.y) y /= largest;
     plot.series.push_back(std::move(s));
   }
-  plot.note = numbered(m.shaft_names, "Shafts: ") + (m.shaft_names.size() > 24 ? ", …" : ".");
+  if (plot.x.names.empty()) plot.note = numbered(m.shaft_names, "Shafts: ") + ", …";
   return plot;
 }
 
 Plot energy_plot(const ModesStudy& m, bool kinetic) {
   Plot plot{.title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
-            .x = {kinetic ? "shaft" : "elastic element", ""},
+            .x = axis_of(kinetic ? "shaft" : "elastic element", kinetic ? m.shaft_names : m.joint_names),
             .y = {"share of the energy", "%"},
             .series = {},
-            .note = numbered(kinetic ? m.shaft_names : m.joint_names),
             .bars = true};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k), .x = {}, .y = {}};
@@ -82,23 +91,6 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
     plot.series.push_back(std::move(s));
   }
   return plot;
-}
-
-// Harmonics with the largest torque at the operating point; those that lead to the strongest critical speeds first.
-std::vector<std::size_t> orders_shown(const ModesStudy& m) {
-  std::vector<std::size_t> shown;
-  const auto show = [&](std::size_t r) {
-    if (shown.size() < lines_shown && std::find(shown.begin(), shown.end(), r) == shown.end()) shown.push_back(r);
-  };
-  for (const std::size_t i : strongest_critical(m, 8)) show(m.critical[i].harmonic);
-  std::vector<std::pair<double, std::size_t>> strength;
-  for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
-    strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
-  std::sort(strength.begin(), strength.end());
-  for (const auto& [negative, r] : strength)
-    if (negative < 0) show(r);
-  std::sort(shown.begin(), shown.end());
-  return shown;
 }
 
 Plot sweep_plot(const ModesStudy& m, std::size_t j) {
@@ -169,16 +161,6 @@ void mark_modes(const ModesStudy& m, Plot& plot, double end) {
       plot.marks.push_back({hertz(mode.natural()), fmt::format("mode {}", mode.number)});
 }
 
-// Up to a little above the highest mode that still shows.
-double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
-  double largest = 0, end = 0;
-  for (const double a : s.amplitude) largest = std::max(largest, a);
-  for (std::size_t i = 0; i < s.frequency.size(); ++i)
-    if (s.amplitude[i] > 2e-3 * largest) end = s.frequency[i];
-  if (!m.modes.empty()) end = std::max(end, 1.3 * hertz(m.modes.front().omega));
-  return std::min(1.1 * end, s.frequency.back());
-}
-
 Plot spectrum_plot(const ModesStudy& m, const TorqueHistory& h) {
   const double end = end_of_spectrum(m, h.spectrum);
   Plot plot{.title = fmt::format("Spectrum of the simulated {}, modes marked", h.channel),
@@ -198,30 +180,6 @@ Plot history_orders_plot(const ModesStudy& m, const TorqueHistory& h) {
           .note = fmt::format("Resampled over the angle; lines {:.3g} orders apart.", h.orders.resolution)};
 }
 
-// Lines one above the other, each set off by the speed at which its window was taken.
-Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
-  Plot plot{.title = fmt::format("Waterfall of {}: spectra along the run, modes marked", h.channel),
-            .x = {"frequency", "Hz"},
-            .y = {"speed of " + m.link + "; height of a line: amplitude", m.speed_unit.name},
-            .series = {}};
-  double largest = 0, low = HUGE_VAL, high = -HUGE_VAL, end = 0;
-  for (const WaterfallLine& line : h.lines) {
-    for (const double a : line.spectrum.amplitude) largest = std::max(largest, a);
-    low = std::min(low, m.speed_unit.of(line.speed));
-    high = std::max(high, m.speed_unit.of(line.speed));
-    end = std::max(end, end_of_spectrum(m, line.spectrum));
-  }
-  const double height = 0.25 * std::max(high - low, 0.05 * std::abs(high)) / std::max(largest, 1e-300);
-  for (const WaterfallLine& line : h.lines) {
-    Series s = lines_of(fmt::format("{:.3g} s, {}", line.time, m.speed_unit.text(line.speed, 4)), line.spectrum, end);
-    for (double& y : s.y) y = m.speed_unit.of(line.speed) + height * y;
-    plot.series.push_back(std::move(s));
-  }
-  mark_modes(m, plot, end);
-  plot.note = fmt::format("The highest peak stands for {}.", torque_text(largest));
-  return plot;
-}
-
 }  // namespace
 
 std::string torque_text(double value) {
@@ -235,61 +193,13 @@ std::size_t joint_with_largest_swing(const SpeedResponse& s) {
   return static_cast<std::size_t>(std::max_element(s.joints.begin(), s.joints.end(), less) - s.joints.begin());
 }
 
-std::vector<std::size_t> strongest_critical(const ModesStudy& m, std::size_t count) {
-  std::vector<std::size_t> places = numbers_below(m.critical.size());
-  std::stable_sort(places.begin(), places.end(),
-                   [&](std::size_t a, std::size_t b) { return m.critical[a].amplitude > m.critical[b].amplitude; });
-  if (places.size() > count) places.resize(count);
-  std::sort(places.begin(), places.end(),
-            [&](std::size_t a, std::size_t b) { return m.critical[a].speed < m.critical[b].speed; });
-  return places;
-}
-
-Plot campbell_plot(const ModesStudy& m) {
-  Plot plot{.title = "Campbell diagram: where excitation orders meet the modes",
-            .x = {"speed of " + m.link, m.speed_unit.name},
-            .y = {"frequency", "Hz"},
-            .series = {},
-            .note =
-                "Level lines are modes, rays are orders of the reduction link's turn; circles mark critical speeds, "
-                "dashed rays tooth meshes."};
-  const double to = m.speed_unit.of(m.fastest);
-  double top = 0;
-  const std::vector<std::size_t> orders = orders_shown(m);
-  for (const std::size_t r : orders) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
-  if (!m.modes.empty()) top = std::max(top, 1.2 * hertz(m.modes.front().omega));
-  for (const Mode& mode : m.modes)
-    if (hertz(mode.natural()) <= top)
-      plot.series.push_back(level(m, fmt::format("mode {}", mode.number), Role::elastic, hertz(mode.natural())));
-  // All rays in one series: each comes back to the origin.
-  Series rays{.name = "orders", .role = Role::rigid, .x = {}, .y = {}};
-  for (const std::size_t r : orders) {
-    rays.name += fmt::format("{} {:g}", rays.x.empty() ? "" : ",", m.excitations.order(r));
-    rays.x.insert(rays.x.end(), {0, to, 0});
-    rays.y.insert(rays.y.end(), {0, m.excitations.order(r) * hertz(m.fastest), 0});
-  }
-  if (!rays.x.empty()) plot.series.push_back(std::move(rays));
-  Series meshes{.name = "tooth meshes", .role = Role::reference, .x = {}, .y = {}, .dashed = true};
-  for (const GearMesh& mesh : m.excitations.meshes) {
-    const double end = std::min(m.fastest, top / (mesh.order * hertz(1)));
-    meshes.x.insert(meshes.x.end(), {0, m.speed_unit.of(end), 0});
-    meshes.y.insert(meshes.y.end(), {0, mesh.order * hertz(end), 0});
-    plot.note += fmt::format(" Mesh of {}: order {:.5g}.", mesh.name, mesh.order);
-  }
-  if (!meshes.x.empty()) plot.series.push_back(std::move(meshes));
-  for (const FrequencySource& f : m.excitations.by_frequency)
-    if (hertz(f.omega) <= top)
-      plot.series.push_back(dashed(level(m, "frequency of " + f.component, Role::vermillion, hertz(f.omega))));
-  std::vector<CriticalSpeed> met;
-  for (const CriticalSpeed& c : m.critical)
-    if (std::find(orders.begin(), orders.end(), c.harmonic) != orders.end()) met.push_back(c);
-  if (!met.empty())
-    plot.series.push_back(marks(series_of(
-        "critical speeds", Role::orange, met, [&m](const CriticalSpeed& c) { return m.speed_unit.of(c.speed); },
-        [](const CriticalSpeed& c) { return hertz(c.order * c.speed); })));
-  for (const ParametricZone& z : m.zones)
-    if (z.half_width > 0) plot.marks.push_back({m.speed_unit.of(z.centre), fmt::format("parametric, mode {}", z.mode)});
-  return plot;
+double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
+  double largest = 0, end = 0;
+  for (const double a : s.amplitude) largest = std::max(largest, a);
+  for (std::size_t i = 0; i < s.frequency.size(); ++i)
+    if (s.amplitude[i] > 2e-3 * largest) end = s.frequency[i];
+  if (!m.modes.empty()) end = std::max(end, 1.3 * hertz(m.modes.front().omega));
+  return std::min(1.1 * end, s.frequency.back());
 }
 
 std::vector<Plot> mode_plots(const ModesStudy& m) {

@@ -73,6 +73,50 @@ std::string data_of(const Plot& plot) {
     text += fmt::format("{}# {}\n", i ? "\n\n" : "", printable(plot.series[i].name));
     for (std::size_t k = 0; k < x.size(); ++k) text += fmt::format("{:.9g} {:.9g}\n", x[k], y[k]);
   }
+  if (!plot.map) return text;
+  // "x y z", one block a row of the map.
+  text += fmt::format("\n\n# {}\n", printable(plot.map->name));
+  for (std::size_t i = 0; i < plot.map->y.size(); ++i) {
+    for (std::size_t k = 0; k < plot.map->x.size(); ++k)
+      text += fmt::format("{:.7g} {:.7g} {:.6g}\n", plot.map->x[k], plot.map->y[i], plot.map->z[i][k]);
+    text += '\n';
+  }
+  return text;
+}
+
+// Ends, names of parts, bands, and what is written beside lines.
+std::string frame_of(const Plot& plot) {
+  const auto range = [](const char* axis, const Axis& of) {
+    if (!of.least && !of.greatest) return std::string();
+    const auto end = [](const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value) : "*"; };
+    return fmt::format("set {}range [{}:{}]\n", axis, end(of.least), end(of.greatest));
+  };
+  std::string text = range("x", plot.x) + range("y", plot.y);
+  if (!plot.x.names.empty()) {
+    text += "set xtics rotate by -35 (";
+    for (std::size_t i = 0; i < plot.x.names.size(); ++i)
+      text += fmt::format("{}{} {}", i ? ", " : "", quoted(plot.x.names[i]), i + 1);
+    text += ")\n";
+  }
+  for (const Band& band : plot.bands) {
+    if (band.from < band.to)
+      text += fmt::format(
+          "set object rectangle from first {:.9g},graph 0 to first {:.9g},graph 1 fc rgb '{}' fs transparent solid "
+          "0.15 "
+          "noborder behind\n",
+          band.from, band.to, colour_of(band.role));
+    else
+      text += fmt::format("set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 1 nohead dt 2 lc rgb '{1}'\n",
+                          band.from, colour_of(band.role));
+    text += fmt::format("set label {} at first {:.9g},graph 0.97 font ',10' tc rgb '{}'\n", quoted(band.text),
+                        band.from, colour_of(band.role));
+  }
+  const auto beside = [&](const Series& s, const std::string& words, std::size_t k) {
+    if (!words.empty() && k < s.x.size())
+      text += fmt::format("set label {} at first {:.9g},first {:.9g} offset 0.3,0.4 font ',10' tc rgb '{}'\n",
+                          quoted(words), s.x[k], s.y[k], colour_of(s.role));
+  };
+  for (const Series& s : plot.series) beside(s, s.text_at_start, 0), beside(s, s.text_at_end, s.x.size() - 1);
   return text;
 }
 
@@ -98,7 +142,11 @@ std::string script_of(const Plot& plot, const std::string& name) {
   for (const EventMark& mark : marks_of(plot))
     text += fmt::format(
         "set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 0.04 nohead lc rgb '#d55e00' lw 1.4\n", mark.x);
+  text += frame_of(plot);
   text += "plot ";
+  if (plot.map)
+    text += fmt::format("'{}.dat' index {} using 1:2:3 with image title {}, \\\n     ", name, plot.series.size(),
+                        quoted(fmt::format("{} [{}]", plot.map->name, plot.map->unit)));
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
     text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i,
@@ -106,7 +154,8 @@ std::string script_of(const Plot& plot, const std::string& name) {
                         : !s.line  ? "points pt 7 ps 0.9"
                         : s.points ? "linespoints pt 7 ps 0.5"
                                    : "lines",
-                        s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role), quoted(s.name));
+                        s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role),
+                        s.text_at_start.empty() && s.text_at_end.empty() ? quoted(s.name) : "''");
   }
   return text + fmt::format(
                     "\nset terminal pngcairo size 1350,720 noenhanced font 'sans,14' background 'white'\nset output "
@@ -122,7 +171,7 @@ std::vector<TextFile> gnuplot_files(const Report& report) {
   for (const ReportSection& section : report.sections)
     for (const Card& card : section.cards) {
       const Plot* plot = std::get_if<Plot>(&card);
-      if (!plot || plot->series.empty()) continue;
+      if (!plot || (plot->series.empty() && !plot->map)) continue;
       std::string name = slug(plot->title);
       for (int n = 2; !taken.insert(name).second; ++n) name = slug(plot->title) + "_" + std::to_string(n);
       files.push_back({name + ".dat", data_of(*plot)});

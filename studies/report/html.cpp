@@ -14,6 +14,7 @@
 #include "studies/findings/thin.h"
 #include "studies/report/assets.h"
 #include "studies/report/theory.h"
+#include "studies/report/writer.h"
 
 namespace kurbel {
 namespace {
@@ -40,81 +41,24 @@ const char* name_of(Role role) {
   return "elastic";
 }
 
-// JSON written straight into one string: a report is mostly numbers.
-class Writer {
- public:
-  std::string text;
-
-  void key(std::string_view name) {
-    comma();
-    text += fmt::format("\"{}\":", name);
-    fresh_ = true;
-  }
-  void value(const std::string& s) { put(json_string(s)); }
-  void value(const char* s) { put(json_string(s)); }
-  void value(bool b) { put(b ? "true" : "false"); }
-  void value(double v, int digits = 7) { put(number(v, digits)); }
-  void value(const std::vector<double>& list, int digits = 7) {
-    comma();
-    text += '[';
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (i) text += ',';
-      text += number(list[i], digits);
-    }
-    text += ']';
-    fresh_ = false;
-  }
-  void value(const std::vector<std::vector<double>>& lists, int digits) {
-    list(lists, [&](const std::vector<double>& l) { value(l, digits); });
-  }
-  void value(const std::vector<std::string>& strings) {
-    list(strings, [&](const std::string& s) { value(s); });
-  }
-  template <class T, class... More>
-  void field(std::string_view name, const T& v, More... more) {
-    key(name);
-    value(v, more...);
-  }
-  template <class Body>
-  void object(Body body) {
-    comma();
-    text += '{';
-    fresh_ = true;
-    body();
-    text += '}';
-    fresh_ = false;
-  }
-  template <class List, class Each>
-  void list(const List& items, Each each) {
-    comma();
-    text += '[';
-    fresh_ = true;
-    for (const auto& item : items) each(item);
-    text += ']';
-    fresh_ = false;
-  }
-
- private:
-  static std::string number(double v, int digits) {
-    return std::isfinite(v) ? fmt::format("{:.{}g}", v, digits) : "null";
-  }
-  void put(const std::string& s) {
-    comma();
-    text += s;
-    fresh_ = false;
-  }
-  void comma() {
-    if (!fresh_) text += ',';
-    fresh_ = false;
-  }
-  bool fresh_ = true;
-};
-
 void write(Writer& w, const Axis& axis) {
   w.object([&] {
     w.field("label", axis.label);
     w.field("unit", axis.unit);
     w.field("log", axis.logarithmic);
+    if (axis.least) w.field("least", *axis.least, 8);
+    if (axis.greatest) w.field("greatest", *axis.greatest, 8);
+    if (!axis.names.empty()) w.field("names", axis.names);
+  });
+}
+
+void write(Writer& w, const ColourMap& map) {
+  w.object([&] {
+    w.field("name", map.name);
+    w.field("unit", map.unit);
+    w.field("x", map.x, 6);
+    w.field("y", map.y, 6);
+    w.field("z", map.z, 4);
   });
 }
 
@@ -139,6 +83,20 @@ void write(Writer& w, const Plot& plot) {
       w.field("x", x, 8);
       w.field("y", y, 7);
       if (series.labels.size() == x.size() && !x.empty()) w.field("labels", series.labels);
+      if (series.sizes.size() == x.size() && !x.empty()) w.field("sizes", series.sizes, 3);
+      if (!series.text_at_start.empty()) w.field("textAtStart", series.text_at_start);
+      if (!series.text_at_end.empty()) w.field("textAtEnd", series.text_at_end);
+    });
+  });
+  if (plot.wide) w.field("wide", true);
+  if (plot.map) w.key("map"), write(w, *plot.map);
+  w.key("bands");
+  w.list(plot.bands, [&](const Band& band) {
+    w.object([&] {
+      w.field("from", band.from, 8);
+      w.field("to", band.to, 8);
+      w.field("text", band.text);
+      w.field("role", name_of(band.role));
     });
   });
   // Marks beyond some hundreds run into each other.

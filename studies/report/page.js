@@ -30,26 +30,95 @@
   // A curve that comes back on itself, such as a polar diagram, is read point by point.
   const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || s.x.some((x, i) => i && x < s.x[i - 1]));
 
+  const plain = text => text.replace(/[<&]/g, '').replace(/\n/g, '<br>');
+  const saysItself = s => s.textAtStart || s.textAtEnd;
+
   function tracesOf(plot) {
     const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
-    const traces = plot.series.map(s => ({
-      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', marker: {color: colour(s.role), size: s.line ? 6 : 9},
+    const traces = plot.map ? [mapTrace(plot)] : [];
+    for (const s of plot.series) traces.push({
+      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: !saysItself(s) && !s.sizes,
+      marker: {color: colour(s.role), size: s.sizes ? s.sizes.map(size => 9 * size) : s.line ? 6 : 9, ...s.sizes ? {opacity: 0.75, line: {color: colour('page'), width: 1}} : {}},
       ...plot.bars ? {} : {
         mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
-        line: {color: colour(s.role), width: s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
+        line: {color: colour(s.role), width: saysItself(s) ? (s.role === 'rigid' || s.role === 'reference' ? 1 : 2.2) : s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
       },
-      ...s.labels ? {text: s.labels.map(text => text.replace(/[<&]/g, ''))} : {},
-      hovertemplate: `${s.labels ? '%{text}<br>' : ''}${reading}<extra>${s.name.replace(/[<&]/g, '')}</extra>`,
-    }));
+      ...s.labels ? {text: s.labels.map(plain)} : {}, ...saysItself(s) ? {hoverinfo: 'skip'} : {},
+      ...saysItself(s) ? {} : {hovertemplate: s.sizes ? '%{text}<extra></extra>' : `${s.labels ? '%{text}<br>' : ''}${reading}<extra>${plain(s.name)}</extra>`},
+    });
+    traces.push(...peaksOf(plot));
     if (plot.marks.length) traces.push({
-      x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => m.text.replace(/[<&]/g, '')), name: 'events', yaxis: 'y2', type: 'scatter',
+      x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => plain(m.text)), name: 'events', yaxis: 'y2', type: 'scatter',
       mode: 'markers', showlegend: false, cliponaxis: true, marker: {symbol: 'line-ns-open', size: 9, color: colour('vermillion'), line: {width: 1.4}},
       hovertemplate: '%{text} at %{x:.6~g}<extra></extra>',
     });
     return traces;
   }
+  // A map is a picture below the lines (Plotly's small edition has none), a colour bar, and invisible points to point at.
+  const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
+  function colourAt(part) {
+    const place = Math.min(Math.max(part, 0), 1) * (viridis.length - 1), i = Math.min(Math.floor(place), viridis.length - 2), f = place - i;
+    return viridis[i].map((c, k) => Math.round(c + f * (viridis[i + 1][k] - c)));
+  }
+  // Cells end halfway between their places.
+  const edgesOf = at => at.length < 2 ? [at[0] - 0.5, at[0] + 0.5] : [1.5 * at[0] - 0.5 * at[1], ...at.slice(1).map((v, i) => (v + at[i]) / 2), 1.5 * at[at.length - 1] - 0.5 * at[at.length - 2]];
+  function rangeOfMap(m) {
+    let low = Infinity, high = -Infinity;
+    for (const row of m.z) for (const z of row) if (z !== null) { low = Math.min(low, z); high = Math.max(high, z); }
+    return high > low ? [low, high] : [low - 0.5, low + 0.5];
+  }
+  function pictureOf(m) {
+    const [low, high] = rangeOfMap(m), xs = edgesOf(m.x), ys = edgesOf(m.y), W = 900, H = 400;
+    const canvas = document.createElement('canvas'), context = canvas.getContext('2d');
+    canvas.width = W; canvas.height = H;
+    const px = x => (x - xs[0]) / (xs[xs.length - 1] - xs[0]) * W, py = y => H - (y - ys[0]) / (ys[ys.length - 1] - ys[0]) * H;
+    m.z.forEach((row, i) => row.forEach((z, k) => {
+      if (z === null) return;
+      context.fillStyle = `rgb(${colourAt((z - low) / (high - low))})`;
+      const left = Math.floor(px(xs[k])), top = Math.floor(py(ys[i + 1]));
+      context.fillRect(left, top, Math.ceil(px(xs[k + 1])) - left, Math.ceil(py(ys[i])) - top);
+    }));
+    return {source: canvas.toDataURL(), xref: 'x', yref: 'y', x: xs[0], y: ys[ys.length - 1], sizex: xs[xs.length - 1] - xs[0], sizey: ys[ys.length - 1] - ys[0], sizing: 'stretch', layer: 'below'};
+  }
+  function mapTrace(plot) {
+    const m = plot.map, [low, high] = rangeOfMap(m), each = Math.ceil(m.x.length / 120), points = {x: [], y: [], text: []};
+    m.y.forEach((y, i) => {
+      for (let from = 0; from < m.x.length; from += each) {
+        let best = from;
+        for (let k = from; k < Math.min(from + each, m.x.length); ++k) if (m.z[i][k] !== null && !(m.z[i][k] <= m.z[i][best])) best = k;
+        if (m.z[i][best] === null) continue;
+        points.x.push(m.x[best]);
+        points.y.push(y);
+        points.text.push(`${m.name} ${+m.z[i][best].toPrecision(4)} ${m.unit}`);
+      }
+    });
+    return {
+      ...points, type: 'scatter', mode: 'markers', name: m.name, showlegend: false,
+      marker: {
+        color: points.x.map((_, i) => i ? low : high), cmin: low, cmax: high, opacity: 0, size: 8, showscale: true, colorscale: viridis.map((c, i) => [i / (viridis.length - 1), `rgb(${c})`]),
+        colorbar: {title: {text: m.unit ? `${m.name} [${m.unit}]` : m.name, side: 'right', font: {size: 12}}, thickness: 12, outlinewidth: 0, tickfont: {size: 11}, exponentformat: 'power'},
+      },
+      hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
+    };
+  }
+  // The greatest magnitude of each curve that runs over time or speed, where there are few of them.
+  function peaksOf(plot) {
+    const front = plot.series.filter(s => s.line && !s.points && !s.dashed && !saysItself(s) && s.role !== 'rigid' && s.role !== 'reference' && s.x.length > 20);
+    if (plot.map || plot.bars || isLocus(plot) || !front.length || front.length > 3) return [];
+    return front.map(s => {
+      let k = 0;
+      s.y.forEach((y, i) => { if (Math.abs(y) > Math.abs(s.y[k])) k = i; });
+      return {
+        x: [s.x[k]], y: [s.y[k]], text: [`${+s.y[k].toPrecision(3)}`], mode: 'markers+text', type: 'scatter', showlegend: false, hoverinfo: 'skip', cliponaxis: false,
+        textposition: s.x[k] > s.x[0] + 0.85 * (s.x[s.x.length - 1] - s.x[0]) ? 'middle left' : 'middle right', textfont: {size: 11, color: colour(s.role)},
+        marker: {symbol: 'circle-open', size: 8, color: colour(s.role), line: {width: 1.6}},
+      };
+    });
+  }
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
+    if (plot.x.least !== undefined && plot.x.greatest !== undefined) return {range: [plot.x.least, plot.x.greatest]};
+    if (plot.x.names) return {tickvals: plot.x.names.map((_, i) => i + 1), ticktext: plot.x.names, tickangle: plot.x.names.join('').length > (narrow() ? 30 : 90) ? -35 : 0};
     if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
     const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
@@ -61,18 +130,67 @@
     });
     const layout = {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
-      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
+      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
       xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: axis(plot.y), dragmode: narrow() ? false : 'zoom',
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
-    if (plot.bars) Object.assign(layout.xaxis, {dtick: 1});
+    if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];
+    if (plot.bars && !plot.x.names) Object.assign(layout.xaxis, {dtick: 1});
     if (plot.x.unit === '°' && !isLocus(plot)) Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
+    if (plot.map) {
+      const ys = edgesOf(plot.map.y);
+      layout.images = [pictureOf(plot.map)];
+      layout.yaxis.range = [ys[0], ys[ys.length - 1]];
+    }
+    Object.assign(layout, beside(plot, layout));
     if (plot.marks.length) layout.yaxis2 = {overlaying: 'y', range: [0, 1], visible: false, fixedrange: true};
     return layout;
   }
+  // Bands along the x-axis and what is written at the ends of lines, kept apart where lines come close.
+  function beside(plot, layout) {
+    const shapes = [], annotations = [], high = plot.wide ? 460 : 330, across = plot.wide ? 1250 : 560;
+    const x = layout.xaxis.range, y = layout.yaxis.range;
+    for (const band of plot.bands || []) {
+      const line = band.from === band.to;
+      shapes.push({type: line ? 'line' : 'rect', xref: 'x', yref: 'paper', x0: band.from, x1: band.to, y0: 0, y1: 1, layer: plot.map ? 'above' : 'below', fillcolor: colour(band.role), opacity: line ? 1 : 0.16, line: {width: line ? 1.4 : 0, color: colour(band.role), dash: 'dash'}});
+      annotations.push({x: (band.from + band.to) / 2, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: line ? 'right' : 'center', yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
+    }
+    // "6 · 4 × cylinder" and "2  ring against flywheel, 280 Hz": where the page is narrow their numbers alone.
+    const short = text => narrow() ? text.split(' ')[0] : text;
+    const right = [], top = [];
+    for (const s of plot.series) {
+      const last = s.x.length - 1, font = {size: 11, color: colour(s.role)};
+      if (s.textAtStart && last >= 0) annotations.push({x: s.x[0], y: s.y[0], text: plain(short(s.textAtStart)), xanchor: 'left', yanchor: 'bottom', showarrow: false, font: {...font, size: 12}, bgcolor: colour('card'), opacity: 0.9, borderpad: 1});
+      if (!s.textAtEnd || last < 0) continue;
+      const words = {x: s.x[last], y: s.y[last], text: plain(short(s.textAtEnd)), showarrow: false, font};
+      if (y && s.y[last] >= y[1] * (1 - 1e-6)) top.push(words);
+      else if (!x || s.x[last] >= x[1] * (1 - 1e-3)) right.push(words);
+      else annotations.push({...words, xanchor: 'center', yanchor: 'bottom', bgcolor: colour('card'), opacity: 0.85});
+    }
+    // At the right edge one above the other, at the top side by side and slanted; as parts of the frame, which shows them.
+    const part = (value, range) => (value - range[0]) / (range[1] - range[0]);
+    const spread = (list, along, range, step) => {
+      list.forEach(a => { a[along] = part(a[along], range); });
+      list.sort((a, b) => a[along] - b[along]);
+      for (let i = 1; i < list.length; ++i) list[i][along] = Math.max(list[i][along], list[i - 1][along] + step);
+    };
+    if (y) spread(right, 'y', y, 15 / high);
+    if (x) spread(top, 'x', x, 15 / Math.min(across, window.innerWidth));
+    const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
+    right.forEach(a => annotations.push({...a, x: 1, xref: 'paper', yref: y ? 'paper' : 'y', xanchor: 'left', yanchor: 'middle', xshift: 3}));
+    top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: narrow() ? 'center' : 'left', yanchor: 'bottom', textangle: narrow() ? 0 : -40}));
+    const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * 6.2 + 8), t: ceiling ? (narrow() ? 24 : ceiling * 4 + 18) : layout.margin.t};
+    const legend = ceiling ? {...layout.legend, y: -0.22, yanchor: 'top'} : layout.legend;
+    return {shapes, annotations, margin, legend};
+  }
   function csvOf(plot) {
     const quote = text => `"${text.replace(/"/g, '""')}"`;
+    if (plot.map) {
+      const m = plot.map, rows = [[withUnit(plot.x), withUnit(plot.y), `${m.name} [${m.unit}]`].map(quote).join(',')];
+      m.y.forEach((y, i) => m.x.forEach((x, k) => { if (m.z[i][k] !== null) rows.push([x, y, m.z[i][k]].join(',')); }));
+      return rows.join('\n') + '\n';
+    }
     const same = plot.series.every(s => s.x.length === plot.series[0].x.length && s.x.every((x, i) => x === plot.series[0].x[i]));
     if (same) {
       const rows = [[withUnit(plot.x), ...plot.series.map(s => `${s.name}: ${withUnit(plot.y)}`)].map(quote).join(',')];
@@ -98,12 +216,22 @@
       save.click();
       setTimeout(() => URL.revokeObjectURL(url), 10000);
     };
-    const place = make('div', 'plot', null, card);
+    const place = make('div', 'plot' + (plot.wide ? ' tall' : ''), null, card);
+    for (const [text, hint, act] of [
+      ['picture', 'as PNG', () => Plotly.downloadImage(place, {format: 'png', width: 1400, height: plot.wide ? 700 : 600, filename: plot.title.replace(/[^\w\u00c0-\uffff]+/g, '_')})],
+      ['whole', 'undo zooming', () => drawPlot(entry)],
+    ]) {
+      const tool = make('a', '', text, tools);
+      tool.href = '#';
+      tool.title = hint;
+      tool.onclick = event => { event.preventDefault(); act(); };
+    }
+    const entry = {plot, place, drawn: false};
     if (plot.note) make('p', 'note', plot.note, card);
-    plots.push({plot, place, drawn: false});
+    plots.push(entry);
   }
   function drawPlot(entry) {
-    Plotly.react(entry.place, tracesOf(entry.plot), layoutOf(entry.plot), {responsive: true, displaylogo: false, displayModeBar: 'hover', modeBarButtonsToRemove: ['select2d', 'lasso2d', 'autoScale2d']});
+    Plotly.react(entry.place, tracesOf(entry.plot), layoutOf(entry.plot), {responsive: true, displaylogo: false, displayModeBar: false});
     entry.drawn = true;
   }
   const drawAll = () => plots.forEach(drawPlot);
@@ -656,11 +784,17 @@
   }
   const makers = {plot: addPlot, table: addTable, formula: addFormula, text: addText, machine: addMachine, gears: addGears};
   const machines = [];
+  const titled = report.sections.filter(section => section.title);
+  if (titled.length > 3) {
+    const contents = make('nav', 'contents', null, root);
+    make('span', '', 'Contents', contents);
+    titled.forEach((section, i) => { make('a', '', section.title.replace(/ \(theory.*\)/, ''), contents).href = '#part-' + (i + 1); });
+  }
   for (const section of report.sections) {
-    if (section.title) make('h2', '', section.title, root);
+    if (section.title) make('h2', '', section.title, root).id = 'part-' + (titled.indexOf(section) + 1);
     const cards = make('div', 'cards', null, root);
     for (const card of section.cards) {
-      const wide = card.kind === 'machine' || card.kind === 'gears' || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
+      const wide = card.kind === 'machine' || card.kind === 'gears' || card.wide || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
       const long = card.kind === 'table' && card.rows.length > 25 || card.kind === 'text';
       const element = make('section', 'card is-' + card.kind + (wide ? ' wide' : '') + (long ? ' long' : ''), null, cards);
       makers[card.kind](card, element);
