@@ -7,6 +7,7 @@
 
 #include "drivetrain/motors/dc_circuits.h"
 #include "drivetrain/motors/dc_series_motor.h"
+#include "drivetrain/motors/field_weakening.h"
 #include "drivetrain/motors/motors.h"
 #include "drivetrain/motors/rheostat.h"
 #include "drivetrain/shared/shared_keys.h"
@@ -109,6 +110,7 @@ struct ShuntKeys {
   std::optional<double> voltage, resistance, constant;  // U [V], R [Ω], k [N·m/A]
   double rated_torque = 0;                              // [N·m]
   std::optional<double> braking_resistance;             // [Ω]
+  std::optional<CurveData> field;                       // f over [s] or [rad/s]
   double inertia = 0;                                   // [kg·m²]
   CircuitKeys circuit;
   RheostatKeys rheostat;
@@ -125,7 +127,28 @@ void needs_circuit(const Reading<ShuntKeys>& m) {
   };
   if (m.circuit.inductance) refuse(&ShuntKeys::circuit);
   if (m.braking_resistance) refuse(&ShuntKeys::braking_resistance);
+  if (m.field) refuse(&ShuntKeys::field);
   if (m.rheostat.starting_resistances) refuse(&ShuntKeys::rheostat);
+}
+
+// f stays above zero, and over the speed it begins at standstill.
+void check_field(const Reading<ShuntKeys>& m) {
+  const auto refuse = [&](const std::string& text) { m.refuse(&ShuntKeys::field, text); };
+  if (m.rheostat.starting_resistances || m.braking_resistance)
+    return refuse(
+        fmt::format("\"field\" is weakened behind the start, without resistances in the armature; drop \"{}\"",
+                    m.braking_resistance ? "braking_resistance" : "starting_resistances"));
+  const CurveData& data = *m.field;
+  if (data.over == "speed" && data.period > 0) return refuse("a table over the speed has no period; drop it");
+  if (data.over == "speed" && data.x.front() < 0)
+    return refuse("over the speed it counts in both senses of rotation; give it from 0 on");
+  const Curve curve = data.curve();
+  if (data.over == "speed" && curve.jumps()) return refuse("it jumps over the speed; let it fall within a part of it");
+  constexpr int samples = 1000;
+  for (int k = 0; k <= samples; ++k)
+    if (const double f = curve.value(data.x.front() + (data.x.back() - data.x.front()) * k / samples); !(f > 0))
+      return refuse(
+          fmt::format("it falls to {:.3g}; must stay > 0: without a field the motor has no torque and runs away", f));
 }
 
 void check_shunt(const Reading<ShuntKeys>& m) {
@@ -136,6 +159,7 @@ void check_shunt(const Reading<ShuntKeys>& m) {
       m.refuse(&ShuntKeys::braking_resistance,
                "\"braking_resistance\" acts by commands, which a motor on \"starting_resistances\" does not take; drop "
                "one of them");
+    if (m.field) check_field(m);
     return;
   }
   if (!m.stall_torque && !m.no_load_speed)
@@ -178,12 +202,29 @@ const Fields<ShuntKeys>& shunt_fields() {
                 .doc = "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
                        "default: 0 opens the circuit"},
                &Keys::braking_resistance)
+          .add({.name = "field",
+                .unit = "1",
+                .doc = "flux over the rated one, over the time or the speed (of either sense): weakened below 1 the "
+                       "motor runs up to U/(f k)",
+                .choices = {"time", "speed"}},
+               &Keys::field)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(circuit_fields("L of the armature circuit"), &Keys::circuit)
           .add(rheostat_fields(), &Keys::rheostat)
           .add(window_fields(), &Keys::window)
           .check(check_shunt);
   return made;
+}
+
+template <FieldOver over>
+void put_weakened(const Reading<ShuntKeys>& m, const std::string& name, Network& net, int node) {
+  const FieldPart<over> field{m.field->curve()};
+  const WeakenedShuntMotor<over> line{field, *m.voltage, *m.resistance, *m.constant, m.rated_torque};
+  if (m.circuit.inductance)
+    net.put(node, name, WeakenedShuntCircuit<over>{field, line, *m.circuit.inductance, m.circuit.initial_current},
+            m.window);
+  else
+    net.put(node, name, line, m.window);
 }
 
 void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
@@ -193,6 +234,9 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
   if (messages.all().size() > before) return;
   if (!m.electrical())
     return net.put(node, s.name, DcShuntMotor{*m.stall_torque, *m.no_load_speed, m.rated_torque}, m.window);
+  if (m.field)
+    return m.field->over == "time" ? put_weakened<FieldOver::time>(m, s.name, net, node)
+                                   : put_weakened<FieldOver::speed>(m, s.name, net, node);
   const double voltage = *m.voltage, resistance = *m.resistance, constant = *m.constant;
   const BrakedShuntMotor line{voltage, resistance, constant, m.rated_torque, {m.braking_resistance.value_or(0)}};
   const auto with = [&](double total) {

@@ -12,6 +12,7 @@
 #include "drivetrain/motors/engine_torque.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
+#include "engine/reading/mirrored.h"
 
 namespace kurbel {
 namespace {
@@ -24,9 +25,11 @@ struct EngineKeys {
   double phase = 0;                                     // [rad]
   int strokes = 4;
   std::optional<CurveData> torque, pressure;  // of one cylinder [N·m], [Pa]
-  std::optional<double> bore, radius, rod;    // [m]
-  double outside_pressure = 0;                // [Pa]
-  double inertia = 0;                         // [kg·m²]
+  std::optional<std::vector<int>> misfire;    // numbers of cylinders
+  std::optional<CurveData> motored_torque, motored_pressure;
+  std::optional<double> bore, radius, rod;  // [m]
+  double outside_pressure = 0;              // [Pa]
+  double inertia = 0;                       // [kg·m²]
   Window window;
 
   double cycle() const { return strokes * std::numbers::pi; }
@@ -63,6 +66,18 @@ const Fields<EngineKeys>& engine_fields() {
                 .doc = "of one cylinder over the same angle, absolute (indicator diagram), in place of torque",
                 .choices = {"angle"}},
                &Keys::pressure)
+          .add({.name = "misfire", .doc = "numbers of the cylinders that do not fire"}, &Keys::misfire)
+          .add({.name = "motored_torque",
+                .unit = "N*m",
+                .doc = "of a cylinder that does not fire; default: its compression, mirrored about top dead centre",
+                .choices = {"angle"}},
+               &Keys::motored_torque)
+          .add({.name = "motored_pressure",
+                .unit = "Pa",
+                .doc = "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
+                       "dead centre",
+                .choices = {"angle"}},
+               &Keys::motored_pressure)
           .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of a piston, with pressure"},
                &Keys::bore)
           .add({.name = "radius", .unit = "m", .domain = positive, .doc = "of the crank, with pressure"}, &Keys::radius)
@@ -139,31 +154,65 @@ std::optional<CylinderGeometry> geometry_of(const Reading<EngineKeys>& e) {
   return CylinderGeometry{0.25 * std::numbers::pi * *e.bore * *e.bore, *e.radius, *e.rod, e.outside_pressure};
 }
 
+using Diagram = std::optional<CurveData> EngineKeys::*;
+
+// Adds a diagram over the cycle; false, with a message, where it does not fit.
+bool put_diagram(const Reading<EngineKeys>& e, Diagram key, const CurveData& data, std::vector<Curve>& diagrams) {
+  const double cycle = e.cycle();
+  if (data.period > 0 && std::abs(data.period - cycle) > 1e-9 * cycle)
+    return e.refuse(key, fmt::format("period of {:.6g} deg; a {}-stroke engine repeats after {:.6g} deg",
+                                     data.period * degrees, e.strokes == 4 ? "four" : "two", cycle * degrees));
+  const double span = data.x.back() - data.x.front();
+  if (span > cycle * (1 + 1e-9))
+    return e.refuse(key, fmt::format("the diagram spans {:.6g} deg, more than the cycle of {:.6g} deg", span * degrees,
+                                     cycle * degrees));
+  try {
+    diagrams.push_back(data.curve(cycle));
+  } catch (const std::invalid_argument& error) {
+    return e.refuse(key, error.what());
+  }
+  return true;
+}
+
+// The cylinders that do not fire take the motored diagram, the second one.
+bool let_misfire(const Reading<EngineKeys>& e, Diagram fired, std::vector<EngineTorque::Cylinder>& cylinders,
+                 std::vector<Curve>& diagrams) {
+  using Keys = EngineKeys;
+  const auto motored = e.pressure ? &Keys::motored_pressure : &Keys::motored_torque;
+  const auto other = e.pressure ? &Keys::motored_torque : &Keys::motored_pressure;
+  if (e.*other)
+    return e.refuse(other, fmt::format("\"{}\" belongs to \"{}\"; \"{}\" is given", e.key(other),
+                                       e.pressure ? "torque" : "pressure", e.key(fired)));
+  if (!e.misfire || e.misfire->empty()) return true;
+  for (const int number : *e.misfire) {
+    const auto at = std::find(e.firing_order.begin(), e.firing_order.end(), number);
+    if (at == e.firing_order.end())
+      return e.refuse(&Keys::misfire, fmt::format("there is no cylinder {}; allowed: 1 to {}, e.g. [1]", number,
+                                                  e.firing_order.size()));
+    cylinders[static_cast<std::size_t>(at - e.firing_order.begin())].diagram = 1;
+  }
+  if (e.*motored) return put_diagram(e, motored, *(e.*motored), diagrams);
+  try {
+    diagrams.push_back(first_half_turn_mirrored(*(e.*fired), e.cycle(), !e.pressure).curve());
+  } catch (const std::invalid_argument& error) {
+    return e.refuse(&Keys::misfire, error.what());
+  }
+  return true;
+}
+
 void build_engine(const Section& s, Network& net, Messages& messages) {
   const auto e = engine_fields().read(s, messages);
   const int node = single_shaft(s, e.inertia, net);
-  const double cycle = e.cycle();
   const std::vector<double> angles = firing_angles(e);
   const std::optional<CylinderGeometry> geometry = geometry_of(e);
   if (!geometry || angles.empty()) return;
-  const auto diagram = e.pressure ? &EngineKeys::pressure : &EngineKeys::torque;
-  const CurveData& data = *(e.*diagram);
-  if (data.period > 0 && std::abs(data.period - cycle) > 1e-9 * cycle) {
-    e.refuse(diagram, fmt::format("period of {:.6g} deg; a {}-stroke engine repeats after {:.6g} deg",
-                                  data.period * degrees, e.strokes == 4 ? "four" : "two", cycle * degrees));
-    return;
-  }
-  const double span = data.x.back() - data.x.front();
-  if (span > cycle * (1 + 1e-9)) {
-    e.refuse(diagram, fmt::format("the diagram spans {:.6g} deg, more than the cycle of {:.6g} deg", span * degrees,
-                                  cycle * degrees));
-    return;
-  }
-  try {
-    net.put(node, s.name, EngineTorque(data.curve(cycle), *geometry, angles), e.window);
-  } catch (const std::invalid_argument& error) {
-    e.refuse(diagram, error.what());
-  }
+  const auto fired = e.pressure ? &EngineKeys::pressure : &EngineKeys::torque;
+  std::vector<Curve> diagrams;
+  if (!put_diagram(e, fired, *(e.*fired), diagrams)) return;
+  std::vector<EngineTorque::Cylinder> cylinders;
+  for (std::size_t k = 0; k < angles.size(); ++k) cylinders.push_back({angles[k], 0});
+  if (!let_misfire(e, fired, cylinders, diagrams)) return;
+  net.put(node, s.name, EngineTorque(std::move(diagrams), *geometry, std::move(cylinders)), e.window);
 }
 
 }  // namespace

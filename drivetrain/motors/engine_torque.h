@@ -5,7 +5,8 @@
 // M₁ is given over the crank angle, 0 = top dead centre at firing, either
 //     as torque: the tangential force (tangential-pressure diagram times piston area) times the crank's radius r, or
 //     from the indicator diagram p: M₁ = (p − p_out) A r (sin φ + λ sin φ cos φ/√(1 − λ² sin² φ)), λ = r/l.
-// With n equal intervals all harmonics cancel but multiples of the n-th of the cycle: orders n/2, n, 3n/2, … of a
+// A cylinder that misfires has a diagram of its own, the motored one; M₁ then stands for that of each cylinder.
+// With n equal intervals and equal diagrams all harmonics cancel but multiples of the n-th of the cycle: orders n/2, n, 3n/2, … of a
 // four-stroke engine. Source: e.g. W. Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2.
 // Masses: what rotates is the engine's inertia; for oscillating masses take slider-cranks.
 #pragma once
@@ -42,17 +43,22 @@ class EngineTorque {
  public:
   static constexpr ShaftTraits is{.account = Account::driving, .uses_angle = true, .guards = 2};
 
-  // cylinder: one cylinder's diagram with the engine's cycle as its period; fires_at: angles φ_k [rad].
-  EngineTorque(Curve cylinder, CylinderGeometry geometry, std::vector<double> fires_at)
-      : cylinder_(std::move(cylinder)), geometry_(geometry), fires_at_(std::move(fires_at)) {
+  struct Cylinder {
+    double fires_at = 0;      // φ_k [rad]
+    std::size_t diagram = 0;  // which of those given
+  };
+
+  // diagrams: of one cylinder each, with the engine's cycle as their period.
+  EngineTorque(std::vector<Curve> diagrams, CylinderGeometry geometry, std::vector<Cylinder> cylinders)
+      : diagrams_(std::move(diagrams)), geometry_(geometry), cylinders_(std::move(cylinders)) {
     std::vector<double> points = edges();
-    points.push_back(points.front() + cylinder_.period());
-    edges_ = Curve(points, std::vector<double>(points.size(), 0.0), Curve::Form::linear, cylinder_.period());
+    points.push_back(points.front() + cycle());
+    edges_ = Curve(points, std::vector<double>(points.size(), 0.0), Curve::Form::linear, cycle());
     const auto count = edges_.x().size() - 1;
     for (std::size_t i = 0; i < count; ++i)
-      for (const double at : fires_at_) {
-        const double middle = 0.5 * (edges_.x()[i] + edges_.x()[i + 1]) - at;
-        piece_.push_back(cylinder_.piece(middle));
+      for (const Cylinder& c : cylinders_) {
+        const double middle = 0.5 * (edges_.x()[i] + edges_.x()[i + 1]) - c.fires_at;
+        piece_.push_back(diagrams_[c.diagram].piece(middle));
       }
   }
 
@@ -60,37 +66,41 @@ class EngineTorque {
   template <class T>
   T torque(const ShaftState<T>& x) const {
     T sum(0.0);
-    const std::size_t n = fires_at_.size();
+    const std::size_t n = cylinders_.size();
     const std::size_t row = std::min(static_cast<std::size_t>(x.mode) * n, piece_.size() - n);
-    for (std::size_t k = 0; k < n; ++k) sum = sum + of_cylinder(piece_[row + k], x.angle - fires_at_[k]);
+    for (std::size_t k = 0; k < n; ++k) sum = sum + of_cylinder(k, piece_[row + k], x.angle - cylinders_[k].fires_at);
     return sum;
   }
   bool uses_time() const { return false; }
   bool uses_speed() const { return false; }
-  double angle_period() const { return cylinder_.period(); }
+  double angle_period() const { return cycle(); }
   void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(edges_, x.mode, x.angle, 1.0, g); }
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(edges_, x.angle); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(edges_, x.mode, which); }
   std::string mode_name(int) const { return {}; }  // a diagram's points are no events worth telling
   Rated rated() const {
-    const double most = cylinder_.max_abs();
+    double most = 0;
+    for (const Curve& diagram : diagrams_) most = std::max(most, diagram.max_abs());
     return {geometry_.area > 0 ? most * geometry_.area * geometry_.radius : most, 0};
   }
 
  private:
+  double cycle() const { return diagrams_.front().period(); }
   template <class T>
-  T of_cylinder(int piece, const T& phi) const {
-    const T diagram =
-        cylinder_.value_in(piece, phi + (PieceGuard::near_piece(cylinder_, piece, value_of(phi)) - value_of(phi)));
-    return geometry_.area > 0 ? geometry_.torque(diagram, phi) : diagram;
+  T of_cylinder(std::size_t k, int piece, const T& phi) const {
+    const Curve& diagram = diagrams_[cylinders_[k].diagram];
+    const T read =
+        diagram.value_in(piece, phi + (PieceGuard::near_piece(diagram, piece, value_of(phi)) - value_of(phi)));
+    return geometry_.area > 0 ? geometry_.torque(read, phi) : read;
   }
   // The points of all cylinders within one cycle; those that fall together count once.
   std::vector<double> edges() const {
-    const double cycle = cylinder_.period(), together = 1e-9 * cycle;
+    const double cycle = this->cycle(), together = 1e-9 * cycle;
     std::vector<double> all;
-    for (const double at : fires_at_)
-      for (std::size_t i = 0; i + 1 < cylinder_.x().size(); ++i)
-        all.push_back(place_within(cylinder_.x()[i] + at, cycle));
+    for (const Cylinder& c : cylinders_) {
+      const std::vector<double>& x = diagrams_[c.diagram].x();
+      for (std::size_t i = 0; i + 1 < x.size(); ++i) all.push_back(place_within(x[i] + c.fires_at, cycle));
+    }
     std::sort(all.begin(), all.end());
     std::vector<double> apart;
     for (const double x : all)
@@ -99,9 +109,9 @@ class EngineTorque {
     return apart;
   }
 
-  Curve cylinder_;
+  std::vector<Curve> diagrams_;
   CylinderGeometry geometry_;
-  std::vector<double> fires_at_;
+  std::vector<Cylinder> cylinders_;
   Curve edges_;
   std::vector<int> piece_;  // of each cylinder's diagram in each piece between edges
 };

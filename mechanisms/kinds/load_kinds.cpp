@@ -1,11 +1,7 @@
-// load_kinds.cpp — from the keys of a load on a mechanism's output to its law.
+// load_kinds.cpp — keys of loads on a mechanism's output.
 #include "mechanisms/kinds/load_kinds.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <functional>
-#include <numbers>
+#include <string>
 
 namespace kurbel {
 namespace {
@@ -18,153 +14,6 @@ using Table = LoadKeys<TableKeys>;
 using Compressor = LoadKeys<CompressorKeys>;
 using Cylinder = LoadKeys<CylinderKeys>;
 using LinearMotor = LoadKeys<LinearMotorForce>;
-
-WorkingEnd working_end(bool from_greatest, const Mechanism& mechanism) {
-  return {from_greatest ? mechanism.travel.greatest : mechanism.travel.least, from_greatest ? 1 : -1};
-}
-
-// The width that edges are rounded over when the effect load_edges is off; a smooth table has no edges.
-template <class Keys>
-bool put_rounding(const Reading<Keys>& s, const Mechanism& mechanism, SliderLoad& load) {
-  const bool over_angle = load.period() > 0, rocks = mechanism.rocks();
-  for (const auto member : {&EdgeKeys::rounding, &EdgeKeys::rounding_angle}) {
-    if (!(s.*member)) continue;
-    const double most = over_angle ? 0.5 * load.period() : mechanism.stroke();
-    const char* const unit = over_angle || rocks ? "rad" : "m";
-    load.rounding = 0.5 * *(s.*member);
-    std::string wrong;
-    if (!rocks && over_angle != (member == &EdgeKeys::rounding_angle))
-      wrong = over_angle ? "the table is over the crank angle; give \"rounding_angle\""
-                         : "the table is over the travel; give \"rounding\"";
-    else if (!load.can_be_rounded())
-      wrong =
-          fmt::format("\"{}\" is for straight pieces, and the table is smooth or a formula; drop it", s.key(member));
-    else if (2 * load.rounding > most)
-      wrong = fmt::format("{} = {:g} {}; must be ≤ {} of {:g} {}", s.key(member), 2 * load.rounding, unit,
-                          over_angle ? "half the period"
-                          : rocks    ? "the swing"
-                                     : "the stroke",
-                          most, unit);
-    if (!wrong.empty()) return s.refuse(member, wrong);
-  }
-  return true;
-}
-
-bool put_law(const Reading<Press>& s, const Mechanism& mechanism, SliderLoad& load) {
-  bool sound = true;
-  if (s.travel > mechanism.stroke())
-    sound = s.refuse(&Press::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
-                                                 in_mm(mechanism.stroke())));
-  if (s.rise > s.travel)
-    sound =
-        s.refuse(&Press::rise, fmt::format("rise = {}; must be ≤ nominal_travel = {}", in_mm(s.rise), in_mm(s.travel)));
-  if (s.breakthrough >= s.travel - s.rise && s.breakthrough > 0 && s.rise <= s.travel)
-    sound = s.refuse(&Press::breakthrough,
-                     fmt::format("breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands",
-                                 in_mm(s.breakthrough), in_mm(s.travel - s.rise)));
-  if (s.drop > s.breakthrough)
-    sound = s.refuse(&Press::drop,
-                     fmt::format("drop = {}; must be ≤ breakthrough = {}", in_mm(s.drop), in_mm(s.breakthrough)));
-  if (!sound) return false;
-  load.law = PressForce::make(working_end(s.from_greatest, mechanism), mechanism.stroke(), s.force, s.travel, s.rise,
-                              s.breakthrough, s.drop);
-  return put_rounding(s, mechanism, load);
-}
-
-bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& load) {
-  CurveData data = s.force;
-  const auto refuse = [&](const std::string& text) { return s.refuse(&Table::force, text); };
-  const WorkingEnd end = working_end(s.from_greatest, mechanism);
-  try {
-    if (data.over != "angle") {
-      if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
-      if (mechanism.travel.winding != 0)
-        return refuse(
-            fmt::format("a table over {}, but the output goes round with the crank and has no end of a swing; "
-                        "give the table over the crank's angle",
-                        data.over));
-      TravelForce law{end, data.curve(), {}, mechanism.stroke()};
-      if (!data.x_back.empty()) law.retreat = data.back();
-      load.law = std::move(law);
-    } else {
-      if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-      if (data.period == 0)
-        data.period = data.x.back() - data.x.front() > 2 * std::numbers::pi * 1.0001 ? 4 * std::numbers::pi
-                                                                                     : 2 * std::numbers::pi;
-      load.law = AngleForce{end, data.curve()};
-    }
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
-  return put_rounding(s, mechanism, load);
-}
-
-bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoad& load) {
-  CompressorForce law = s;
-  law.end = working_end(s.from_greatest, mechanism);
-  law.stroke = mechanism.stroke();
-  law.area = 0.25 * std::numbers::pi * s.bore * s.bore;
-  if (law.delivery <= law.suction)
-    return s.refuse(&Compressor::delivery,
-                    fmt::format("delivery_pressure = {:g} bar; must be above suction_pressure = {:g} bar",
-                                law.delivery * 1e-5, law.suction * 1e-5));
-  const auto refuse = [&](const char* event, double greatest) {
-    return s.refuse(&Compressor::clearance, fmt::format("clearance = {:g}; must be < {:.4g}, else the {} at these "
-                                                        "pressures",
-                                                        law.clearance, greatest, event));
-  };
-  if (law.delivery_opens_at() <= 0)
-    return refuse("delivery valve never opens",
-                  1 / (std::pow(law.delivery / law.suction, 1 / law.compression_exponent) - 1));
-  if (law.volumetric_efficiency() <= 0)
-    return refuse("suction valve never opens",
-                  1 / (std::pow(law.delivery / law.suction, 1 / law.expansion_exponent) - 1));
-  load.law = law;
-  return true;
-}
-
-// One chamber: its pressure on an area, which is negative behind the piston.
-bool put_chamber(const Reading<Cylinder>& s, const CurveData& given, double area, const Mechanism& mechanism,
-                 SliderLoad& load, const std::function<bool(const std::string&)>& refuse) {
-  const WorkingEnd end = working_end(s.from_greatest, mechanism);
-  CurveData data = given;
-  if (data.over != "angle") {
-    if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
-    ChamberOverTravel law{{end, data.curve(), {}, mechanism.stroke()}, area, s.outside};
-    if (!data.x_back.empty()) law.retreat = data.back();
-    load.law = std::move(law);
-    return true;
-  }
-  if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-  if (data.period == 0) data.period = 2 * std::numbers::pi;
-  try {
-    load.law = ChamberOverAngle{{end, data.curve()}, area, s.outside};
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
-  return true;
-}
-
-bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load) {
-  if (s.rod >= s.bore)
-    return s.refuse(&Cylinder::rod, fmt::format("rod_diameter = {}; must be < bore = {}", in_mm(s.rod), in_mm(s.bore)));
-  const auto area = [](double diameter) { return 0.25 * std::numbers::pi * diameter * diameter; };
-  if (s.behind) {
-    SliderLoad behind = load;
-    behind.name += ".behind";
-    const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::behind, text); };
-    if (!put_chamber(s, *s.behind, area(s.rod) - area(s.bore), mechanism, behind, refuse)) return false;
-    mechanism.loads.push_back(std::move(behind));
-  }
-  const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
-  return put_chamber(s, s.pressure, area(s.bore), mechanism, load, refuse);
-}
-
-template <class Law>
-bool put_law(const Reading<LoadKeys<Law>>& s, const Mechanism&, SliderLoad& load) {
-  load.law = static_cast<const Law&>(s);
-  return true;
-}
 
 // --- keys that several loads have ---
 
@@ -258,20 +107,37 @@ Fields<Medium> medium(const std::string& viscous_unit, const std::string& quadra
       .add(work_key(), &Medium::account, accounts());
 }
 
+template <class K>
+Fields<K> with_misfire(Fields<K> fields, const char* unit) {
+  return fields
+      .add({.name = "misfire",
+            .fallback = "false",
+            .doc = "of a diagram over the crank angle: the cylinder does not fire"},
+           &K::misfire)
+      .add({.name = "motored",
+            .unit = unit,
+            .doc = "the diagram of a cylinder that does not fire; default: its compression, mirrored about 0 deg, the "
+                   "top dead centre",
+            .choices = {"angle"}},
+           &K::motored);
+}
+
 Fields<Table> table() {
-  return Fields<Table>()
-      .add({.name = "force",
-            .unit = "N",
-            .doc = "positive pushes the slider away from the working end; over the distance to that end "
-                   "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                   "720 deg for four strokes)",
-            .required = true,
-            .choices = {"travel", "angle"}},
-           &Table::force)
-      .add(rounding_key("rounding", "m"), &Table::rounding)
-      .add(rounding_key("rounding_angle", "rad"), &Table::rounding_angle)
-      .add(working_end_key(), &Table::from_greatest, stroke_ends())
-      .add(work_key(), &Table::account, accounts());
+  return with_misfire(
+      Fields<Table>()
+          .add({.name = "force",
+                .unit = "N",
+                .doc = "positive pushes the slider away from the working end; over the distance to that end "
+                       "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
+                       "720 deg for four strokes)",
+                .required = true,
+                .choices = {"travel", "angle"}},
+               &Table::force)
+          .add(rounding_key("rounding", "m"), &Table::rounding)
+          .add(rounding_key("rounding_angle", "rad"), &Table::rounding_angle)
+          .add(working_end_key(), &Table::from_greatest, stroke_ends())
+          .add(work_key(), &Table::account, accounts()),
+      "N");
 }
 
 Fields<Compressor> compressor() {
@@ -311,36 +177,38 @@ Words<Account> driving_accounts() {
 Key driving_work_key() { return {.name = "work", .fallback = "\"driving\"", .doc = "line of the energy balance"}; }
 
 Fields<Cylinder> cylinder() {
-  return Fields<Cylinder>()
-      .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
-           &Cylinder::bore)
-      .add({.name = "rod_diameter",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .domain = not_negative,
-            .doc = "of the piston rod, on the side away from the working end"},
-           &Cylinder::rod)
-      .add({.name = "pressure",
-            .unit = "Pa",
-            .doc =
-                "absolute, in the chamber at the working end, which pushes the slider away from it; over the distance "
-                "to that end (return_points: while the slider moves away) or over the crank angle",
-            .required = true,
-            .choices = {"travel", "angle"}},
-           &Cylinder::pressure)
-      .add({.name = "pressure_behind",
-            .unit = "Pa",
-            .doc = "the same in the other chamber, over the same distance or angle; without: outside_pressure",
-            .choices = {"travel", "angle"}},
-           &Cylinder::behind)
-      .add({.name = "outside_pressure",
-            .unit = "Pa",
-            .fallback = "\"101325 Pa\"",
-            .domain = not_negative,
-            .doc = "absolute, on the rod and on the piston's other face where there is no second chamber"},
-           &Cylinder::outside)
-      .add(working_end_key(), &Cylinder::from_greatest, stroke_ends())
-      .add(driving_work_key(), &Cylinder::account, driving_accounts());
+  return with_misfire(
+      Fields<Cylinder>()
+          .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
+               &Cylinder::bore)
+          .add({.name = "rod_diameter",
+                .unit = "m",
+                .fallback = "\"0 m\"",
+                .domain = not_negative,
+                .doc = "of the piston rod, on the side away from the working end"},
+               &Cylinder::rod)
+          .add({.name = "pressure",
+                .unit = "Pa",
+                .doc = "absolute, in the chamber at the working end, which pushes the slider away from it; over the "
+                       "distance "
+                       "to that end (return_points: while the slider moves away) or over the crank angle",
+                .required = true,
+                .choices = {"travel", "angle"}},
+               &Cylinder::pressure)
+          .add({.name = "pressure_behind",
+                .unit = "Pa",
+                .doc = "the same in the other chamber, over the same distance or angle; without: outside_pressure",
+                .choices = {"travel", "angle"}},
+               &Cylinder::behind)
+          .add({.name = "outside_pressure",
+                .unit = "Pa",
+                .fallback = "\"101325 Pa\"",
+                .domain = not_negative,
+                .doc = "absolute, on the rod and on the piston's other face where there is no second chamber"},
+               &Cylinder::outside)
+          .add(working_end_key(), &Cylinder::from_greatest, stroke_ends())
+          .add(driving_work_key(), &Cylinder::account, driving_accounts()),
+      "Pa");
 }
 
 Fields<LinearMotor> linear_motor() {
@@ -378,18 +246,6 @@ Fields<Table> rocker_table() {
 }
 
 }  // namespace
-
-void put_loads(const std::vector<LoadReading>& loads, Mechanism& mechanism) {
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    SliderLoad load{ConstantForce{},
-                    loads.size() == 1 ? mechanism.name + ".load" : fmt::format("{}.load{}", mechanism.name, k + 1)};
-    const auto put = [&](const auto& keys) {
-      load.account = keys.account;
-      return put_law(keys, mechanism, load);
-    };
-    if (std::visit(put, loads[k])) mechanism.loads.push_back(std::move(load));
-  }
-}
 
 const Tables<LoadReading>& slider_loads() {
   static const auto made =

@@ -24,7 +24,12 @@ struct PressKeys : EdgeKeys {
   double force = 0;                                         // F_n [N]
   double travel = 0, rise = 0, breakthrough = 0, drop = 0;  // [m]
 };
-struct TableKeys : EdgeKeys {
+// A diagram over the crank angle may be that of a cylinder which does not fire.
+struct MisfireKeys {
+  bool misfire = false;
+  std::optional<CurveData> motored;  // the diagram then; default: compression, mirrored about the dead centre
+};
+struct TableKeys : EdgeKeys, MisfireKeys {
   CurveData force;  // [N] or [N·m]
 };
 struct CompressorKeys : CompressorForce {
@@ -33,7 +38,7 @@ struct CompressorKeys : CompressorForce {
 };
 
 // A cylinder on the slider: pressures in one chamber or both.
-struct CylinderKeys {
+struct CylinderKeys : MisfireKeys {
   bool from_greatest = true;
   double bore = 0, rod = 0;         // [m]
   CurveData pressure;               // of the chamber at the working end [Pa]

@@ -1,8 +1,12 @@
 // slider_crank_kind.cpp — the slider-crank's keys.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
+#include "engine/numerics/period.h"
 #include "mechanisms/kinds/deformation_keys.h"
 #include "mechanisms/kinds/joint_keys.h"
 #include "mechanisms/kinds/kinds.h"
@@ -99,7 +103,34 @@ Fields<Crank> linkage() {
            &Crank::stroke_angle);
 }
 
+// Of one cylinder of several, each a throw: when it fires says where its crank stands.
+struct FiringKeys {
+  std::optional<int> cylinder;                   // its number
+  std::optional<std::vector<int>> order;         // numbers as they fire
+  std::optional<std::vector<double>> intervals;  // [rad]
+  int strokes = 4;
+};
+
+Fields<FiringKeys> firing() {
+  return Fields<FiringKeys>()
+      .add(
+          {.name = "cylinder", .domain = positive, .doc = "its number in firing_order, of an engine of several throws"},
+          &FiringKeys::cylinder)
+      .add({.name = "firing_order",
+            .doc = "numbers of the cylinders in the order in which they fire, the first at 0 deg of the shaft: gives "
+                   "the phase, that of the working cycle included"},
+           &FiringKeys::order)
+      .add({.name = "firing_intervals",
+            .unit = "rad",
+            .domain = not_negative,
+            .doc = "crank angle from each firing to the next, the last back to the first; default: equal"},
+           &FiringKeys::intervals)
+      .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
+           &FiringKeys::strokes, {{"four", 4}, {"two", 2}});
+}
+
 struct SliderCrankKeys : Mounted<SliderCrankData> {
+  FiringKeys firing;
   SliderCrankJoints joints;
   DeformationKeys deformation;
 };
@@ -109,14 +140,77 @@ const Fields<SliderCrankKeys>& slider_crank_fields() {
       Fields<SliderCrankKeys>()
           .add(linkage(), &SliderCrankKeys::linkage)
           .add(mounting("force on the slider, or a list of them", slider_loads()), &SliderCrankKeys::mounting)
+          .add(firing(), &SliderCrankKeys::firing)
           .add(joint_fields(), &SliderCrankKeys::joints)
           .add(deformation_fields(), &SliderCrankKeys::deformation);
   return made;
 }
 
+// Angle of the shaft at which this cylinder fires; none, with a message, where order and intervals do not fit.
+std::optional<double> fires_at(const Section& s, const FiringKeys& f, Messages& messages) {
+  const auto refuse = [&](const char* key, const std::string& text) -> std::optional<double> {
+    messages.add(s.where(key), fmt::format("{} \"{}\": {}", s.kind->name, s.name, text));
+    return {};
+  };
+  const double cycle = f.strokes * std::numbers::pi, degree = std::numbers::pi / 180;
+  const std::vector<int>& order = *f.order;
+  std::vector<int> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t k = 0; k < sorted.size(); ++k)
+    if (sorted[k] != static_cast<int>(k) + 1)
+      return refuse("firing_order",
+                    fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, "
+                                "2]",
+                                sorted.size()));
+  const auto own = std::find(order.begin(), order.end(), *f.cylinder);
+  if (own == order.end())
+    return refuse("cylinder",
+                  fmt::format("cylinder = {} is not in firing_order, which has 1 to {}", *f.cylinder, order.size()));
+  const std::vector<double> intervals =
+      f.intervals.value_or(std::vector<double>(order.size(), cycle / static_cast<double>(order.size())));
+  if (intervals.size() != order.size())
+    return refuse("firing_intervals",
+                  fmt::format("{} firing_intervals for {} cylinders; give one from each firing to the "
+                              "next, the last back to the first",
+                              intervals.size(), order.size()));
+  const double sum = std::accumulate(intervals.begin(), intervals.end(), 0.0);
+  if (std::abs(sum - cycle) > 1e-9 * cycle)
+    return refuse("firing_intervals",
+                  fmt::format("firing_intervals add up to {:.6g} deg; must be the cycle of {:.6g} deg", sum / degree,
+                              cycle / degree));
+  return std::accumulate(intervals.begin(), intervals.begin() + (own - order.begin()), 0.0);
+}
+
+// The phase by the firing order; a phase that is given must be the same crank, of either turn.
+bool put_phase(const Section& s, const FiringKeys& f, Mounting& mounting, Messages& messages) {
+  const auto refuse = [&](const char* key, const std::string& text) {
+    messages.add(s.where(key), fmt::format("{} \"{}\": {}", s.kind->name, s.name, text));
+    return false;
+  };
+  if (!f.order && !f.cylinder) {
+    if (f.intervals) return refuse("firing_intervals", "\"firing_intervals\" needs \"firing_order\" and \"cylinder\"");
+    return true;
+  }
+  if (!f.order) return refuse("cylinder", "\"cylinder\" needs \"firing_order\", e.g. [1, 3, 4, 2]");
+  if (!f.cylinder) return refuse("firing_order", "\"firing_order\" needs \"cylinder\", the number of this one, e.g. 1");
+  const std::optional<double> at = fires_at(s, f, messages);
+  if (!at) return false;
+  const double turn = 2 * std::numbers::pi, degree = std::numbers::pi / 180;
+  const double phase = place_within(-*at, f.strokes * std::numbers::pi);
+  if (s.given("phase") && std::abs(std::remainder(mounting.phase - phase, turn)) > 1e-6)
+    return refuse("phase",
+                  fmt::format("phase = {:.6g} deg, but by the firing order it fires at {:.6g} deg of the shaft, "
+                              "where its crank must be at the dead centre: phase = {:.6g} deg; leave the phase "
+                              "out, or mend the order",
+                              mounting.phase / degree, *at / degree, place_within(-*at, turn) / degree));
+  mounting.phase = phase;
+  return true;
+}
+
 void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   const std::size_t before = messages.all().size();
-  const auto mechanism = slider_crank_fields().read(s, messages);
+  auto mechanism = slider_crank_fields().read(s, messages);
+  put_phase(s, mechanism.firing, mechanism.mounting, messages);
   const bool sound = messages.all().size() == before;
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);

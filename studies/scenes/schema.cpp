@@ -50,11 +50,15 @@ Json quantity(const std::string& unit, const Domain& domain) {
            {number, {{"type", "string"}, {"pattern", number_or_percent}}, {{"type", "string"}, {"pattern", "^="}}}}};
 }
 
+// use = "table.gas"
+Json used_table() {
+  return {{"type", "string"}, {"pattern", "^table\\."}, {"description", "takes its keys from [table.NAME]"}};
+}
+
 // { over = "angle", unit = ["deg", "N*m"], points = [[0, 0], [90, 12]] }
 Json curve(const Key& key) {
   const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
   const Json points = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
-  const Json use = {{"type", "string"}, {"pattern", "^table\\."}, {"description", "takes its keys from [table.NAME]"}};
   const Json properties = {
       {"over", {{"enum", key.choices}, {"description", "what the first column is"}}},
       {"unit",
@@ -76,7 +80,7 @@ Json curve(const Key& key) {
       {"return_formula", text()},
       {"range", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"description", "where the formula holds"}}},
       {"with", {{"type", "object"}, {"description", "constants of the formula: p0 = \"1 bar\""}}},
-      {"use", use},
+      {"use", used_table()},
   };
   return table_of(properties);
 }
@@ -145,13 +149,15 @@ Json kind_schema(const Kind& kind, bool kind_required) {
   if (kind.placement == Placement::inline_one)
     properties["on"] = {{"type", "string"},
                         {"description", "component on whose shaft this one sits, in place of a position in a line"}};
+  properties["use"] = used_table();
   properties.update(properties_of(kind.keys));
   std::vector<std::string> required;
-  if (kind_required) required.push_back("kind");
   for (const Key& key : kind.keys)
     if (key.required) required.push_back(key.name);
   Json schema = {{"title", kind.name}, {"description", kind.doc}};
-  schema.update(table_of(properties, required));
+  schema.update(table_of(properties, kind_required ? std::vector<std::string>{"kind"} : std::vector<std::string>{}));
+  // What is required may stand in the table that is used.
+  if (!required.empty()) schema["anyOf"] = {{{"required", required}}, {{"required", {"use"}}}};
   return schema;
 }
 

@@ -79,8 +79,8 @@ TEST(ShaftElements, DerivativesAreExact) {
   expect_exact_derivatives(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 300);
   expect_exact_derivatives(PneumaticMotor{20, 60, 0.4}, 100);
   const Curve pressure({0, 1, 2.5, 5, 9}, {4e5, 2e6, 3e5, 1e5, 2e5}, Curve::Form::smooth, 4 * M_PI);
-  expect_exact_derivatives(EngineTorque(pressure, {}, {0, 3, 7}), 100);
-  expect_exact_derivatives(EngineTorque(pressure, {0.005, 0.04, 0.14, 1e5}, {0, 3, 7}), 100);
+  expect_exact_derivatives(EngineTorque({pressure}, {}, {{0}, {3}, {7}}), 100);
+  expect_exact_derivatives(EngineTorque({pressure}, {0.005, 0.04, 0.14, 1e5}, {{0}, {3}, {7}}), 100);
   expect_exact_derivatives(SpeedLoad{Account::useful, 0.3, 0.02}, 100);
   expect_exact_derivatives(OpposingLoad{Account::useful, 5, 0.3, 0.02, 0}, 100);
   expect_exact_derivatives(

@@ -43,9 +43,9 @@ class EqualIntervals : public ::testing::TestWithParam<Engine> {
   const double cycle = GetParam().strokes * pi;
   const Curve diagram = some_diagram(static_cast<unsigned>(n + GetParam().strokes), cycle, GetParam().form);
   EngineTorque engine(CylinderGeometry geometry = {}) const {
-    std::vector<double> at;
-    for (int k = 0; k < n; ++k) at.push_back(0.3 + k * cycle / n);
-    return EngineTorque(diagram, geometry, at);
+    std::vector<EngineTorque::Cylinder> cylinders;
+    for (int k = 0; k < n; ++k) cylinders.push_back({0.3 + k * cycle / n, 0});
+    return EngineTorque({diagram}, geometry, cylinders);
   }
   static constexpr CylinderGeometry geometry{0.006, 0.045, 0.14, 1.0};
   // Values over one cycle; 720 n of them, so that every cylinder sees the same angles.
@@ -65,7 +65,7 @@ class EqualIntervals : public ::testing::TestWithParam<Engine> {
 // Of a four-stroke engine only the orders n/2, n, … of the crankshaft are left; each is n times the single cylinder's.
 TEST_P(EqualIntervals, LeaveOnlyMultiplesOfTheNumberOfCylindersPerCycle) {
   for (const CylinderGeometry& g : {CylinderGeometry{}, geometry}) {
-    const EngineTorque single(diagram, g, {0.3});
+    const EngineTorque single({diagram}, g, {{0.3}});
     const auto all = sampled(engine(g)), one = sampled(single);
     const double scale = std::max(single.rated().torque, 1e-9);
     EXPECT_NEAR(harmonic(all, 0).real(), n * harmonic(one, 0).real(), 1e-12 * n * scale);
@@ -108,7 +108,7 @@ TEST(EngineTorque, PointsThatFallTogetherAreOneEdge) {
     x.push_back(i * pi / 18);
     y.push_back(std::sin(0.1 * i * i));
   }
-  const EngineTorque engine(Curve(x, y, Curve::Form::linear, 4 * pi), {}, {0, pi, 2 * pi, 3 * pi});
+  const EngineTorque engine({Curve(x, y, Curve::Form::linear, 4 * pi)}, {}, {{0}, {pi}, {2 * pi}, {3 * pi}});
   ShaftState<double> at{0, 0.001, 1, 0, 1};
   int pieces = 0;
   do {

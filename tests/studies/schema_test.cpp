@@ -147,14 +147,18 @@ TEST(Schema, EveryKindHasTheKeysAndRequiredOnesOfTheReader) {
   const Json schema = Json::parse(scene_schema());
   for (const Kind& kind : all_kinds()) {
     const Json& table = schema.at("$defs").at(kind.name);
-    std::vector<std::string> required = {"kind"};
+    std::vector<std::string> required;
     for (const Key& key : kind.keys) {
       EXPECT_TRUE(table["properties"].contains(key.name)) << kind.name << "." << key.name;
       if (key.required) required.push_back(key.name);
     }
-    const std::size_t others = kind.placement == Placement::inline_one ? 2 : 1;  // kind, on
+    const std::size_t others = kind.placement == Placement::inline_one ? 3 : 2;  // kind, use, on
     EXPECT_EQ(table["properties"].size(), kind.keys.size() + others) << kind.name;
-    EXPECT_EQ(table["required"].get<std::vector<std::string>>(), required);
+    EXPECT_EQ(table["required"], Json({"kind"}));
+    // What is required, or a table that may have it.
+    if (!required.empty()) {
+      EXPECT_EQ(table["anyOf"], Json({{{"required", required}}, {{"required", {"use"}}}})) << kind.name;
+    }
     EXPECT_EQ(table["additionalProperties"], false);
   }
 }
@@ -164,6 +168,7 @@ TEST(Schema, SlipsDoNotFit) {
   EXPECT_EQ(error_in(head + "inertia = \"1 kg*m2\"\n"), "");
   EXPECT_NE(error_in("[a]\nkind = \"inertia\"\ninertia = \"1 kg*m2\"\n"), "") << "no line";
   EXPECT_NE(error_in(head), "") << "a required key is missing";
+  EXPECT_EQ(error_in(head + "use = \"table.wheel\"\n"), "") << "it may stand in a table that is used";
   EXPECT_NE(error_in(head + "inertia = 1\n"), "") << "no unit";
   EXPECT_NE(error_in(head + "inertai = \"1 kg*m2\"\n"), "") << "mistyped key";
   EXPECT_NE(error_in(head + "inertia = \"1 kg*m2\"\n[run]\nmethod = \"eular\"\n"), "") << "unknown method";

@@ -1,0 +1,222 @@
+// load_laws.cpp — from the keys of a load on a mechanism's output to its law.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "engine/reading/mirrored.h"
+#include "mechanisms/kinds/load_kinds.h"
+
+namespace kurbel {
+namespace {
+
+using Press = LoadKeys<PressKeys>;
+using Constant = LoadKeys<ConstantForce>;
+using Opposing = LoadKeys<OpposingForce>;
+using Medium = LoadKeys<MediumResistance>;
+using Table = LoadKeys<TableKeys>;
+using Compressor = LoadKeys<CompressorKeys>;
+using Cylinder = LoadKeys<CylinderKeys>;
+using LinearMotor = LoadKeys<LinearMotorForce>;
+
+WorkingEnd working_end(bool from_greatest, const Mechanism& mechanism) {
+  return {from_greatest ? mechanism.travel.greatest : mechanism.travel.least, from_greatest ? 1 : -1};
+}
+
+// The width that edges are rounded over when the effect load_edges is off; a smooth table has no edges.
+template <class Keys>
+bool put_rounding(const Reading<Keys>& s, const Mechanism& mechanism, SliderLoad& load) {
+  const bool over_angle = load.period() > 0, rocks = mechanism.rocks();
+  for (const auto member : {&EdgeKeys::rounding, &EdgeKeys::rounding_angle}) {
+    if (!(s.*member)) continue;
+    const double most = over_angle ? 0.5 * load.period() : mechanism.stroke();
+    const char* const unit = over_angle || rocks ? "rad" : "m";
+    load.rounding = 0.5 * *(s.*member);
+    std::string wrong;
+    if (!rocks && over_angle != (member == &EdgeKeys::rounding_angle))
+      wrong = over_angle ? "the table is over the crank angle; give \"rounding_angle\""
+                         : "the table is over the travel; give \"rounding\"";
+    else if (!load.can_be_rounded())
+      wrong =
+          fmt::format("\"{}\" is for straight pieces, and the table is smooth or a formula; drop it", s.key(member));
+    else if (2 * load.rounding > most)
+      wrong = fmt::format("{} = {:g} {}; must be ≤ {} of {:g} {}", s.key(member), 2 * load.rounding, unit,
+                          over_angle ? "half the period"
+                          : rocks    ? "the swing"
+                                     : "the stroke",
+                          most, unit);
+    if (!wrong.empty()) return s.refuse(member, wrong);
+  }
+  return true;
+}
+
+bool put_law(const Reading<Press>& s, const Mechanism& mechanism, SliderLoad& load) {
+  bool sound = true;
+  if (s.travel > mechanism.stroke())
+    sound = s.refuse(&Press::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
+                                                 in_mm(mechanism.stroke())));
+  if (s.rise > s.travel)
+    sound =
+        s.refuse(&Press::rise, fmt::format("rise = {}; must be ≤ nominal_travel = {}", in_mm(s.rise), in_mm(s.travel)));
+  if (s.breakthrough >= s.travel - s.rise && s.breakthrough > 0 && s.rise <= s.travel)
+    sound = s.refuse(&Press::breakthrough,
+                     fmt::format("breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands",
+                                 in_mm(s.breakthrough), in_mm(s.travel - s.rise)));
+  if (s.drop > s.breakthrough)
+    sound = s.refuse(&Press::drop,
+                     fmt::format("drop = {}; must be ≤ breakthrough = {}", in_mm(s.drop), in_mm(s.breakthrough)));
+  if (!sound) return false;
+  load.law = PressForce::make(working_end(s.from_greatest, mechanism), mechanism.stroke(), s.force, s.travel, s.rise,
+                              s.breakthrough, s.drop);
+  return put_rounding(s, mechanism, load);
+}
+
+// Over the crank angle a diagram repeats after one turn, or after two where it is longer than one.
+double cycle_of(const CurveData& data) {
+  if (data.period > 0) return data.period;
+  const double turn = 2 * std::numbers::pi;
+  return data.x.back() - data.x.front() > turn * 1.0001 ? 2 * turn : turn;
+}
+
+// The diagram that acts: of a cylinder that does not fire the motored one. False, with a message, where there is none.
+// Throws std::invalid_argument in words.
+template <class Keys>
+bool choose_diagram(const Reading<Keys>& s, CurveData& data) {
+  if (data.over != "angle") {
+    if (s.motored)
+      return s.refuse(&Keys::motored, fmt::format("belongs to a diagram over \"angle\"; it is over \"{}\"", data.over));
+    return !s.misfire ||
+           s.refuse(&Keys::misfire, fmt::format("a diagram over {} knows no cycle that could misfire; give "
+                                                "it over \"angle\"",
+                                                data.over));
+  }
+  data.period = cycle_of(data);
+  if (s.motored && std::abs(cycle_of(*s.motored) - data.period) > 1e-9 * data.period)
+    return s.refuse(&Keys::motored, "its period is not that of the fired diagram");
+  if (!s.misfire) return true;
+  if (!s.motored && !s.from_greatest)
+    return s.refuse(&Keys::misfire,
+                    "the compression of a cylinder at the folded end does not end at 0 deg and is not "
+                    "mirrored; give \"motored\"");
+  const double period = data.period;
+  data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
+  data.period = period;
+  return true;
+}
+
+bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& load) {
+  CurveData data = s.force;
+  const auto refuse = [&](const std::string& text) { return s.refuse(&Table::force, text); };
+  const WorkingEnd end = working_end(s.from_greatest, mechanism);
+  try {
+    if (!choose_diagram(s, data)) return false;
+    if (data.over != "angle") {
+      if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
+      if (mechanism.travel.winding != 0)
+        return refuse(
+            fmt::format("a table over {}, but the output goes round with the crank and has no end of a swing; "
+                        "give the table over the crank's angle",
+                        data.over));
+      TravelForce law{end, data.curve(), {}, mechanism.stroke()};
+      if (!data.x_back.empty()) law.retreat = data.back();
+      load.law = std::move(law);
+    } else {
+      if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
+      load.law = AngleForce{end, data.curve()};
+    }
+  } catch (const std::invalid_argument& error) {
+    return refuse(error.what());
+  }
+  return put_rounding(s, mechanism, load);
+}
+
+bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoad& load) {
+  CompressorForce law = s;
+  law.end = working_end(s.from_greatest, mechanism);
+  law.stroke = mechanism.stroke();
+  law.area = 0.25 * std::numbers::pi * s.bore * s.bore;
+  if (law.delivery <= law.suction)
+    return s.refuse(&Compressor::delivery,
+                    fmt::format("delivery_pressure = {:g} bar; must be above suction_pressure = {:g} bar",
+                                law.delivery * 1e-5, law.suction * 1e-5));
+  const auto refuse = [&](const char* event, double greatest) {
+    return s.refuse(&Compressor::clearance, fmt::format("clearance = {:g}; must be < {:.4g}, else the {} at these "
+                                                        "pressures",
+                                                        law.clearance, greatest, event));
+  };
+  if (law.delivery_opens_at() <= 0)
+    return refuse("delivery valve never opens",
+                  1 / (std::pow(law.delivery / law.suction, 1 / law.compression_exponent) - 1));
+  if (law.volumetric_efficiency() <= 0)
+    return refuse("suction valve never opens",
+                  1 / (std::pow(law.delivery / law.suction, 1 / law.expansion_exponent) - 1));
+  load.law = law;
+  return true;
+}
+
+// One chamber: its pressure on an area, which is negative behind the piston.
+bool put_chamber(const Reading<Cylinder>& s, const CurveData& given, double area, const Mechanism& mechanism,
+                 SliderLoad& load, const std::function<bool(const std::string&)>& refuse) {
+  const WorkingEnd end = working_end(s.from_greatest, mechanism);
+  CurveData data = given;
+  if (data.over != "angle") {
+    if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
+    ChamberOverTravel law{{end, data.curve(), {}, mechanism.stroke()}, area, s.outside};
+    if (!data.x_back.empty()) law.retreat = data.back();
+    load.law = std::move(law);
+    return true;
+  }
+  if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
+  data.period = cycle_of(data);
+  try {
+    load.law = ChamberOverAngle{{end, data.curve()}, area, s.outside};
+  } catch (const std::invalid_argument& error) {
+    return refuse(error.what());
+  }
+  return true;
+}
+
+bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load) {
+  if (s.rod >= s.bore)
+    return s.refuse(&Cylinder::rod, fmt::format("rod_diameter = {}; must be < bore = {}", in_mm(s.rod), in_mm(s.bore)));
+  const auto area = [](double diameter) { return 0.25 * std::numbers::pi * diameter * diameter; };
+  if (s.behind) {
+    SliderLoad behind = load;
+    behind.name += ".behind";
+    const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::behind, text); };
+    if (!put_chamber(s, *s.behind, area(s.rod) - area(s.bore), mechanism, behind, refuse)) return false;
+    mechanism.loads.push_back(std::move(behind));
+  }
+  const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
+  CurveData pressure = s.pressure;
+  try {
+    if (!choose_diagram(s, pressure)) return false;
+  } catch (const std::invalid_argument& error) {
+    return refuse(error.what());
+  }
+  return put_chamber(s, pressure, area(s.bore), mechanism, load, refuse);
+}
+
+template <class Law>
+bool put_law(const Reading<LoadKeys<Law>>& s, const Mechanism&, SliderLoad& load) {
+  load.law = static_cast<const Law&>(s);
+  return true;
+}
+
+}  // namespace
+
+void put_loads(const std::vector<LoadReading>& loads, Mechanism& mechanism) {
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    SliderLoad load{ConstantForce{},
+                    loads.size() == 1 ? mechanism.name + ".load" : fmt::format("{}.load{}", mechanism.name, k + 1)};
+    const auto put = [&](const auto& keys) {
+      load.account = keys.account;
+      return put_law(keys, mechanism, load);
+    };
+    if (std::visit(put, loads[k])) mechanism.loads.push_back(std::move(load));
+  }
+}
+
+}  // namespace kurbel
