@@ -133,6 +133,8 @@ struct MachineView {
       std::vector<int> joints;  // that it goes through
     };
     std::string name;
+    std::string load;                       // what it works on: "press", "cylinder"; empty: else
+    double ratio = 1;                       // angle that x and y are tabled over, over that of the link
     double direction = 0;                   // of +x above the horizontal [rad]
     std::vector<std::vector<double>> x, y;  // per joint [m]
     std::vector<Link> links;                // in the order of drawing
@@ -146,12 +148,13 @@ struct MachineView {
     std::vector<double> angle;                             // of the crank, or of the reduction link [rad]
     std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it [rad]
     std::vector<std::vector<double>> torque;               // [N·m]
-    std::vector<double> force;  // on the output, positive towards its greatest x [N], or angle [N·m]
+    // Per linkage on its output, positive towards its greatest x [N], or angle [N·m]; empty where there is none.
+    std::vector<std::vector<double>> force;
   };
   std::string title, link;
   std::vector<Part> parts;
   std::vector<Tie> ties;
-  std::optional<Linkage> linkage;
+  std::vector<Linkage> linkages;
   std::vector<double> time;     // of the frames [s]
   std::vector<Motion> motions;  // the last one in front, those before it as grey ghosts
   double enlargement = 1;       // of the twists

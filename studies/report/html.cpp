@@ -156,6 +156,8 @@ void write(Writer& w, const Text& t) {
 
 void write(Writer& w, const MachineView::Linkage& linkage) {
   w.field("name", linkage.name);
+  w.field("load", linkage.load);
+  w.field("ratio", linkage.ratio);
   w.field("direction", linkage.direction);
   w.field("x", linkage.x, 5);
   w.field("y", linkage.y, 5);
@@ -199,10 +201,8 @@ void write(Writer& w, const MachineView& machine) {
       w.field("out", tie.out);
     });
   });
-  if (machine.linkage) {
-    w.key("linkage");
-    w.object([&] { write(w, *machine.linkage); });
-  }
+  w.key("linkages");
+  w.list(machine.linkages, [&](const MachineView::Linkage& linkage) { w.object([&] { write(w, linkage); }); });
   w.field("time", machine.time, 7);
   w.key("motions");
   w.list(machine.motions, [&](const MachineView::Motion& motion) {

@@ -304,7 +304,7 @@
   }
 
   // --- the moving machine ----------------------------------------------------------------------------------------------
-  const widths = {motor: 110, coupling: 92, gearbox: 130, flywheel: 90};
+  const widths = {motor: 110, coupling: 92, gearbox: 130, belt: 118, 'gear mesh': 120, 'worm gear': 120, flywheel: 90, shaft: 92, engine: 118, screw: 100, clutch: 78, brake: 78};
   const partWidth = part => part.crank ? 110 : widths[part.kind] || (/motor|turbine/.test(part.kind) ? 110 : 84);
 
   function addMachine(m, card) {
@@ -312,9 +312,10 @@
     const front = m.motions[m.motions.length - 1], ghosts = m.motions.slice(0, -1);
     const head = make('header', '', null, card);
     make('h3', '', m.title, head);
-    const stage = make('div', 'stage' + (m.linkage ? '' : ' alone'), null, card);
+    const stage = make('div', 'stage' + (m.linkages.length ? '' : ' alone') + (m.linkages.length > 1 ? ' many' : ''), null, card);
     const shaftLine = drawShaftLine(m, front, stage);
-    const mechanism = m.linkage ? drawLinkage(m, front, ghosts, stage) : null;
+    const drawings = m.linkages.length > 1 ? make('div', 'linkages', null, stage) : stage;
+    const mechanisms = m.linkages.map((g, k) => drawLinkage(m, g, k, front, ghosts, drawings));
 
     // Controls.
     const controls = make('div', 'controls', null, card);
@@ -361,7 +362,7 @@
       const i = Math.min(Math.floor(place), last - 1), share = place - i;
       const at = list => list && list.length ? list[i] + share * (list[i + 1] - list[i]) : 0;
       shaftLine(at, loads.checked);
-      if (mechanism) mechanism(at, loads.checked);
+      mechanisms.forEach(mechanism => mechanism(at, loads.checked));
       const angle = at(front.angle), within = ((angle % m.cycle) + m.cycle) % m.cycle;
       timeSlider.value = (now - m.time[0]) / span;
       angleSlider.value = within * 180 / Math.PI;
@@ -408,16 +409,87 @@
     loads.onchange = () => show(now);
     // It starts where it is twisted most, or pushed hardest.
     let most = Math.floor(0.37 * last / Math.max(turns, 1)), highest = 0;
-    for (const list of front.twistIn.length ? [...front.twistIn, ...front.twistOut] : [front.force])
+    for (const list of front.twistIn.length ? [...front.twistIn, ...front.twistOut] : front.force)
       list.forEach((value, i) => { if (Math.abs(value) > highest * 1.001) { highest = Math.abs(value); most = i; } });
     show(m.time[most]);
   }
+
+  // What stands on a shaft, seen from the side: each draws itself about (x, y) and says how thick it is along the shaft.
+  const body = (svg, x, y, w, h, kind = 'body', rx = 3) => draw('rect', {x: x - w / 2, y: y - h / 2, width: w, height: h, rx, class: kind}, svg);
+  const stroke = (svg, x1, y1, x2, y2, width = 1.2, name = 'var(--metal-edge)') => draw('line', {x1, y1, x2, y2, stroke: name, 'stroke-width': width}, svg);
+  const symbols = {
+    clutch(svg, x, y) {  // two plates with their linings
+      for (const s of [-1, 1]) { body(svg, x + 9 * s, y, 10, 84); body(svg, x + 2 * s, y, 3, 76, 'part', 0); }
+      return 28;
+    },
+    'one-way clutch'(svg, x, y) {
+      for (const s of [-1, 1]) body(svg, x + 8 * s, y, 12, 62);
+      draw('polyline', {points: `${x - 6},${y - 40} ${x + 6},${y - 40} ${x + 1},${y - 45} ${x + 6},${y - 40} ${x + 1},${y - 35}`, class: 'front', 'stroke-width': 2}, svg);
+      return 28;
+    },
+    'torque limiter'(svg, x, y) {
+      for (const s of [-1, 1]) body(svg, x + 9 * s, y, 10, 70);
+      stroke(svg, x - 4, y - 30, x + 4, y - 30, 3, 'var(--orange)');
+      stroke(svg, x - 4, y + 30, x + 4, y + 30, 3, 'var(--orange)');
+      return 28;
+    },
+    brake(svg, x, y) {  // a disc between shoes that hold to the frame
+      body(svg, x, y, 12, 84);
+      for (const s of [-1, 1]) {
+        body(svg, x, y + 48 * s, 26, 10, 'part', 1);
+        for (let k = -2; k <= 2; ++k) stroke(svg, x + 5 * k, y + 54 * s, x + 5 * k - 5, y + 61 * s);
+        stroke(svg, x - 15, y + 54 * s, x + 15, y + 54 * s, 1.6);
+      }
+      return 14;
+    },
+    'viscous damper'(svg, x, y) {  // a ring in its housing
+      body(svg, x, y, 34, 104);
+      for (const s of [-1, 1]) body(svg, x, y + 34 * s, 22, 26, 'part', 2);
+      return 34;
+    },
+    'fluid coupling'(svg, x, y) {
+      for (const s of [-1, 1]) draw('path', {d: `M${x + 3 * s},${y - 46} A30,46 0 0 ${s > 0 ? 1 : 0} ${x + 3 * s},${y + 46} Z`, class: 'body'}, svg);
+      return 50;
+    },
+    'planetary gear'(svg, x, y) {  // ring, planets, sun
+      body(svg, x, y, 30, 104);
+      for (const s of [-1, 1]) body(svg, x, y + 33 * s, 20, 24, 'shaft', 2);
+      body(svg, x, y, 20, 36, 'shaft', 2);
+      return 32;
+    },
+    shaft(svg, x, y, p) {  // longer and thinner than what it joins
+      body(svg, x, y, 64, 22, 'shaft', 1);
+      if (p.elastic) for (const k of [-2, -1, 0, 1, 2]) stroke(svg, x + 11 * k - 5, y + 11, x + 11 * k + 5, y - 11, 1.2);
+      return 64;
+    },
+    engine(svg, x, y) {  // a block with its cylinders
+      body(svg, x, y - 8, 92, 96, 'body', 6);
+      for (const k of [-1.5, -.5, .5, 1.5]) { body(svg, x + 21 * k, y - 36, 14, 30, 'dial', 2); body(svg, x + 21 * k, y - 30 + 5 * (Math.round(k * 2 + 5) % 3 - 1), 13, 9, 'shaft', 1); }
+      return 94;
+    },
+    load(svg, x, y) {  // blades
+      body(svg, x, y, 18, 44);
+      for (const s of [-1, 1]) draw('path', {d: `M${x - 8},${y + 22 * s} q-7,${20 * s} 8,${26 * s} q15,${-6 * s} 8,${-26 * s} Z`, class: 'body'}, svg);
+      return 26;
+    },
+    screw(svg, x, y) {
+      body(svg, x, y, 66, 30, 'shaft', 1);
+      for (let k = -4; k <= 4; ++k) stroke(svg, x + 7 * k - 3, y + 15, x + 7 * k + 3, y - 15, 1.4);
+      body(svg, x + 8, y, 22, 58);
+      return 66;
+    },
+  };
+  const stepsDown = kind => ['gearbox', 'gear mesh', 'belt', 'worm gear'].includes(kind);
 
   // Parts side by side, a line painted along the shafts, and a dial below each part.
   function drawShaftLine(m, front, stage) {
     const ghost = m.motions.length > 1 ? m.motions[0] : null;
     const rows = [...new Set(m.parts.map(p => p.row))];
-    const gap = 22, rowHeight = m.ties.length ? 325 : 295, most = 14, R = 13;  // ties run below the dials
+    const gap = 22, most = 14, R = 13;
+    // Steps down a row; where they add up, dials stand lower. Ties run below them.
+    const stepOf = p => stepsDown(p.kind) ? (p.kind === 'belt' ? 52 : 34) * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : 0;
+    const lowest = Math.max(...rows.map(row => { let at = 0, low = 0; for (const p of m.parts) if (p.row === row) { at += stepOf(p); low = Math.max(low, at); } return low; }));
+    const lower = Math.max(0, lowest - 34), rowHeight = (m.ties.length ? 325 : 295) + lower;
     let partsOf = rows.map(row => m.parts.map((p, k) => ({p, k})).filter(e => e.p.row === row).map(e => e.p.kind === 'gap' ? null : e));
     partsOf = partsOf.map(list => list.length > most + 1 ? [...list.slice(0, most / 2), null, ...list.slice(-most / 2)] : list);
     const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
@@ -443,20 +515,30 @@
         const {p, k} = entry, w = partWidth(p), kind = p.kind, middle = x + w / 2;
         // Shafts to both neighbours.
         const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
-        const out = kind === 'gearbox' ? y + 34 * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : y;
+        const out = y + stepOf(p);
         shaftsOf[k] = {middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
         ends[r] = {first: ends[r] ? ends[r].first : {x: x - gap / 2, y}, last: {x: x + w + gap / 2, y: out}};
-        if (n > 0 || kind === 'coupling' || kind === 'gearbox') shaft(x - gap / 2, middle, y);
-        if (n < list.length - 1 || kind === 'coupling' || kind === 'gearbox') shaft(middle, x + w + gap / 2, out);
+        if (n > 0 || kind === 'coupling' || stepsDown(kind)) shaft(x - gap / 2, middle, y);
+        if (n < list.length - 1 || kind === 'coupling' || stepsDown(kind)) shaft(middle, x + w + gap / 2, out);
         line.push({x: x - gap / 2, y, k, side: 'twistIn'});
-        if (kind === 'gearbox') {
+        if (stepsDown(kind)) {
           line.push({x: middle - 6, y, k, side: 'twistIn'});
           stations.push(line = []);
           line.push({x: middle + 6, y: out, k, side: 'twistOut'});
           const i = Math.abs(p.ratioIn / p.ratioOut), high = i > 1 ? 1 / i : 1;
           const rIn = 12 + 30 * Math.min(1, Math.pow(high, 0.5)) * (i > 1 ? 0.6 : 1), rOut = 60 - rIn > 14 ? 60 - rIn : 14;
-          draw('rect', {x: middle - 17, y: y - rIn, width: 14, height: 2 * rIn, rx: 2, class: 'body'}, svg);
-          draw('rect', {x: middle + 3, y: out - rOut, width: 14, height: 2 * rOut, rx: 2, class: 'body'}, svg);
+          if (kind === 'belt') {  // both pulleys in one plane, the belt about them
+            const down = Math.sign(out - y), small = Math.min(20, 46 * Math.min(1, high)), large = Math.min(40, small / Math.max(high, 0.2));
+            const first = i > 1 ? small : large, second = i > 1 ? large : small;
+            draw('rect', {x: middle - 6, y: Math.min(y - down * first, out + down * second), width: 12, height: Math.abs(out - y) + first + second, rx: 5, class: 'belt'}, svg);
+            body(svg, middle, y, 20, 2 * first - 5, 'body', 2);
+            body(svg, middle, out, 20, 2 * second - 5, 'body', 2);
+          } else {
+            body(svg, middle - 10, y, 14, 2 * rIn, 'body', 2);
+            body(svg, middle + 10, out, 14, 2 * rOut, 'body', 2);
+            for (const [c, at, r] of [[middle - 10, y, rIn], [middle + 10, out, rOut]])
+              for (let k = -3; k <= 3; ++k) stroke(svg, c - 7, at + k * r / 3.6, c + 7, at + k * r / 3.6, 0.5);
+          }
           draw('text', {x: middle, y: y - 62, 'text-anchor': 'middle', class: 'soft'}, svg, `i = ${+(p.ratioIn / p.ratioOut).toPrecision(4)}`);
         } else if (kind === 'coupling') {
           line.push({x: middle - 12, y, k, side: 'twistIn'}, {x: middle + 12, y, k, side: 'twistOut'});
@@ -465,8 +547,10 @@
           else draw('rect', {x: middle - 12, y: y - 27, width: 24, height: 6, class: 'shaft'}, svg);
         } else {
           const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : p.crank ? 72 : kind === 'load' ? 84 : 84;
-          const thick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : p.crank ? 0 : 26;
-          if (thick) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
+          const plainThick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : p.crank ? 0 : 26;
+          const drawn = symbols[kind] ? symbols[kind](svg, middle, y, p) : 0;
+          const thick = drawn || plainThick;
+          if (thick && !drawn) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
           if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) draw('line', {x1: middle - thick / 2 + 8, x2: middle + thick / 2 - 8, y1: y - height / 2 + j * height / 6, y2: y - height / 2 + j * height / 6, stroke: 'var(--metal-edge)', 'stroke-width': .6}, svg);
           if (p.crank) {
             shaft(middle, middle + 22, y);
@@ -484,8 +568,8 @@
         if (n < list.length - 1) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
         // Name, and the dial.
         const name = p.name.length > 16 ? p.name.slice(0, 15) + '…' : p.name;
-        draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && kind !== 'gearbox' ? 20 : 0), 'text-anchor': 'middle'}, svg, name);
-        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + 254, svg));
+        draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name);
+        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + 254 + lower, svg));
         x += w + gap;
         y = out;
       });
@@ -496,7 +580,7 @@
       const to = shaftsOf[tie.part], own = ends[rows.indexOf(tie.row)];
       if (!to || !own) return;
       const a = tie.out ? to.out : to.in, b = tie.atEnd ? own.last : own.first, r = rowOf(tie.part);
-      const shelf = rowHeight * r + 292 + 8 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
+      const shelf = rowHeight * r + 292 + lower + 8 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
       draw('polyline', {points: `${to.middle},${a.y} ${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
       draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
@@ -537,8 +621,9 @@
       place(grey, hand(x, y, r, at((ghost || front).angle)));
       place(input, hand(x, y, r, a));
       place(output, hand(x, y, r, b));
-      const sweep = a < b ? 0 : 1;
-      place(wedge, {d: Math.abs(a - b) < 1e-3 ? '' : `M${x},${y} L${x + r * Math.cos(a)},${y - r * Math.sin(a)} A${r},${r} 0 ${Math.abs(a - b) > Math.PI ? 1 : 0} ${sweep} ${x + r * Math.cos(b)},${y - r * Math.sin(b)} Z`});
+      // What slips has turned apart by many turns: the part of one is shown.
+      const apart = (b - a) % (2 * Math.PI), to = a + apart, sweep = apart > 0 ? 0 : 1;
+      place(wedge, {d: Math.abs(apart) < 1e-3 ? '' : `M${x},${y} L${x + r * Math.cos(a)},${y - r * Math.sin(a)} A${r},${r} 0 ${Math.abs(apart) > Math.PI ? 1 : 0} ${sweep} ${x + r * Math.cos(to)},${y - r * Math.sin(to)} Z`});
       group.setAttribute('visibility', loads && shown ? 'visible' : 'hidden');
       if (!loads || !shown) return;
       const value = at(torque), turn = 2.6 * value / largest, R = r + 7, start = Math.PI / 2 - turn / 2, end = start + turn;
@@ -549,8 +634,9 @@
   }
 
   // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
-  function drawLinkage(m, front, ghosts, stage) {
-    const g = m.linkage, c = Math.cos(g.direction), s = Math.sin(g.direction), steps = g.x[0].length - 1;
+  function drawLinkage(m, g, which, front, ghosts, stage) {
+    const own = front.force[which] || [];
+    const c = Math.cos(g.direction), s = Math.sin(g.direction), steps = g.x[0].length - 1;
     const turns = Math.max(1, Math.round(steps / 240));  // 240 places a turn, of which a cycle may have two
     const jointAt = (k, angle) => {
       const place = ((angle / (2 * Math.PI * turns)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
@@ -559,7 +645,7 @@
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
     const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
     const slider = g.links.find(link => link.shape === 'slider'), end = slider ? slider.joints[0] : g.output;
-    const forced = m.motions.some(motion => motion.force.length);
+    const forced = own.length > 0;
     // Corners of what is seen, in the mechanism's axes.
     const far = most(g.x) + (slider ? body + (forced ? 0.55 * room : 0) : 0.4 * body);
     const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [least(g.y) - 0.75 * body, most(g.y) + 0.75 * body].map(v => [u * c - v * s, -(u * s + v * c)]));
@@ -573,10 +659,20 @@
     const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
     draw('title', {}, svg, `${g.name} to scale`);
     const at2 = (u, v) => `${X(u, v).toFixed(2)},${Y(u, v).toFixed(2)}`;
-    // Guide, fixed bearings, and a scale bar.
-    if (slider) for (const v of [-1, 1]) {
-      const low = Math.min(...g.x[end]) - body, high = Math.max(...g.x[end]) + body * 1.1, off = g.y[end][0] + v * body * 0.62;
-      draw('line', {x1: X(low, off), y1: Y(low, off), x2: X(high, off), y2: Y(high, off), stroke: 'var(--metal-edge)', 'stroke-width': 2}, svg);
+    // Guide, or the walls of a cylinder with its head, or a press with its table; fixed bearings, and a scale bar.
+    if (slider) drawAround();
+    function drawAround() {
+      const low = Math.min(...g.x[end]) - body, high = Math.max(...g.x[end]) + body * 1.1, axis = g.y[end][0];
+      const line = (u1, v1, u2, v2, width) => draw('line', {x1: X(u1, v1), y1: Y(u1, v1), x2: X(u2, v2), y2: Y(u2, v2), stroke: 'var(--metal-edge)', 'stroke-width': width, 'stroke-linecap': 'round'}, svg);
+      const half = body * 0.62, head = Math.max(...g.x[end]) + body * 0.72;
+      for (const v of [-1, 1]) line(low, axis + v * half, g.load === 'cylinder' ? head : high, axis + v * half, g.load === 'cylinder' ? 4 : 2);
+      if (g.load === 'cylinder') line(head, axis - half, head, axis + half, 5);
+      if (g.load === 'press') {
+        const table = Math.max(...g.x[end]) + body * 0.58 + 0.04 * size, wide = body * 1.05;
+        draw('polygon', {points: [[table, -wide], [table, wide], [table + 0.35 * body, wide], [table + 0.35 * body, -wide]].map(([u, v]) => at2(u, axis + v)).join(' '), class: 'body'}, svg);
+        draw('polygon', {points: [[table - 0.035 * size, -0.45 * body], [table - 0.035 * size, 0.45 * body], [table, 0.45 * body], [table, -0.45 * body]].map(([u, v]) => at2(u, axis + v)).join(' '), class: 'part'}, svg);
+        for (const v of [-1, 1]) line(-0.4 * body, axis + v * wide * 1.08, table + 0.3 * body, axis + v * wide * 1.08, 5);
+      }
     }
     for (const k of g.fixed) {
       const x = X(g.x[k][0], g.y[k][0]), y = Y(g.x[k][0], g.y[k][0]);
@@ -620,14 +716,14 @@
     }
     const main = linkage(svg, false);
     const shadows = ghosts.map(() => linkage(svg, true));
-    const largest = front.force.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
+    const largest = own.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
     const group = draw('g', {}, svg), arrow = draw('path', {class: 'arrow', 'stroke-width': 4, fill: 'none'}, group), head = draw('polygon', {class: 'head'}, group);
     const onLeft = X(g.x[end][0], g.y[end][0]) > 0.6 * W;  // the figure stands where the arrow does not
     const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
     return (at, loads) => {
-      const points = main(at(front.angle));
-      ghosts.forEach((ghost, i) => shadows[i](at(ghost.angle)));
-      const force = at(front.force), shown = loads && Math.abs(force) > 1e-4 * largest;
+      const points = main(g.ratio * at(front.angle));
+      ghosts.forEach((ghost, i) => shadows[i](g.ratio * at(ghost.angle)));
+      const force = at(own), shown = loads && Math.abs(force) > 1e-4 * largest;
       group.setAttribute('visibility', shown ? 'visible' : 'hidden');
       if (!shown) return;
       text.textContent = withPrefix(force, slider ? 'N' : 'N·m');

@@ -87,9 +87,19 @@ void add_ties(MachineView& view, const Model& model) {
   }
 }
 
-MachineView::Linkage linkage_of(const Mechanism& mechanism) {
+// What the first load of a mechanism is drawn as.
+std::string drawn_load(const Model& model, const std::string& component) {
+  const Section* const section = model.scene.find(component);
+  if (!section || !section->has("load") || (*section)["load"].sections.empty()) return "";
+  const std::string& kind = (*section)["load"].sections.front().kind->name;
+  return kind == "press" ? "press" : kind == "compressor" || kind == "cylinder" ? "cylinder" : "";
+}
+
+MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, int node) {
   const LinkageDrawing drawing = mechanism.data.drawing();
-  MachineView::Linkage linkage{.name = drawing.name,
+  MachineView::Linkage linkage{.name = mechanism.name,
+                               .load = drawn_load(model, mechanism.name),
+                               .ratio = model.node_ratio[at(node)],
                                .direction = drawing.direction,
                                .x = {},
                                .y = {},
@@ -105,6 +115,18 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism) {
       linkage.x[k].push_back(joints[k].x), linkage.y[k].push_back(joints[k].y);
   }
   return linkage;
+}
+
+// Every mechanism of the machine, the reduction link's first.
+void add_linkages(MachineView& view, const Model& model) {
+  constexpr std::size_t most = 6;
+  const auto add = [&](const Network::ShaftElement& e) {
+    if (const auto* element = mechanism_of(e); element && view.linkages.size() < most)
+      view.linkages.push_back(linkage_of(element->mechanism(), model, e.node));
+  };
+  if (model.reduction_element >= 0) add(model.network.elements[at(model.reduction_element)]);
+  for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+    if (static_cast<int>(e) != model.reduction_element) add(model.network.elements[e]);
 }
 
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
@@ -130,9 +152,11 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
     for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
       for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
-    if (part.crank && motion.force.empty())
-      for (const char* load : {"force.", "load_torque."})
-        if (const Trace* trace = traces.find(load + part.name)) motion.force = sampled(trace, view.time);
+  }
+  for (const MachineView::Linkage& linkage : view.linkages) {
+    motion.force.emplace_back();
+    for (const char* load : {"force.", "load_torque."})
+      if (const Trace* trace = traces.find(load + linkage.name)) motion.force.back() = sampled(trace, view.time);
   }
   if (!any_twist || model.elastic.empty()) motion.twist_in.clear(), motion.twist_out.clear();
   return motion;
@@ -149,9 +173,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_parts(view, model);
   add_ties(view, model);
   view.cycle = model.cycle;
-  if (model.reduction_element >= 0)
-    if (const auto* element = mechanism_of(model.network.elements[at(model.reduction_element)]))
-      view.linkage = linkage_of(element->mechanism());
+  add_linkages(view, model);
   // Frames: the whole run, or of a long one its last turns.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());

@@ -23,8 +23,8 @@ TEST_P(MachineViewOf, DrawsEveryLinkInItsLengthAtEveryAngle) {
   options.traces = true;
   const Result result = simulate(scene, {}, "rigid", options);
   const MachineView view = machine_view({&result});
-  ASSERT_TRUE(view.linkage);
-  const MachineView::Linkage& drawn = *view.linkage;
+  ASSERT_EQ(view.linkages.size(), 1u);
+  const MachineView::Linkage& drawn = view.linkages.front();
   ASSERT_EQ(drawn.x.size(), GetParam().joints);
   for (std::size_t k = 0; k < drawn.x.size(); ++k) {
     EXPECT_NEAR(drawn.x[k].front(), drawn.x[k].back(), 1e-13);
