@@ -245,9 +245,12 @@ class Figures {
   void collect_motors() {
     const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
     if (run_.outcome.state.size() < equations_.size()) return;
+    std::vector<double> work;  // up to the end, of an incomplete run too
+    for (std::size_t k = 0; k < model_.accounts.size(); ++k)
+      work.push_back(run_.outcome.state[equations_.work_index(k)]);
     for (Figure& f : motor_figures({.equations = equations_,
                      .y = run_.outcome.state,
-                     .work = run_.energy->work,
+                     .work = work,
                      .duration = run_.outcome.t - begin,
                      .energy_scale = energy_scale(),
                      .last = repeating_}))
