@@ -225,7 +225,7 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 
 }  // namespace
 
-int present(const StudyOutput& study, const StudyOptions& options) {
+int present(const StudyOutput& study, const StudyOptions& options, bool all) {
   StudyOutput output = study;
   output.json = with_settings(study.json, options.set);
   // Asked once: what is decided here holds for the files as for the exit code.
@@ -234,8 +234,10 @@ int present(const StudyOutput& study, const StudyOptions& options) {
     say(printable_json(output.json) + "\n");
   else if (options.quiet)
     say(printable(output.conclusion) + "\n");
-  else
+  else if (all || output.brief.empty())
     say_with_conclusion(output.table, output.conclusion);
+  else
+    say_with_conclusion(output.brief, output.headline);
   if (!options.no_files) write_files(output, options, stopped);
   if (output.complete && !stopped) {
     if (output.unconfirmed.empty()) return exit_done;

@@ -83,6 +83,7 @@ double quantity_of(const std::string& option, const std::string& text, const std
 Moment moment_of(const std::string& at, std::optional<double>& speed);
 
 // Prints, writes the files unless asked not to, and returns the exit code.
-int present(const StudyOutput& output, const StudyOptions& options);
+// `all`: the long form where there is a short one, too.
+int present(const StudyOutput& output, const StudyOptions& options, bool all = false);
 
 }  // namespace kurbel::app

@@ -28,7 +28,7 @@ struct RunArguments {
   StudyOptions study;
   std::string effects, against, method, until, setting, from_state, save_state;
   std::optional<double> accuracy;
-  bool no_error = false, no_trials = false, explain = false;
+  bool no_error = false, no_trials = false, explain = false, all = false;
 };
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
@@ -122,8 +122,8 @@ int run(const RunArguments& arguments) {
     throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
   }
   if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
-  if (arguments.no_trials) return present(output_of(result), arguments.study);
-  return present(output_of(with_trials(std::move(result), options)), arguments.study);
+  if (arguments.no_trials) return present(output_of(result), arguments.study, arguments.all);
+  return present(output_of(with_trials(std::move(result), options)), arguments.study, arguments.all);
 }
 
 int compare(const RunArguments& arguments) {
@@ -144,6 +144,8 @@ int compare(const RunArguments& arguments) {
 void set_up_run(CLI::App& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
+  command.add_flag("--all", arguments->all,
+                   "print all figures, works, notes and limits of steps, not only the conclusion and key figures");
   command.add_flag("--explain", arguments->explain,
                    "print what is merged, the coordinates and their inertias, and stop");
   command.add_option("--setting", arguments->setting,
@@ -170,7 +172,8 @@ const Verb run_verb{
      .name = "run",
      .arguments = "scene.toml",
      .help = "simulate a scene",
-     .does = "simulates; prints figures with units and measured errors, writes `report.html`, `summary.json` and "
+     .does = "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
+             "all of them), writes `report.html`, `summary.json` and "
              "`trajectory.csv` into `results/SCENE/run`; short "
              "runs try the effects that are off, and tell which would move a key figure",
      .set_up = set_up_run,

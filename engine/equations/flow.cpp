@@ -37,7 +37,7 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
       states_(model_->state_count()) {
   const Model& m = *model_;
   const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size();
-  if (audit) quadratures_ = m.accounts.size() + 2 * m.torque_joints.size();
+  if (audit) quadratures_ = m.accounts.size() + 2 * (m.torque_joints.size() + m.motors.size());
   plain_ = !ties_.any() && !reactions_.any();
   for (std::size_t s = 0; s < shafts; ++s) {
     if (m.shafts[s].directional) directional_.push_back(static_cast<int>(s));
@@ -250,6 +250,13 @@ void Flow::write_quadratures(double* rate) {
     rate[m.accounts.size() + 2 * i] = tau * tau;
     rate[m.accounts.size() + 2 * i + 1] = spring * spring;
   }
+  double* of_motor = rate + m.accounts.size() + 2 * m.torque_joints.size();
+  for (const MotorTorque& motor : m.motors) {
+    double torque = 0;
+    for (const std::size_t e : motor.elements) torque += element_torque_[e];
+    *of_motor++ = torque;
+    *of_motor++ = torque * torque;
+  }
 }
 
 Flow::ShaftBalance Flow::shaft_balance(std::size_t shaft, double t, std::span<const double> y, double* work_rate) {
@@ -324,6 +331,9 @@ ErrorControl Flow::error_control(double tolerance) const {
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
     for (const bool spring : {false, true})
       control.scale[square_index(i, spring)] = std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
+  for (std::size_t i = 0; i < m.motors.size(); ++i)
+    for (const bool squared : {false, true})
+      control.scale[motor_index(i, squared)] = std::pow(m.motors[i].rated_torque, squared ? 2 : 1) / m.speed_scale;
   return control;
 }
 

@@ -27,7 +27,7 @@ namespace kurbel {
 
 class Flow : public OdeSystem {
  public:
-  // With an audit the work of every account and the squares of the torques are integrated along.
+  // With an audit the work of every account, the squares of the torques, and the motors' torques are integrated along.
   Flow(std::shared_ptr<const Model> model, bool audit);
   Flow(const Flow&) = delete;
   Flow& operator=(const Flow&) = delete;
@@ -57,6 +57,10 @@ class Flow : public OdeSystem {
   // ∫τ² dt of the transmitted and of the spring torque of a torque joint.
   std::size_t square_index(std::size_t torque_joint, bool spring) const {
     return states_ + model_->accounts.size() + 2 * torque_joint + (spring ? 1 : 0);
+  }
+  // ∫M dt and ∫M² dt of a motor's torque.
+  std::size_t motor_index(std::size_t motor, bool squared) const {
+    return states_ + model_->accounts.size() + 2 * (model_->torque_joints.size() + motor) + (squared ? 1 : 0);
   }
   std::string state_name(std::size_t state) const;
   // Scales of all states: speeds by rated speed, twists by rated torque over stiffness, angles by 1 rad.

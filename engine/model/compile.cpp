@@ -50,6 +50,7 @@ std::shared_ptr<const Model> compile_network(Network network, const Scene& scene
   // What acts on them.
   place_elements(c);
   list_torque_joints(c);
+  list_motors(m);
   c.messages.throw_if_any();
   m.jacobian = lay_out_jacobian(m);
   return std::make_shared<const Model>(std::move(m));

@@ -81,5 +81,6 @@ void find_scales(Compilation& c);
 void track_angles(Compilation& c);
 void place_elements(Compilation& c);
 void list_torque_joints(Compilation& c);
+void list_motors(Model& model);
 
 }  // namespace kurbel

@@ -92,6 +92,14 @@ struct TorqueJoint {
   double torque_scale = 1;  // [N·m]
 };
 
+// A motor: the elements of a component that drive and tell a rated torque and speed.
+struct MotorTorque {
+  std::string component;
+  std::vector<std::size_t> elements;
+  int node = 0;                              // whose speed is the motor's
+  double rated_torque = 0, rated_speed = 0;  // [N·m], [rad/s]
+};
+
 struct WorkAccount {
   std::string name;
   Account kind;
@@ -135,6 +143,7 @@ struct Model {
   std::vector<CommandTarget> commands;
   std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it watches, −1: none
   std::vector<TorqueJoint> torque_joints;
+  std::vector<MotorTorque> motors;
   std::vector<WorkAccount> accounts;
   std::vector<std::unique_ptr<ElementPool>> pools;
   std::vector<Channel> pool_channels;

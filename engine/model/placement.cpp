@@ -175,4 +175,18 @@ void list_torque_joints(Compilation& c) {
   }
 }
 
+void list_motors(Model& m) {
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = m.network.elements[e];
+    const Rated rated = element.element->rated;
+    if (element.element->account != Account::driving || !(rated.torque > 0) || rated.speed == 0) continue;
+    const auto known = std::find_if(m.motors.begin(), m.motors.end(),
+                                    [&](const MotorTorque& motor) { return motor.component == element.component; });
+    if (known != m.motors.end())
+      known->elements.push_back(e);
+    else
+      m.motors.push_back({element.component, {e}, element.node, rated.torque, rated.speed});
+  }
+}
+
 }  // namespace kurbel

@@ -153,6 +153,18 @@ std::vector<double> works(const Model& m, const Snapshot& s) {
   return work;
 }
 
+// Of the motors' torques so far: ∫M dt and ∫M² dt each.
+std::vector<double> motor_integrals(const Model& m, const Snapshot& s) {
+  std::vector<double> integrals(2 * m.motors.size(), 0.0);
+  const std::size_t begin = m.accounts.size() + 2 * m.torque_joints.size();
+  if (s.quadrature) std::copy(s.quadrature + begin, s.quadrature + begin + integrals.size(), integrals.begin());
+  return integrals;
+}
+
+double energy_of(Equations& equations, double t, std::span<const double> y) {
+  return equations.kinetic_energy(t, y) + equations.stored_energy(t, y);
+}
+
 double link_speed(const Model& m, const Snapshot& s) {
   return m.angles[at(m.reduction_angle)].gain * s.now.speed[m.shaft_of_node[at(m.reduction_node)]];
 }
@@ -160,7 +172,7 @@ double link_speed(const Model& m, const Snapshot& s) {
 }  // namespace
 
 void CycleRecorder::remember(Tape& tape) {
-  tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_);
+  tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_, motors_at_begin_, energy_at_begin_);
   goes_on_ = tape.reading();
 }
 
@@ -175,6 +187,7 @@ void CycleRecorder::begin(double t, std::span<const double> y, Equations& equati
     open_ = true;
     begin_ = t;
     work_at_begin_ = works(m, s);
+    motors_at_begin_ = motor_integrals(m, s);
     low_ = nearest - cycle_;
     high_ = nearest + cycle_;
   } else {
@@ -182,6 +195,7 @@ void CycleRecorder::begin(double t, std::span<const double> y, Equations& equati
     high_ = low_ + cycle_;
   }
   max_ = min_ = link_speed(m, s);
+  if (open_) energy_at_begin_ = energy_of(equations, t, y);
 }
 
 void CycleRecorder::see_speed(double omega) {
@@ -192,18 +206,22 @@ void CycleRecorder::see_speed(double omega) {
 void CycleRecorder::pass(double t, int sense, StepView& view) {
   const Model& m = view.equations().model();
   const Snapshot& s = view.snapshot(t);
-  std::vector<double> work = works(m, s);
+  std::vector<double> work = works(m, s), integrals = motor_integrals(m, s);
   const double omega = link_speed(m, s);
   see_speed(omega);
+  const double energy = energy_of(view.equations(), t, view.at(t));
   if (open_ && (sense_ == 0 || sense == sense_)) {
-    CycleRecord record{begin_, t, max_, min_, work};
+    CycleRecord record{begin_, t, max_, min_, work, integrals, work_at_begin_, energy_at_begin_, energy};
     for (std::size_t k = 0; k < work.size(); ++k) record.work[k] -= work_at_begin_[k];
+    for (std::size_t k = 0; k < integrals.size(); ++k) record.of_motors[k] -= motors_at_begin_[k];
     cycles_.push_back(std::move(record));
   }
   open_ = true;
   begin_ = t;
   max_ = min_ = omega;
   work_at_begin_ = std::move(work);
+  motors_at_begin_ = std::move(integrals);
+  energy_at_begin_ = energy;
   sense_ = sense;
   const double here = sense > 0 ? high_ : low_;
   low_ = sense > 0 ? here : here - cycle_;

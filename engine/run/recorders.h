@@ -86,15 +86,21 @@ class ExtremeRecorder final : public Observer {
 
 // One cycle of the reduction link.
 struct CycleRecord {
-  double begin = 0, end = 0;            // [s]
-  double omega_max = 0, omega_min = 0;  // of the reduction link [rad/s]
-  std::vector<double> work;             // per account [J]
+  double begin = 0, end = 0;             // [s]
+  double omega_max = 0, omega_min = 0;   // of the reduction link [rad/s]
+  std::vector<double> work;              // per account [J]
+  std::vector<double> of_motors = {};    // per motor ∫M dt [N·m·s], then ∫M² dt [(N·m)²·s]
+  std::vector<double> work_before = {};  // per account, from the start to the cycle's begin [J]
+  double energy_before = 0;              // kinetic and stored, at its begin [J]
+  double energy_after = 0;               // and at its end
   double mid_speed() const { return 0.5 * (omega_max + omega_min); }
   // δ (theory 2.6) where the motion repeats, whichever way it turns
   double fluctuation() const { return (omega_max - omega_min) / std::abs(mid_speed()); }
   // `angle` of a cycle over its time (theory 2.7)
   double mean_speed(double angle) const { return std::copysign(angle / (end - begin), mid_speed()); }
-  void remember(Tape& tape) { tape(begin, end, omega_max, omega_min, work); }
+  void remember(Tape& tape) {
+    tape(begin, end, omega_max, omega_min, work, of_motors, work_before, energy_before, energy_after);
+  }
 };
 
 // A cycle lies between two multiples of its angle that are passed one after the other in the same sense; where the
@@ -115,7 +121,8 @@ class CycleRecorder final : public Observer {
   int sense_ = 0;                          // of that passing; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle
   double begin_ = 0, max_ = 0, min_ = 0;
-  std::vector<double> work_at_begin_;
+  std::vector<double> work_at_begin_, motors_at_begin_;
+  double energy_at_begin_ = 0;
 };
 
 // Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r.

@@ -125,17 +125,19 @@ class Loop {
   // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
   void control_quadratures(ErrorControl& control) const {
     if (!equations_.audit()) return;
-    constexpr double rough = 100;  // squares grow far beyond that of the rated torque, as in resonance
     const Model& m = equations_.model();
-    for (std::size_t k = 0; k < m.accounts.size(); ++k) {
-      double& scale = control.scale[equations_.work_index(k)];
-      if (scale == 0) scale = m.torque_scale;  // per radian
-    }
+    const auto control_at = [&](std::size_t k, double scale) {
+      if (control.scale[k] == 0) control.scale[k] = scale;
+    };
+    for (std::size_t k = 0; k < m.accounts.size(); ++k)
+      control_at(equations_.work_index(k), m.torque_scale);  // per radian
+    const double a_radian = 100 / m.speed_scale;  // squares grow far beyond that of the rated torque, as in resonance
     for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
-      for (const bool spring : {false, true}) {
-        double& scale = control.scale[equations_.square_index(i, spring)];
-        if (scale == 0) scale = rough * std::pow(m.torque_joints[i].torque_scale, 2) / m.speed_scale;
-      }
+      for (const bool spring : {false, true})
+        control_at(equations_.square_index(i, spring), a_radian * std::pow(m.torque_joints[i].torque_scale, 2));
+    for (std::size_t i = 0; i < m.motors.size(); ++i)
+      for (const bool squared : {false, true})
+        control_at(equations_.motor_index(i, squared), a_radian * std::pow(m.motors[i].rated_torque, squared ? 2 : 1));
   }
 
   void restart(double t, std::span<const double> y) {

@@ -38,7 +38,9 @@ class Blame {
   std::string of_quadrature(std::size_t k) const {
     if (k < m_.accounts.size()) return m_.accounts[k].name;
     const std::size_t torque = (k - m_.accounts.size()) / 2;
-    return torque < m_.torque_joints.size() ? m_.torque_joints[torque].component : std::string();
+    if (torque < m_.torque_joints.size()) return m_.torque_joints[torque].component;
+    const std::size_t motor = torque - m_.torque_joints.size();
+    return motor < m_.motors.size() ? m_.motors[motor].component : std::string();
   }
   std::string joint(std::size_t elastic) const { return m_.network.joints[at(m_.elastic[elastic].joint)].component; }
 

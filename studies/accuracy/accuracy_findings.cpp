@@ -247,13 +247,12 @@ Findings findings_of(const AccuracyStudy& study) {
   Findings f{.title = study.title,
              .subtitle = "What accuracy costs: methods, tolerances and models against converged references",
              .scene_file = study.scene_file,
-             .conclusion = study.answers.empty() ? first : study.answers.front(),
-             .page_conclusion = study.findings.empty() ? first : first + ".",
              .complete = study.complete,
              .diagnosis = study.diagnosis,
-             .opening = Findings::Opening::title,
-             .tells_conclusion = false,
+             .opening = Findings::Opening::title_and_conclusion,
              .footer = machine_info() + " · " + report_footer()};
+  f.answer(study.complete ? Question::figures : Question::runs, study.answers.empty() ? first : study.answers.front(),
+           study.complete ? 0 : 100);
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page
   const auto say = [&](Sentences words) {

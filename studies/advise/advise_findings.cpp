@@ -125,11 +125,11 @@ Plot plane(const Advice& a) {
 Findings findings_of(const Advice& a) {
   Findings f{.title = a.title,
              .subtitle = fmt::format("Which effects are needed for {:.3g} %", 100 * a.tolerance),
-             .conclusion = a.conclusion,
              .complete = a.complete,
              .diagnosis = a.full.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
+  f.answer(a.complete ? Question::figures : Question::runs, a.conclusion, a.complete ? 0 : 100);
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
   f.figures = {{"deviation", 100 * chosen.deviation, "", 100 * chosen.error, "% at most, measured", 3, "deviation"},
                {"time of the full model", 1e3 * full.cpu_seconds, "", 1e3 * a.time_spread * full.cpu_seconds,

@@ -35,6 +35,31 @@ Definition coupling(std::string_view name, std::string_view words, std::string_v
   return {.name = name, .words = words, .unit = unit, .of = of, .is = is, .theory = theory, .verbs = told_by};
 }
 
+Definition of_run(std::string_view name, std::string_view words, std::string_view unit, std::string_view of,
+                  std::string_view is, std::string_view is_not, std::string_view formula = {}) {
+  return {.name = name,
+          .words = words,
+          .unit = unit,
+          .of = of,
+          .is = is,
+          .formula = formula,
+          .is_not = is_not,
+          .theory = "1.3",
+          .verbs = "run, compare, effects, advise, accuracy"};
+}
+
+Definition of_both(std::string_view name, std::string_view words, std::string_view unit, std::string_view of,
+                   std::string_view is, std::string_view is_not, std::string_view formula) {
+  Definition d = of_run(name, words, unit, of, is, is_not, formula);
+  d.verbs = "run, compare, effects, advise, accuracy, steady";
+  return d;
+}
+
+Definition of_period(std::string_view name, std::string_view words, std::string_view is) {
+  return of_run(name, words, "J", "driving, useful, harmful, weight or energy", is,
+                "of one cycle: that is driving_work_per_cycle and its like", "A_d + A_u + A_h + A_w = ΔE");
+}
+
 }  // namespace
 
 // In the order in which a star is tried: what is more definite comes first.
@@ -60,8 +85,42 @@ std::vector<Definition> entries_of_own() {
                "1.3"),
       coupling("strand_force", "largest force in the tight strand", "N", "BELT",
                "pretension and half of the largest torque over the driving pulley's radius, fixed centres", "5"),
-      coupling("motor_rms_torque", "RMS torque of a motor over a run", "N*m", "MOTOR",
-               "root of the mean square of its torque over the time run; a lower bound of heating", "4"),
+      of_run(
+          "motor_rms_torque", "RMS torque of a motor over a run", "N*m", "MOTOR",
+          "root of the mean square of its torque over the time run; a lower bound of heating: no-load losses and the "
+          "currents of a start come on top",
+          "its rated torque", "√( (1/t) ∫ M² dt )"),
+      of_run("motor_mean_power", "mean power of a motor over a run", "W", "MOTOR",
+             "work that the motor gives to its shaft in the run over the time run",
+             "the power that it takes from its supply"),
+      of_run(
+          "motor_slip_heat", "heat of slip of an induction motor", "J", "MOTOR",
+          "what the air gap's field gives less what the shaft takes, over the run: heat of the rotor's winding, that "
+          "of the start included",
+          "all of its losses: those of the stator, of iron and of friction come on top; of motors that the operating "
+          "sequence switches it is not told",
+          "ω_s ∫ M dt − ∫ M ω dt"),
+      of_both("cycle_motor_power", "mean power of a motor over a cycle", "W", "MOTOR",
+              "work that the motor gives to its shaft in the last whole cycle of a motion that repeats, over its time",
+              "its rated power", "(1/T) ∫ M ω dt"),
+      of_both("machine_efficiency", "efficiency of the machine", "", "",
+              "useful work over driving work in the last whole cycle of a motion that repeats",
+              "the efficiency of one gear or mechanism", "η = −A_useful/A_driving"),
+      of_run("loop_work", "work of a mechanism's load over a cycle", "J", "MECHANISM",
+             "work of the load on the mechanism's output in the last whole cycle: the area of the loop that force over "
+             "travel makes, negative where it leaves the machine",
+             "work of friction in its joints", "∮ F dx, of gas ∮ (p − p_out) dV"),
+      of_both("flywheel_energy", "energy that a flywheel gives in a cycle", "J", "FLYWHEEL",
+              "kinetic energy of the flywheel at its largest speed less that at its least one, in the last whole cycle "
+              "of a "
+              "motion that repeats; `run` tells it of those that turn rigidly with the link, `steady` of all",
+              "its whole kinetic energy", "½ J (ω_max² − ω_min²) = J δ ω_mid²"),
+      of_period("work_of_run_up", "works of the run-up",
+                "from the start to the begin of the first whole cycle of steady motion"),
+      of_period("work_of_steady_motion", "works of the steady motion",
+                "from the begin of its first whole cycle to the end of its last one"),
+      of_period("work_of_run_down", "works of the run-down",
+                "from the end of the last whole cycle that is driven to the end of the run"),
       coupling("rim_speed", "largest speed of the rim", "m/s", "FLYWHEEL",
                "rim_radius times the shaft's angular velocity, where that is largest", "1.3"),
       coupling("integral", "integral part of a governor", "N*m", "GOVERNOR",

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
 #include "studies/validity/idle_effects.h"
 
 namespace kurbel {
@@ -52,12 +53,14 @@ std::string conclusion_of(const EffectStudy& s) {
   }
   const FigureChange& most = strongest->changes.front();
   if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
-  const int digits = most.relative < 1e-2 ? 7 : 4;  // so that the two differ
-  text =
-      fmt::format("Most depends on {}: without it {} is {} instead of {}{}", strongest->effect.words, most.figure,
-                  with_unit(most.without, most.unit, digits), with_unit(most.full, most.unit, digits),
-                  most.from_nothing ? std::string(", which is zero within its error")
-                                    : fmt::format(" ({:.2g} ± {:.1g} % off)", 100 * most.relative, 100 * most.error));
+  const std::string off = most.from_nothing
+                              ? std::string("which is zero within its error")
+                              : fmt::format("{:.2g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
+  // Where four digits do not tell them apart the two are not told.
+  text = most.relative < 1e-2
+             ? fmt::format("Most depends on {}: without it {} is {}", strongest->effect.words, most.figure, off)
+             : fmt::format("Most depends on {}: without it {} is {} instead of {}, {}", strongest->effect.words,
+                           most.figure, told_shortly(most.without, most.unit), told_shortly(most.full, most.unit), off);
   std::vector<std::string> idle;
   for (const LeftOut& l : s.left_out)
     if (l.refused.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);

@@ -129,11 +129,11 @@ std::string full_model(const EffectStudy& s) {
 Findings findings_of(const EffectStudy& s) {
   Findings f{.title = s.title,
              .subtitle = "What each effect changes and costs",
-             .conclusion = s.conclusion,
              .complete = s.full.complete,
              .diagnosis = s.full.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
+  f.answer(s.full.complete ? Question::figures : Question::runs, s.conclusion, s.full.complete ? 0 : 100);
   for (const LeftOut& l : s.left_out)
     if (l.refused.empty() && !l.changes.empty() && f.figures.size() < 4)
       f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "",

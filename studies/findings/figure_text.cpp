@@ -8,6 +8,8 @@
 #include <cstdlib>
 
 #include "engine/scene/units.h"
+#include "studies/conclusions/headline.h"
+#include "studies/findings/report.h"
 
 namespace kurbel {
 namespace {
@@ -70,6 +72,12 @@ FigureText figure_text(double value, const std::optional<double>& error) {
 std::string with_error(double value, const std::optional<double>& error, std::string_view unit) {
   const FigureText text = figure_text(value, error);
   return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
+}
+
+std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed) {
+  const ReadableUnit unit = readable_unit(value, si_unit, speed);
+  const std::string number = headline_number(unit.factor * value);
+  return unit.unit.empty() ? number : number + " " + pretty_unit(unit.unit);
 }
 
 FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,

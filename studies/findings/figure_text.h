@@ -27,6 +27,9 @@ FigureText figure_text(double value, const std::optional<double>& error);
 // "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
 std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
 
+// As a sentence has it, four digits in a unit that is read easily: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
+std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed = {});
+
 // A figure in a row of a table: a speed in the scene's unit, all else in SI.
 struct FigureCells {
   std::string value, error, unit;  // "6257.16998", "± 0.00006", "N·m"

@@ -9,12 +9,14 @@
 
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "studies/conclusions/conclusion.h"
 #include "studies/findings/report.h"
 #include "studies/findings/rows.h"
 
@@ -53,6 +55,18 @@ struct Statement {
   std::variant<Rows, Sentences, Field, Drawn> what;
 };
 
+// A screen of a terminal: the conclusion, what it is about, key figures, a few words, as many notes as fit.
+struct Brief {
+  std::string about;                    // one line
+  Rows figures;                         // at most most_figures rows
+  std::vector<std::string> words = {};  // a line each
+  std::vector<std::string> notes = {};  // shortened where they are long
+  std::string more = {};                // what all of it has besides
+
+  static constexpr std::size_t most_figures = 12, most_of_conclusion = 6, width = 110;
+  static constexpr std::size_t most_lines = 23;  // two more tell where the files are
+};
+
 struct Findings {
   // What the terminal's text begins with.
   enum class Opening { conclusion, title_and_conclusion, title };
@@ -61,20 +75,25 @@ struct Findings {
   std::string page_title = {};       // empty: the title
   std::string scene_file = {};       // for programs; empty: not told
   std::string speed_unit = {};       // that people are told speeds in, for programs; empty: there are none
-  std::string conclusion = {};       // one line
-  std::string page_conclusion = {};  // empty: the conclusion
+  std::vector<Answer> answers = {};  // what the conclusion is made of
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
   Opening opening = Opening::conclusion;
-  bool tells_conclusion = true;  // to programs
-  bool tells_diagnosis = true;   // to programs, of what is incomplete
-  bool tells_complete = true;    // to programs; not by those that are always complete
-  std::string footer = {};       // versions
+  bool tells_diagnosis = true;  // to programs, of what is incomplete
+  bool tells_complete = true;   // to programs; not by those that are always complete
+  std::string footer = {};      // versions
   std::vector<KeyFigure> figures = {};
   std::vector<std::string> chapters = {};
   std::vector<Statement> statements = {};
   std::vector<CsvFile> csv = {};
+  std::optional<Brief> brief = {};  // what a terminal is told unless all is asked for; none: all
+
+  // The same in terminal, page and JSON, in one line.
+  std::string conclusion() const { return in_one_line(concluded(answers)); }
+  void answer(Question question, std::string sentence, double severity = 0) {
+    answers.push_back({question, std::move(sentence), severity});
+  }
 
   // A chapter without cards is not shown.
   Chapter chapter(std::string with_title) {

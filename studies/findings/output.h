@@ -17,6 +17,8 @@ namespace kurbel {
 struct StudyOutput {
   std::string conclusion;          // one line
   std::string table;               // for a terminal, ends with a newline; holds the conclusion
+  std::string brief = {};          // the same in short, the conclusion a sentence a line; empty: there is none
+  std::string headline = {};       // the conclusion as the short form has it
   std::string json;                // the same figures for programs
   std::function<Report()> report;  // made only when it is written
   std::vector<CsvFile> csv = {};
@@ -28,6 +30,10 @@ struct StudyOutput {
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
 std::string terminal_text(const Findings& findings);
+// In short: at most Brief::most_lines lines of Brief::width columns; empty where there is no short form.
+std::string brief_text(const Findings& findings);
+// Sentence by sentence on lines of at most Brief::width columns.
+std::string headline_text(const Findings& findings);
 std::string summary_json(const Findings& findings);
 Report page_of(const Findings& findings);
 

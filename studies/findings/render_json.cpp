@@ -66,7 +66,7 @@ std::string summary_json(const Findings& f) {
   if (!f.speed_unit.empty()) j["speed_unit"] = f.speed_unit;
   if (f.tells_complete) j["complete"] = f.complete;
   if (!f.complete && f.tells_diagnosis) j["diagnosis"] = f.diagnosis;
-  if (f.tells_conclusion) j["conclusion"] = f.conclusion;
+  j["conclusion"] = f.conclusion();
   for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(j, what); }, s.what);
   // What is no UTF-8 is replaced, and no terminal obeys it.
   return printable_json(j.dump(2, ' ', false, Json::error_handler_t::replace));

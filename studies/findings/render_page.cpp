@@ -111,7 +111,7 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
 Report page_of(const Findings& f) {
   Report page{.title = f.page_title.empty() ? f.title : f.page_title,
               .subtitle = f.subtitle,
-              .conclusion = f.page_conclusion.empty() ? f.conclusion : f.page_conclusion,
+              .conclusion = f.conclusion(),
               .complete = f.complete,
               .figures = f.figures,
               .sections = {},
@@ -129,8 +129,10 @@ Report page_of(const Findings& f) {
 
 StudyOutput rendered(Findings findings) {
   const auto kept = std::make_shared<const Findings>(std::move(findings));
-  return {.conclusion = kept->conclusion,
+  return {.conclusion = kept->conclusion(),
           .table = terminal_text(*kept),
+          .brief = brief_text(*kept),
+          .headline = headline_text(*kept),
           .json = summary_json(*kept),
           .report = [kept] { return page_of(*kept); },
           .csv = kept->csv,

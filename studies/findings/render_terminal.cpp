@@ -1,4 +1,6 @@
 // render_terminal.cpp — findings as text: columns by display width, statements in the order in which they are said.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "studies/findings/output.h"
@@ -23,7 +25,7 @@ std::string right(const std::string& text, std::size_t columns) {
 std::string opening_of(const Findings& f) {
   std::string text;
   if (f.opening != Findings::Opening::conclusion) text += f.title + "\n";
-  if (f.opening != Findings::Opening::title) text += f.conclusion + "\n";
+  if (f.opening != Findings::Opening::title) text += f.conclusion() + "\n";
   return text;
 }
 
@@ -49,6 +51,46 @@ void say(std::string& text, const Sentences& words) {
 void say(std::string&, const Field&) {}
 void say(std::string&, const Drawn&) {}
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+// At most so many columns; what is cut off stands in the report.
+std::string shortened(const std::string& text, std::size_t columns) {
+  static const std::string told_elsewhere = " … (report)";
+  if (width(text) <= columns) return text;
+  std::size_t n = 0, bytes = 0;
+  for (std::size_t i = 0; i < text.size() && n + width(told_elsewhere) <= columns; ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) bytes = i, ++n;
+  const std::size_t blank = text.find_last_of(' ', bytes);
+  return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + told_elsewhere;
+}
+
+// Broken between words; lines behind the first are indented.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns, const std::string& indent) {
+  std::vector<std::string> lines;
+  std::string line;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (!line.empty() && width(line) + 1 + width(word) > columns) {
+      lines.push_back(line);
+      line = indent + word;
+    } else {
+      line += (line.empty() ? "" : " ") + word;
+    }
+    begin = end + 1;
+  }
+  if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
 }  // namespace
 
 std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns) {
@@ -72,6 +114,43 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 std::string terminal_text(const Findings& findings) {
   std::string text = opening_of(findings);
   for (const Statement& s : findings.statements) std::visit([&](const auto& what) { say(text, what); }, s.what);
+  return text;
+}
+
+std::string headline_text(const Findings& findings) {
+  std::vector<std::string> lines;
+  for (const std::string& sentence : concluded(findings.answers))
+    for (std::string& line : wrapped(sentence, Brief::width, "  ")) lines.push_back(std::move(line));
+  if (lines.size() > Brief::most_of_conclusion) {
+    lines.resize(Brief::most_of_conclusion);
+    lines.back() = shortened(lines.back() + std::string(Brief::width, '.'), Brief::width);
+  }
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+std::string brief_text(const Findings& f) {
+  if (!f.brief) return {};
+  const Brief& b = *f.brief;
+  std::vector<std::string> lines = {shortened(b.about, Brief::width)};
+  for (const std::string& line : lines_of(headline_text(f))) lines.push_back(line);
+  if (b.figures.count > 0) {
+    std::vector<std::vector<std::string>> rows = b.figures.texts();
+    rows.insert(rows.begin(), b.figures.headings());
+    for (const std::string& line : lines_of(aligned(rows, b.figures.text_columns_on_terminal)))
+      lines.push_back(shortened(line, Brief::width));
+  }
+  for (const std::string& line : b.words) lines.push_back(shortened("  " + line, Brief::width));
+  const std::size_t own = lines.size() + (b.more.empty() ? 0 : 1),
+                    room = Brief::most_lines - std::min(own, Brief::most_lines);
+  for (std::size_t i = 0; i < b.notes.size() && i < room; ++i)
+    lines.push_back(i + 1 == room && i + 1 < b.notes.size()
+                        ? fmt::format("  {} more notes (report)", b.notes.size() - i)
+                        : shortened("  note: " + b.notes[i], Brief::width));
+  if (!b.more.empty()) lines.push_back(shortened("  " + b.more, Brief::width));
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/run/recorders.h"
+#include "studies/conclusions/conclusion.h"
 
 namespace kurbel {
 
@@ -90,6 +91,7 @@ struct Result {
   RunStatistics statistics;
   double cpu_total = 0;  // of all runs, errors included [s]
   std::vector<std::string> notes;
+  std::vector<Answer> answers;  // that the motion itself gives: it stalls, runs away, slips to the end
   std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
   std::shared_ptr<const Traces> traces;                  // for plots; null unless asked for
   std::shared_ptr<const Model> model;

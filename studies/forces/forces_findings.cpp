@@ -395,10 +395,10 @@ Findings findings_of(const Forces& f) {
               .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
               .scene_file = f.scene_file,
               .speed_unit = f.speed_unit.name,
-              .conclusion = conclusion_of(f),
               .complete = f.complete,
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
+  to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
   for (const NamedPeak& p : peaks_of(front_of(f)))
     to.figures.push_back({"largest " + p.name, p.peak->told(), p.unit, p.peak->error,
                           fmt::format("at φ = {}", at_angle(*p.peak)), 0, p.means});

@@ -337,10 +337,10 @@ Findings findings_of(const LinkageStudy& f) {
               .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
               .scene_file = f.scene_file,
               .speed_unit = f.speed_unit.name,
-              .conclusion = conclusion_of(f),
               .complete = f.complete,
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
+  to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
   for (const LinkageFigure* p : peaks_of(front)) {
     if (p->means == "reaction_moment" && is_nothing(p->peak)) continue;  // a ram that carries none
     to.figures.push_back({"largest " + p->name, p->peak.told(), p->unit, p->peak.error,

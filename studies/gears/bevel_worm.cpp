@@ -19,9 +19,9 @@ Findings made(std::string title, std::string conclusion, const Lines& lines, con
   Findings f{.title = "",
              .subtitle = "Basic relations (theory 6)",
              .page_title = title,
-             .conclusion = std::move(conclusion),
              .tells_complete = false,
              .footer = report_footer()};
+  f.answer(Question::figures, std::move(conclusion));
   const Chapter in = f.chapter("Geometry");
   Rows table = words_table(title, lines.front(), {lines.begin() + 1, lines.end()});
   table.text_columns = table.text_columns_on_terminal = 2;

@@ -375,9 +375,9 @@ Findings findings_of(const Gears& g) {
              .subtitle = "Involute geometry after ISO 21771",
              .page_title = g.scene_file.empty() ? g.title : fmt::format("{}: gear pairs", g.title),
              .scene_file = g.scene_file,
-             .conclusion = conclusion_of(g),
              .tells_complete = false,
              .footer = report_footer()};
+  f.answer(Question::figures, conclusion_of(g));
   add_key_figures(f, g);
   if (g.scene_file.empty()) f.tell("scene", "");
   f.tell("pairs", each(g.stages, stage_record));

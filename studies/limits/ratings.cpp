@@ -11,6 +11,7 @@
 #include "drivetrain/induction/induction_law.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
+#include "studies/findings/figure_text.h"
 
 namespace kurbel {
 namespace {
@@ -147,14 +148,6 @@ std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model) {
   return rated.empty() ? nullptr : std::make_unique<HeatRecorder>(rated);
 }
 
-std::unique_ptr<DutyRecorder> duty_recorder_of(const Model& model) {
-  std::vector<DutyRecorder::Motor> rated;
-  for (const Section& s : model.scene.components)
-    if (const auto data = s.has("duty") ? induction_data(s) : std::nullopt)
-      rated.push_back({.component = s.name, .rated_torque = data->rated_torque});
-  return rated.empty() ? nullptr : std::make_unique<DutyRecorder>(std::move(rated));
-}
-
 std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
   std::vector<ExtremeOf> wanted;
   for (const Section& s : model.scene.components) {
@@ -173,19 +166,14 @@ std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
   return wanted;
 }
 
-std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const DutyRecorder* duty,
-                                   const std::vector<Figure>& known, double energy, double duration) {
+std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,
+                                   double energy, double duration) {
   std::vector<Figure> figures;
   if (heat && duration > 0)
     for (const HeatRecorder::Heated& h : heat->heated()) {
       figures.push_back(figure_of("engagement_heat", h.component, h.largest, "J", energy));
       figures.push_back(figure_of("slip_time", h.component, h.slips, "s", duration));
       figures.push_back(figure_of("heat_power", h.component, h.total / duration, "W", energy / duration));
-    }
-  if (duty && duration > 0)
-    for (const DutyRecorder::Motor& m : duty->motors()) {
-      figures.push_back(
-          figure_of("motor_rms_torque", m.component, std::sqrt(m.square / duration), "N*m", m.rated_torque));
     }
   for (const Section& s : model.scene.components) {
     if (!rates_belt(s)) continue;
@@ -224,15 +212,26 @@ std::string ratings_sentence(const std::vector<Verdict>& verdicts) {
   };
   const auto exceeded = count(Compliance::exceeded), open = count(Compliance::undecided);
   if (verdicts.empty()) return "";
-  if (exceeded + open == 0)
-    return verdicts.size() == 1 ? "its rating holds" : fmt::format("all {} ratings hold", verdicts.size());
+  if (exceeded + open == 0) {
+    const Verdict& nearest =
+        *std::max_element(verdicts.begin(), verdicts.end(),
+                          [](const Verdict& a, const Verdict& b) { return a.value / a.limit < b.value / b.limit; });
+    return fmt::format("{}, {}\"{}\", {}: {:.0f} % of what is allowed",
+                       verdicts.size() == 1   ? "its rating holds"
+                       : verdicts.size() == 2 ? "both ratings hold"
+                                              : fmt::format("all {} ratings hold", verdicts.size()),
+                       verdicts.size() == 1 ? "" : "the nearest ", nearest.component,
+                       nearest.requirement.substr(0, nearest.requirement.find(':')),
+                       100 * nearest.value / nearest.limit);
+  }
   if (exceeded == 0) return fmt::format("{} of {} ratings undecided", open, verdicts.size());
   const Verdict* worst = nullptr;
   for (const Verdict& v : verdicts)
     if (v.state() == Compliance::exceeded && (!worst || v.value / v.limit > worst->value / worst->limit)) worst = &v;
-  return fmt::format("{} of {} ratings EXCEEDED, worst \"{}\", {}: {:.0f} % of what is allowed", exceeded,
+  return fmt::format("{} of {} ratings EXCEEDED, worst \"{}\", {}: {:.0f} % of what is allowed, {} of {}{}", exceeded,
                      verdicts.size(), worst->component, worst->requirement.substr(0, worst->requirement.find(':')),
-                     100 * worst->value / worst->limit);
+                     100 * worst->value / worst->limit, told_shortly(worst->value, worst->unit),
+                     told_shortly(worst->limit, worst->unit), worst->note.empty() ? "" : "; " + worst->note);
 }
 
 }  // namespace kurbel

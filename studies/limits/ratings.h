@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "studies/findings/result.h"
-#include "studies/limits/duty_recorder.h"
 #include "studies/limits/heat_recorder.h"
 #include "studies/limits/verdicts.h"
 
@@ -20,20 +19,19 @@ namespace kurbel {
 
 // Watches those whose heat is rated; null: none.
 std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model);
-// The same of motors whose duty is stated.
-std::unique_ptr<DutyRecorder> duty_recorder_of(const Model& model);
 // Rim speeds of flywheels whose rim is given.
 std::vector<ExtremeOf> rim_speeds_of(const Model& model);
-// Of what slips, of motors and of belts, from what was watched and from peak torques among `known`. Heat is judged by `energy` [J],
+// Of what slips and of belts, from what was watched and from peak torques among `known`. Heat is judged by `energy` [J],
 // times by `duration` [s].
-std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const DutyRecorder* duty,
-                                   const std::vector<Figure>& known, double energy, double duration);
-// Those that a run can yield: names and units.
+std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,
+                                   double energy, double duration);
+// Those that ratings judge: names and units.
 std::vector<Figure> rating_figure_list(const Model& model);
 
 // Of a complete run; an incomplete one has not shown what it would bring.
 std::vector<Verdict> judge_ratings(const Result& result);
-// "clutch: heat of an engagement is 132 % of what is allowed; 1 of 3 ratings exceeded"; empty: nothing is rated.
+// "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of what is allowed, 1320 J of 1000 J; …", with the
+// value that would mend it; empty: nothing is rated.
 std::string ratings_sentence(const std::vector<Verdict>& verdicts);
 
 }  // namespace kurbel

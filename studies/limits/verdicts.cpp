@@ -123,6 +123,13 @@ Compliance Verdict::state() const {
   return bound || value - error <= limit ? Compliance::undecided : Compliance::exceeded;
 }
 
+double worst_excess(const std::vector<Verdict>& verdicts) {
+  double worst = 0;
+  for (const Verdict& v : verdicts)
+    if (v.state() == Compliance::exceeded) worst = std::max(worst, v.value / v.limit);
+  return worst;
+}
+
 Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean) {
   const double whole = std::abs(peak.value);
   if (!std::isfinite(whole)) return {whole, 0};

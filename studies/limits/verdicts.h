@@ -35,6 +35,9 @@ struct Passing {
   double torque = 0, speed = 0;  // with its sign [N·m], of the link [rad/s]
 };
 
+// The largest value over its limit, of what is exceeded; 0: nothing is.
+double worst_excess(const std::vector<Verdict>& verdicts);
+
 // Of all joints that have limits. Loads and peaks are of `joints`, in this order; passing is asked where there is no
 // run-up, and may be empty.
 std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const SteadyLoads& loads, const RunUp& run_up,

@@ -45,7 +45,7 @@ std::string first_mode(const Mode& mode) {
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
   if (m.modes.empty()) {
-    text = "The drive has no mode with twist.";
+    text = "The drive has no mode with twist";
   } else {
     text = first_mode(m.modes.front());
     if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
@@ -59,9 +59,7 @@ std::string conclusion_of(const ModesStudy& m) {
     if (m.cycle && std::abs(linear - really) > 0.1 * really)
       text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / really - 1));
   }
-  const std::string limits = limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit);
-  if (!limits.empty()) text += "; " + limits;
-  return text + ".";
+  return text;
 }
 
 // --- tables ---
@@ -389,10 +387,11 @@ Findings findings_of(const ModesStudy& m) {
              .page_title = fmt::format("{}: modes and critical speeds", m.title),
              .scene_file = m.scene_file,
              .speed_unit = m.speed_unit.name,
-             .conclusion = conclusion_of(m),
              .complete = m.complete,
              .diagnosis = m.diagnosis,
              .footer = report_footer()};
+  f.answer(m.complete ? Question::figures : Question::runs, conclusion_of(m), m.complete ? 0 : 100);
+  f.answer(Question::bears, limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit), worst_excess(m.verdicts));
   const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
                 campbell = f.chapter("Critical speeds (theory 12.6)"),
                 forced = f.chapter("Forced response (theory 12.7)"), history = f.chapter("Simulated torque"),

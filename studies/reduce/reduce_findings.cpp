@@ -276,7 +276,6 @@ Findings findings_of(const MachineReduction& r) {
              .subtitle = fmt::format("Machine reduced to {}", r.to),
              .scene_file = r.scene_file,
              .speed_unit = r.speed_unit.name,
-             .conclusion = conclusion_of(r),
              .tells_complete = false,
              .figures = {{"constant inertia of the drive",
                           r.constant_inertia,
@@ -289,6 +288,7 @@ Findings findings_of(const MachineReduction& r) {
                           "mean_driving_torque"},
                          {"mean resisting torque", r.mean_load, "N*m", r.mean_load_error, "on " + r.link, 0,
                           "mean_resisting_torque"}}};
+  f.answer(Question::figures, conclusion_of(r));
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);

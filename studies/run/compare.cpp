@@ -119,9 +119,6 @@ void conclude(Comparison& c) {
   if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";
   c.conclusion += fmt::format("; the {} model costs {:.3g} × the time{}.", c.b.label,
                               c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9), shared(c));
-  for (const Result* r : {&c.a, &c.b})
-    if (r->unconfirmed())
-      c.conclusion += fmt::format(" NOT confirmed, {} model: {}.", r->label, r->accuracy_in_words());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/motor_figures.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/simulate.h"
 
@@ -22,6 +23,29 @@ std::vector<std::string> components_with_impacts(const Model& model) {
         element && element->dynamics() && !element->mechanism().clearances.empty())
       names.push_back(element->mechanism().name);
   return names;
+}
+
+// Whose output an account's load acts on; empty: it is no load of a mechanism.
+std::string mechanism_loaded_by(const WorkAccount& account) {
+  const std::string end = ".load";
+  if (account.kind != Account::useful || !account.name.ends_with(end)) return {};
+  return account.name.substr(0, account.name.size() - end.size());
+}
+
+struct FlywheelOnLink {
+  std::string name;
+  double inertia = 0, ratio = 1;  // [kg·m²]; of its speed to the link's
+};
+std::vector<FlywheelOnLink> flywheels_on_link(const Model& model) {
+  std::vector<FlywheelOnLink> list;
+  const std::size_t link = at(model.reduction_node);
+  for (const Section& s : model.scene.components) {
+    if (s.kind->name != "flywheel" || !s.has("inertia")) continue;
+    const std::size_t node = at(model.network.ports.at(s.name).out);
+    if (model.shaft_of_node[node] == model.shaft_of_node[link])
+      list.push_back({s.name, s.number("inertia"), model.gain_of_node[node] / model.gain_of_node[link]});
+  }
+  return list;
 }
 
 class Figures {
@@ -39,6 +63,8 @@ class Figures {
     collect_heat();
     collect_stopping();
     collect_impacts();
+    collect_motors();
+    collect_works_of_periods();
     collect_ratings();
   }
 
@@ -158,16 +184,33 @@ class Figures {
       if (!run_.periods.run_down_begin || c.end <= *run_.periods.run_down_begin) last = &c;
     if (!last) return;
     const bool repeats = run_.periods.steady || comes_again(*last);
+    if (repeats) repeating_ = last;
     add(repeats ? QuantityKind::delta : QuantityKind::cycle_fluctuation, link(), last->fluctuation(), "", 1, last->end);
     add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
+    double driving = 0, useful = 0;
     for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
       double sum = 0;
       for (std::size_t k = 0; k < last->work.size(); ++k)
         if (model_.accounts[k].kind == kind) sum += last->work[k];
       add(work_per_cycle_of(kind), "", sum, "J", energy_scale(), last->end);
+      if (kind == Account::driving) driving = sum;
+      if (kind == Account::useful) useful = sum;
     }
+    for (std::size_t k = 0; k < last->work.size(); ++k)
+      if (const std::string mechanism = mechanism_loaded_by(model_.accounts[k]); !mechanism.empty())
+        add(Name::own("loop_work", mechanism), last->work[k], "J", energy_scale(), last->end);
+    if (repeats) collect_flywheels(*last);
+    if (repeats && driving > 0 && useful < 0)
+      add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1, last->end);
+  }
+  // What flywheels that turn rigidly with the link give from its largest to its least speed.
+  void collect_flywheels(const CycleRecord& c) {
+    for (const FlywheelOnLink& f : flywheels_on_link(model_))
+      add(Name::own("flywheel_energy", f.name),
+          0.5 * f.inertia * f.ratio * f.ratio * std::abs(c.omega_max * c.omega_max - c.omega_min * c.omega_min), "J",
+          energy_scale(), c.end);
   }
   void collect_periods() {
     const Periods& p = run_.periods;
@@ -186,8 +229,31 @@ class Figures {
   }
   void collect_ratings() {
     const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
-    for (Figure& f :
-         rating_figures(model_, run_.heat.get(), run_.duty.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
+    for (Figure& f : rating_figures(model_, run_.heat.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
+      run_.figures.push_back(std::move(f));
+  }
+  void collect_works_of_periods() {
+    const EnergyAudit& e = *run_.energy;
+    const WholeRun whole{.begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front(),
+                         .end = run_.outcome.t,
+                         .energy_begin = e.kinetic_start + e.stored_start,
+                         .energy_end = e.kinetic_end + e.stored_end,
+                         .work = e.work};
+    run_.work_periods = work_periods(model_, run_.periods, run_.cycles.cycles(), whole);
+    for (Figure& f : work_figures(run_.work_periods)) run_.figures.push_back(std::move(f));
+  }
+  void collect_motors() {
+    const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
+    if (run_.outcome.state.size() < equations_.size()) return;
+    std::vector<double> work;  // up to the end, of an incomplete run too
+    for (std::size_t k = 0; k < model_.accounts.size(); ++k)
+      work.push_back(run_.outcome.state[equations_.work_index(k)]);
+    for (Figure& f : motor_figures({.equations = equations_,
+                     .y = run_.outcome.state,
+                     .work = work,
+                     .duration = run_.outcome.t - begin,
+                     .energy_scale = energy_scale(),
+                     .last = repeating_}))
       run_.figures.push_back(std::move(f));
   }
   double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
@@ -196,6 +262,7 @@ class Figures {
   Equations& equations_;
   OneRun& run_;
   double tolerance_;
+  const CycleRecord* repeating_ = nullptr;  // the last whole cycle of a motion that repeats
 };
 
 std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOutcome& outcome) {
@@ -299,6 +366,12 @@ std::vector<Figure> figure_list(const Model& model) {
     add(QuantityKind::cycle_time, link, "s");
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
       add(work_per_cycle_of(kind), "", "J");
+    for (const WorkAccount& account : model.accounts)
+      if (const std::string mechanism = mechanism_loaded_by(account); !mechanism.empty())
+        list.push_back(Figure::of_name(Name::own("loop_work", mechanism), 0, "J"));
+    list.push_back(Figure::of_name({QuantityKind::other, "", "machine_efficiency"}));
+    for (const FlywheelOnLink& f : flywheels_on_link(model))
+      list.push_back(Figure::of_name(Name::own("flywheel_energy", f.name), 0, "J"));
   }
   add(QuantityKind::run_up_time, "", "s");
   add(QuantityKind::steady_speed, link, "rad/s");
@@ -306,7 +379,11 @@ std::vector<Figure> figure_list(const Model& model) {
   for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(QuantityKind::work, kind, "J");
   for (const ElasticJoint& e : model.elastic)
     if (e.slips) add(QuantityKind::slip_heat, model.network.joints[at(e.joint)].component, "J");
-  for (Figure& f : rating_figure_list(model)) list.push_back(std::move(f));
+  for (Figure& f : motor_figure_list(model)) list.push_back(std::move(f));
+  for (Figure& f : work_figure_list(model)) list.push_back(std::move(f));
+  for (Figure& f : rating_figure_list(model))
+    if (std::none_of(list.begin(), list.end(), [&](const Figure& known) { return known.name == f.name; }))
+      list.push_back(std::move(f));
   // Of a signal that makes the link stop.
   if (!model.scene.sequence.steps.empty()) {
     add(QuantityKind::stopping_time, link, "s");

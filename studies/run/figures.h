@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/run/run.h"
+#include "studies/answers/work_periods.h"
 #include "studies/findings/result.h"
 #include "studies/findings/trace.h"
-#include "studies/limits/duty_recorder.h"
 #include "studies/limits/heat_recorder.h"
 #include "studies/run/periods.h"
 
@@ -27,11 +27,11 @@ struct OneRun {
   std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<HeatRecorder> heat;  // null: none is rated
-  std::unique_ptr<DutyRecorder> duty;  // the same
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
   Periods periods;
+  std::vector<WorkPeriod> work_periods;
 };
 
 // Fills `figures` and `last_state` of a run that has got somewhere; `tolerance`: of its steps, which tells what is

@@ -10,6 +10,7 @@ namespace kurbel {
 namespace {
 
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
+constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
 constexpr std::size_t parts_without_cycle = 16;
 // Changes of the mid speed from cycle to cycle that a local tolerance leaves; never more than this of it.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
@@ -98,7 +99,7 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   if (approach.remaining) periods.remaining = *approach.remaining;
   periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
   const double change = 100 * approach.last_change / scale;
-  if (!approach.remaining)
+  if (!approach.remaining || *approach.remaining > nowhere * scale)
     periods.verdict =
         fmt::format("the {} speed changes by {:+.2g} % a {}, and that does not shrink", speed, change, unit);
   else

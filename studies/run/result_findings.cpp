@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/scene/units.h"
+#include "studies/answers/work_periods.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/trace.h"
 
@@ -251,6 +252,37 @@ void show_motion(Findings& f, const Results& results) {
                        .body = fmt::format("Torques are plotted for the {} couplings with the largest peaks, of {}; "
                                            "trajectory.csv holds the others.",
                                            most_torque_plots, all)});
+}
+
+void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
+  if (!r.model || !r.complete) return;
+  const WholeRun whole{.begin = r.begins_at, .end = r.until, .work = {0}};  // its times alone are asked for
+  Lines lines;
+  for (const WorkPeriod& p : work_periods(*r.model, r.periods, r.cycles, whole)) {
+    const std::string words = std::string("work_of_") + p.name;
+    std::string name = p.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    std::vector<std::string> line = {name, read_as(p.begin), read_as(p.end)};
+    double open = 0, driving = 0, useful = 0;
+    for (const char* kind : {"driving", "useful", "harmful", "weight", "energy"}) {
+      const Figure* figure = r.find(words + "." + kind);
+      if (!figure) return;
+      line.push_back(figure_text(figure->value, figure->error).value);
+      const bool is_energy = std::string_view(kind) == "energy";
+      open += is_energy ? figure->value : -figure->value;
+      if (std::string_view(kind) == "driving") driving = figure->value;
+      if (std::string_view(kind) == "useful") useful = figure->value;
+    }
+    line.push_back(fmt::format("{:.1e}", open));
+    line.push_back(driving > 0 && useful < 0 ? fmt::format("{:.4g} %", -100 * useful / driving) : "—");
+    lines.push_back(std::move(line));
+  }
+  if (lines.empty()) return;
+  Rows table = words_table(
+      fmt::format("Works by period [J], {} model (theory 1.3)", r.label),
+      {"period", "from [s]", "to [s]", "driving", "useful", "harmful", "weight", "ΔE", "open", "efficiency"}, lines);
+  table.heading = "works by period [J]";
+  f.say(in, std::move(table));
 }
 
 void show_delta_formulas(Findings& f, Chapter in, const Results& results) {

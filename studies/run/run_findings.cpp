@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "engine/scene/units.h"
+#include "studies/answers/key_figures.h"
+#include "studies/answers/run_answers.h"
+#include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/limits/ratings.h"
@@ -23,9 +25,8 @@ KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& spee
 
 // --- one run ---
 
-Rows figures_table(const Result& r, bool on_terminal) {
+Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_terminal) {
   using F = const Figure&;
-  std::vector<Figure> figures = r.figures;
   std::erase_if(figures, [&](F f) { return !is_told(f, r); });
   const SpeedUnit speed = speed_unit_of(r);
   const auto cells = [&](F f) { return figure_cells(f.value, f.error, f.unit, speed); };
@@ -43,6 +44,8 @@ Rows figures_table(const Result& r, bool on_terminal) {
   return table.not_on_terminal().only_for_people(
       "at [s]", [](F f) { return f.at ? with_error(*f.at, f.at_error, "") : std::string(); });
 }
+
+Rows figures_table(const Result& r, bool on_terminal) { return rows_of_figures(r, r.figures, on_terminal); }
 
 // --- two models ---
 
@@ -128,13 +131,32 @@ void show_ratings(Findings& f, Chapter in, const Result& r) {
   Rows table = verdict_table(verdicts);
   table.key = "ratings", table.heading = "ratings";
   f.say(in, std::move(table));
-  // What is exceeded comes before any figure.
-  const std::string sentence = ratings_sentence(verdicts);
-  const std::string said = std::string(1, static_cast<char>(std::toupper(sentence.front()))) + sentence.substr(1) + ".";
-  const bool exceeded = std::any_of(verdicts.begin(), verdicts.end(),
-                                    [](const Verdict& v) { return v.state() == Compliance::exceeded; });
-  f.conclusion = exceeded ? sentence + "; " + f.conclusion : f.conclusion + "; " + sentence;
-  f.page_conclusion = exceeded ? said + " " + f.page_conclusion : f.page_conclusion + " " + said;
+  for (Answer& answer : rating_answers(verdicts)) f.answers.push_back(std::move(answer));
+}
+
+// What a screen of a terminal has room for.
+Brief brief_of(const Result& r) {
+  const std::vector<std::size_t> chosen = chosen_figures(r, Brief::most_figures);
+  std::vector<Figure> figures;
+  for (const std::size_t i : chosen) figures.push_back(r.figures[i]);
+  const auto all = static_cast<std::size_t>(
+      std::count_if(r.figures.begin(), r.figures.end(), [&](const Figure& f) { return is_told(f, r); }));
+  Brief brief{.about = fmt::format("{} ({}, {})", r.title, r.label,
+                                   r.effects == "none" ? "no effects on" : "effects: " + r.effects),
+              .figures = rows_of_figures(r, std::move(figures), true),
+              .notes = r.notes};
+  // What the conclusion says already.
+  std::erase_if(brief.notes, [&](const std::string& note) {
+    return std::any_of(r.answers.begin(), r.answers.end(), [&](const Answer& a) { return a.sentence == note; });
+  });
+  std::string sure = r.errors_measured
+                         ? fmt::format("accuracy {:.1e} asked for, {:.1e} measured", r.accuracy, r.measured_accuracy)
+                         : std::string("errors were not measured");
+  if (has_works(r)) sure += "; " + told(r.energy);
+  brief.words = {std::move(sure)};
+  if (all > chosen.size())
+    brief.more = fmt::format("{} more figures, works, periods, cost: --all, or the report", all - chosen.size());
+  return brief;
 }
 
 }  // namespace
@@ -192,14 +214,14 @@ Findings findings_of(const Result& r) {
       .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
       .scene_file = r.scene_file,
       .speed_unit = speed_unit_of(r).name,
-      .conclusion = one_line(r),
-      .page_conclusion = conclusion_of(r),
       .complete = r.complete,
       .diagnosis = r.diagnosis,
       .unconfirmed = r.unconfirmed() ? r.accuracy_in_words() : "",
-      .opening = Findings::Opening::title,
-      .tells_conclusion = false,
+      .opening = Findings::Opening::title_and_conclusion,
       .footer = report_footer()};
+  f.answers = run_answers(r);
+  f.answer(Question::figures, capitalised(figures_in_words(r)));
+  f.brief = brief_of(r);
   f.figures = key_figures_of(r);
   show_motion(f, {&r});
   const Chapter figures = f.chapter("Figures");
@@ -210,8 +232,10 @@ Findings findings_of(const Result& r) {
   f.say(figures, Sentences{.lines = balance_words(r), .page = false});
   f.say(figures, figures_table(r, false));
   show_ratings(f, figures, r);
+  show_works_of_periods(f, figures, r);
   show_delta_formulas(f, figures, {&r});
   std::vector<std::string> lines = r.notes;
+  if (!r.complete) lines.push_back("incomplete: " + r.diagnosis);
   if (r.complete && !r.periods.verdict.empty())
     lines.push_back(fmt::format("{}: {}", r.periods.steady ? "steady motion" : "no steady motion", r.periods.verdict));
   f.say(notes, Sentences{.lines = lines, .terminal = false});
@@ -227,12 +251,15 @@ Findings findings_of(const Comparison& c) {
   Findings f{.title = c.title,
              .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
              .speed_unit = speed_unit_of(c.b).name,
-             .conclusion = c.conclusion,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false,
              .tells_complete = false,
              .footer = report_footer()};
   judge_completion(f, c);
+  for (const Result* r : results)
+    for (Answer& answer : run_answers(*r, r->label + " model: "))
+      if (answer.severity > 0 || r == &c.b) f.answers.push_back(std::move(answer));
+  if (c.a.complete && c.b.complete) f.answer(Question::figures, c.conclusion);
   f.figures = key_figures_of(c);
   show_motion(f, results);
   const Chapter figures = f.chapter("Figures");
@@ -250,7 +277,9 @@ Findings findings_of(const Comparison& c) {
   f.tell("amplification", each(c.amplification, [](const ComparisonRow& row) {
            return Record{{"name", row.name}, {"value", row.b}, {"unit", ""}, {"error", row.b_error}};
          }));
+  show_ratings(f, figures, c.b);
   show_amplification(f, figures, c);
+  for (const Result* r : results) show_works_of_periods(f, figures, *r);
   show_delta_formulas(f, figures, results);
   std::vector<std::string> lines = c.notes;
   for (const Result* r : results)

@@ -39,8 +39,8 @@ std::string at_time(const Figure& figure);                       // "at 1.23 s";
 const Figure* largest_peak(const Result& result);                // of torque in any coupling
 const Figure* first_of(const Result& result, QuantityKind what);
 
-std::string one_line(const Result& result);
-std::string conclusion_of(const Result& result);
+// The figures asked for, in a sentence without a full stop.
+std::string figures_in_words(const Result& result);
 // Before its figures, and behind them.
 std::vector<std::string> model_words(const Result& result);
 std::vector<std::string> balance_words(const Result& result);
@@ -68,6 +68,8 @@ std::string trajectory_csv(const Result& result);
 
 // The machine that moves and its plots: the page's first chapters.
 void show_motion(Findings& findings, const Results& results);
+// A row a period of steady machines, between the borders of whole cycles; they close: ΔE is the sum of the works.
+void show_works_of_periods(Findings& findings, Chapter in, const Result& result);
 void show_delta_formulas(Findings& findings, Chapter in, const Results& results);
 // Audit, statistics, events, explanation, scene: the page's last chapters.
 void show_background(Findings& findings, const Results& results);

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "studies/conclusions/headline.h"
+#include "studies/findings/figure_text.h"
 #include "studies/findings/trace.h"
 
 namespace kurbel {
@@ -115,6 +117,115 @@ Plot energy_plot(const Result& r) {
   return plot;
 }
 
+// Speed over time with its periods marked, in place of all events.
+std::optional<Plot> tachogram(const Results& results, const std::string& channel) {
+  const Result& r = *results.back();
+  std::optional<Plot> plot = over_time(results, channel, "", "speed");
+  if (!plot) return {};
+  const Periods& p = r.periods;
+  const SpeedUnit speed = speed_unit_of(r);
+  plot->marks.clear();
+  const auto mark = [&](const std::optional<double>& t, const char* words) {
+    if (t) plot->marks.push_back({*t, fmt::format("{}: {}", words, told_shortly(*t, "s"))});
+  };
+  mark(p.run_up_end, "steady from here on");
+  mark(p.run_down_begin, "run-down begins");
+  mark(p.standstill, "rests from here on");
+  const std::string link = link_of(r);
+  if (p.steady) {
+    const double from = p.run_up_end.value_or(r.begins_at), to = p.run_down_begin.value_or(r.until);
+    plot->series.push_back({.name = "middle of its swing",
+                            .role = Role::reference,
+                            .x = {from, to},
+                            .y = {speed.of(p.steady_speed), speed.of(p.steady_speed)},
+                            .dashed = true});
+    const Figure* mean = r.find(QuantityKind::mean_speed, link);
+    plot->title = fmt::format("Tachogram: {} runs steadily at {}{}", link,
+                              told_shortly(mean ? mean->value : p.steady_speed, "rad/s", speed),
+                              p.run_up_end ? " from " + told_shortly(*p.run_up_end, "s") + " on" : "");
+  } else {
+    plot->title = fmt::format("Tachogram: {}, no steady motion", link);
+  }
+  plot->note = p.verdict;
+  return plot;
+}
+
+// A trace over the angle at the angles of another one.
+std::vector<double> at_angles(const Trace& trace, const std::vector<double>& angles) {
+  std::vector<double> values;
+  for (const double angle : angles) {
+    const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
+    const auto i = static_cast<std::size_t>(after - trace.x.begin());
+    const bool inside = i > 0 && i < trace.x.size() && trace.x[i] > trace.x[i - 1];
+    const double part = inside ? (angle - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]) : 0;
+    values.push_back(inside ? trace.y[i - 1] + part * (trace.y[i] - trace.y[i - 1])
+                            : trace.y[std::min(i, trace.y.size() - 1)]);
+  }
+  return values;
+}
+
+// A compressor's cylinder as its load states it.
+struct Cylinder {
+  double area = 0, outside = 0;  // A [m²]; p on the other face of the piston [Pa]
+  double side = 1;               // of the working end: F = −side A (p − p_out)
+  double volumetric = 1;         // η_v = 1 + ε − ε (p₂/p₁)^(1/n), n of the re-expansion
+};
+std::optional<Cylinder> cylinder_of(const Scene& scene, const std::string& mechanism) {
+  const Section* section = scene.find(mechanism);
+  const Setting* loads = section ? section->find("load") : nullptr;
+  if (!loads || loads->sections.size() != 1 || loads->sections.front().kind->name != "compressor") return {};
+  const Section& gas = loads->sections.front();
+  const double suction = gas.number("suction_pressure"), ratio = gas.number("delivery_pressure") / suction;
+  const double clearance = gas.number("clearance"), bore = gas.number("bore");
+  const double exponent = gas.number_or("expansion_exponent", gas.number("compression_exponent"));
+  return Cylinder{.area = std::numbers::pi / 4 * bore * bore,
+                  .outside = gas.number_or("outside_pressure", suction),
+                  .side = gas.has("working_end") && gas.text("working_end") == "folded" ? -1.0 : 1.0,
+                  .volumetric = 1 + clearance - clearance * std::pow(ratio, 1 / exponent)};
+}
+
+// Force on what a mechanism's loads act on, over its travel: the loop of the last whole cycle, whose area is the work.
+std::optional<Plot> indicator_diagram(const Results& results, const std::string& mechanism, bool rocks) {
+  Plot plot{.title = "", .x = {rocks ? "angle" : "travel", ""}, .y = {rocks ? "torque" : "force", ""}, .series = {}};
+  double farthest = 0, largest = 0;
+  for (const Result* r : results) {
+    if (r->traces->last_cycles.empty()) continue;
+    const Trace *travel = nullptr, *force = nullptr;
+    for (const Trace& t : r->traces->last_cycles.back().traces) {
+      if (t.of == mechanism && t.what == QuantityKind::position) travel = &t;
+      if (t.of == mechanism && (t.what == QuantityKind::force || t.what == QuantityKind::load_torque)) force = &t;
+    }
+    if (!travel || !force) continue;
+    plot.series.push_back(
+        {.name = r->label, .role = role_of(*r, results), .x = at_angles(*travel, force->x), .y = force->y});
+    for (const double x : travel->y) farthest = std::max(farthest, std::abs(x));
+    for (const double y : force->y) largest = std::max(largest, std::abs(y));
+  }
+  if (plot.series.empty() || largest == 0) return {};
+  const Result& front = *results.back();
+  const Figure* work = front.find(Name::own("loop_work", mechanism).text);
+  plot.title =
+      fmt::format("{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
+                  work ? fmt::format(": {} a cycle within the loop", told_shortly(std::abs(work->value), "J")) : "");
+  const ReadableUnit way = readable_unit(farthest, rocks ? "rad" : "m"),
+                     size = readable_unit(largest, rocks ? "N*m" : "N");
+  plot.x.unit = way.unit, plot.y.unit = size.unit;
+  for (Series& s : plot.series) {
+    for (double& x : s.x) x *= way.factor;
+    for (double& y : s.y) y *= size.factor;
+  }
+  plot.note = "Indicator diagram of the last whole cycle: ∮ F dx is the work of the loads (loop_work).";
+  if (const auto gas = cylinder_of(front.model->scene, mechanism)) {
+    plot.title.replace(0, plot.title.find(" of "), "Pressure");
+    plot.y = {"absolute pressure", "bar"};
+    for (Series& s : plot.series)
+      for (double& y : s.y) y = 1e-5 * (gas->outside - gas->side * y / size.factor / gas->area);
+    plot.note += fmt::format(" Volumetric efficiency of the diagram 1 + ε − ε (p₂/p₁)^(1/n) = {}.",
+                             headline_number(gas->volumetric));
+  }
+  return plot;
+}
+
 // Title and label of what clearance and a flexible rod show; empty: the trace is something else.
 std::pair<std::string, std::string> of_joint_or_rod(const Trace& trace) {
   const std::string& component = trace.of;
@@ -168,6 +279,7 @@ std::vector<Plot> motion_plots(const Results& results) {
   };
   const Result& front = *results.back();
   const std::string link = link_of(front);
+  add(tachogram(results, "speed." + link));
   for (const char* end : {"", ".out"})
     add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
   add(over_angle(results, "speed." + link, fmt::format("Speed of {} over its angle", link), "speed"));
@@ -200,6 +312,8 @@ std::vector<Plot> motion_plots(const Results& results) {
     if (const auto [title, label] = of_joint_or_rod(trace); !title.empty())
       add(over_time(results, trace.name, title, label));
   }
+  for (const Trace& trace : front.traces->over_time)
+    if (trace.what == QuantityKind::position) add(indicator_diagram(results, trace.of, trace.unit != "m"));
   for (const Result* r : results) plots.push_back(energy_plot(*r));
   return plots;
 }

@@ -80,46 +80,25 @@ const Figure* first_of(const Result& r, QuantityKind what) {
   return nullptr;
 }
 
-std::string one_line(const Result& r) {
-  if (!r.complete) return fmt::format("{}: INCOMPLETE: {}", r.title, r.diagnosis);
-  const std::string accuracy = r.unconfirmed()     ? "NOT confirmed: " + r.accuracy_in_words()
-                               : r.errors_measured ? fmt::format("accuracy {:.1e} measured", r.measured_accuracy)
-                                                   : "errors not measured";
-  std::string peak;
-  for (const Figure& f : r.figures)
-    if (peak.empty() && f.what == QuantityKind::peak_torque)
-      peak = fmt::format("peak torque in {} {}, ", f.of, with_error(f.value, f.error, "N*m"));
-  std::string balance;
-  if (r.energy.checks > 0)
-    balance = nothing_turned_over(r.energy) ? ", no energy turned over"
-                                            : fmt::format(", energy balance {:.1e}", r.energy.relative);
-  const std::string span = r.begins_at > 0
-                               ? fmt::format("{} … {}", with_unit(r.begins_at, "s", 6), with_unit(r.until, "s", 6))
-                               : with_unit(r.until, "s", 6);
-  return fmt::format("{}: {} simulated, {}, {}{}{}", r.title, span, r.label, peak, accuracy, balance);
-}
-
-std::string conclusion_of(const Result& r) {
-  if (!r.complete) return fmt::format("The run is incomplete: {}", r.diagnosis);
+std::string figures_in_words(const Result& r) {
+  if (!r.complete) return {};
+  const SpeedUnit speed = speed_unit_of(r);
+  const auto told = [&](const Figure& f) { return told_shortly(f.value, f.unit, speed); };
   std::string text;
-  if (r.unconfirmed()) text = fmt::format("NOT confirmed: {}. ", r.accuracy_in_words());
-  const std::size_t begin = text.size();
   if (const Figure* peak = largest_peak(r))
-    text += fmt::format("The torque in {} reaches {}{}", peak->of, sure(*peak), peak->at ? " " + at_time(*peak) : "");
+    text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, told(*peak),
+                       peak->at ? " at " + told_shortly(*peak->at, "s") : "");
+  const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   if (const Figure* delta = first_of(r, QuantityKind::delta))
-    text += fmt::format("{} speed of {} fluctuates by δ = {}", text.size() == begin ? "The" : "; the", delta->of,
-                        sure(*delta));
+    more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   if (const Figure* cycle = first_of(r, QuantityKind::cycle_fluctuation))
-    text += fmt::format("{} speed of {} changes by {} of its middle in the last cycle, which is not steady",
-                        text.size() == begin ? "The" : "; the", cycle->of, sure(*cycle));
-  if (text.size() == begin)
-    if (const Figure* speed = first_of(r, QuantityKind::final_speed))
-      text += fmt::format("{} ends at {}", speed->of, sure(*speed, speed_unit_of(r)));
-  if (has_works(r) && nothing_turned_over(r.energy))
-    text += fmt::format("{}o work is done and no energy changes its form", text.size() == begin ? "N" : "; n");
-  else if (has_works(r))
-    text += fmt::format("{}he energy balance closes to {:.1e}", text.size() == begin ? "T" : "; t", r.energy.relative);
-  return text + ".";
+    more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
+                     cycle->of, told(*cycle)));
+  for (const Figure& f : r.figures)
+    if (f.name == Name::own("thermal_use", f.of))
+      more(fmt::format("\"{}\" is used to {:.0f} % thermally (RMS over rated torque)", f.of, 100 * f.value));
+  if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy changes its form");
+  return text;
 }
 
 std::vector<std::string> model_words(const Result& r) {

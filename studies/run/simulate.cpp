@@ -14,6 +14,7 @@
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/motion_answers.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
@@ -227,7 +228,6 @@ class Simulation {
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->heat = heat_recorder_of(model);
-    run->duty = duty_recorder_of(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -248,7 +248,6 @@ class Simulation {
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
                                         run->energy.get()};
     if (run->heat) observers.push_back(run->heat.get());
-    if (run->duty) observers.push_back(run->duty.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
@@ -339,7 +338,7 @@ class Simulation {
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
-    note_stall(run.outcome);
+    judge_motion(run.outcome);
     note_regularised(run.outcome.regularised);
     for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
@@ -362,25 +361,11 @@ class Simulation {
       return {};
     }
   }
-  // A reduction link that is held at the end although something drives.
-  void note_stall(const RunOutcome& outcome) {
-    const Model& m = *model_;
-    const std::size_t shaft = at(m.shaft_of_node[at(m.reduction_node)]);
-    if (outcome.state.empty() || !equations_.at_standstill(shaft) || !m.commands.empty()) return;
-    const Snapshot& s = equations_.snapshot(outcome.t, outcome.state);
-    if (s.now.speed[shaft] != 0) return;  // creeps, by a law without events
-    double drive = 0;                     // on the reduction link
-    for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-      if (m.network.elements[e].element->account == Account::driving)
-        drive += s.sums.element_torque[e] * m.node_ratio[at(m.network.elements[e].node)];
-    const auto stop = std::find_if(outcome.events.rbegin(), outcome.events.rend(),
-                                   [](const Event& e) { return e.kind == EventKind::rest; });
-    if (drive == 0 || stop == outcome.events.rend()) return;
-    const double degrees = s.node_angle[m.reduction_node] * 180 / std::numbers::pi;
-    result_.notes.push_back(fmt::format(
-        "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
-        "the end",
-        m.network.nodes[at(m.reduction_node)].component, degrees - 360 * std::floor(degrees / 360), stop->t, drive));
+  // Does it do its work at all?
+  void judge_motion(const RunOutcome& outcome) {
+    if (const std::optional<Stall> stall = stalled(equations_, outcome)) result_.notes.push_back(in_words(*stall));
+    result_.answers = motion_answers(equations_, outcome, result_.periods, result_.figures, !result_.cycles.empty(),
+                                     result_.begins_at);
   }
 
   std::shared_ptr<const Model> model_;

@@ -350,6 +350,20 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
   f.tell("notes", s.notes);
 }
 
+// Simulated as it really is, it may not keep what it was sized for.
+void add_answers(Findings& f, const Sizing& s) {
+  f.answer(s.complete ? Question::figures : Question::runs, conclusion_of(s), s.complete ? 0 : 100);
+  const DeltaReached* real = reached(s, SizedModel::elastic);
+  if (!real) real = reached(s, SizedModel::rigid);
+  constexpr double visible = 1.02;
+  if (s.needed && real && real->crank - real->crank_error.value_or(0) > visible * s.delta)
+    f.answer(
+        Question::bears,
+        fmt::format("Simulated, this flywheel does not keep δ = {:g}: it is {:.4g} at the crank, {:.3g} times that",
+                    s.delta, real->crank, real->crank / s.delta),
+        real->crank / s.delta);
+}
+
 }  // namespace
 
 Findings findings_of(const Sizing& s) {
@@ -357,9 +371,9 @@ Findings findings_of(const Sizing& s) {
              .subtitle = fmt::format("Flywheel for δ = {:g}", s.delta),
              .scene_file = s.scene_file,
              .speed_unit = s.speed_unit.name,
-             .conclusion = conclusion_of(s),
              .complete = s.complete,
              .diagnosis = s.diagnosis};
+  add_answers(f, s);
   const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),
                 motor = f.chapter("With the torques as they are over the speed, rigid and elastic"),
                 body = f.chapter("Dimensions"), scales = f.chapter("Scales of the diagrams"),

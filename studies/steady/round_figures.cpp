@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/numerics/index.h"
+#include "studies/answers/motor_figures.h"
 #include "studies/findings/report.h"
 #include "studies/run/figures.h"
 
@@ -203,6 +204,10 @@ class RoundFigures {
         add(Name::make(QuantityKind::cycle_min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
       }
       if (const auto delta = f.delta()) add(Name::make(QuantityKind::delta, f.shaft), *delta, "", 1);
+      // What a flywheel gives from its largest to its least speed.
+      if (const Section* s = m_.scene.find(f.shaft); s && s->kind->name == "flywheel" && s->has("inertia"))
+        add(Name::own("flywheel_energy", f.shaft), 0.5 * s->number("inertia") * std::abs(f.max * f.max - f.min * f.min),
+            "J", m_.torque_scale * 2 * std::numbers::pi);
       round_.shafts.push_back(std::move(f));
     }
   }
@@ -231,26 +236,41 @@ class RoundFigures {
                    extremes_.found()[first + i].value,
                    {}};
       if (const Section* section = m_.scene.find(use.component)) {
-        if (section->has("rated_torque")) use.rated = section->number("rated_torque");
-        if (section->has("rated_power") && section->has("rated_speed"))
-          use.rated = section->number("rated_power") / section->number("rated_speed");
+        use.rated = rated_torque_of(*section);
+        if (const std::optional<double> breakdown = breakdown_torque_of(*section); breakdown && *breakdown > 0)
+          add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *breakdown, "", 1);
       }
       add(Name::make(QuantityKind::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
       add(Name::make(QuantityKind::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);
       round_.motors.push_back(std::move(use));
     }
   }
+  void add_powers() {
+    const double time = outcome_.t - map_.start_time();
+    for (const MotorTorque& motor : m_.motors) {
+      double work = 0;
+      for (std::size_t a = 0; a < m_.accounts.size(); ++a)
+        if (m_.accounts[a].name == motor.component && m_.accounts[a].kind == Account::driving)
+          work += outcome_.state[equations_.work_index(a)];
+      add(Name::own("cycle_motor_power", motor.component), work / time, "W",
+          std::abs(motor.rated_torque * motor.rated_speed));
+    }
+  }
   // Over a steady cycle all works add up to nothing.
   void add_works() {
-    double sum = 0, turnover = 0;
+    double sum = 0, turnover = 0, driving = 0, useful = 0;
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
       double of_kind = 0;
       for (std::size_t a = 0; a < m_.accounts.size(); ++a)
         if (m_.accounts[a].kind == kind) of_kind += outcome_.state[equations_.work_index(a)];
       sum += of_kind;
       turnover += std::abs(of_kind);
+      if (kind == Account::driving) driving = of_kind;
+      if (kind == Account::useful) useful = of_kind;
       add(Name::make(work_per_cycle_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
     }
+    if (driving > 0 && useful < 0) add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1);
+    add_powers();
     for (std::size_t a = 0; a < m_.accounts.size(); ++a)
       if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
         add(Name::make(QuantityKind::work_per_cycle,

@@ -9,9 +9,12 @@
 #include <numbers>
 
 #include "engine/scene/units.h"
+#include "studies/answers/run_answers.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
+#include "studies/limits/limits_findings.h"
+#include "studies/steady/steady_ratings.h"
 #include "studies/steady/steady_words.h"
 
 namespace kurbel {
@@ -346,10 +349,16 @@ Findings findings_of(const SteadyStudy& s) {
              .subtitle = "Steady motion found directly: return map and its multipliers",
              .scene_file = s.scene_file,
              .speed_unit = speed_unit_of(s).name,
-             .conclusion = s.conclusion,
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
+  f.answer(s.complete ? Question::figures : Question::runs, s.conclusion, s.complete ? 0 : 100);
+  for (const SteadyCycle& c : s.cycles)
+    if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
+      f.answer(Question::runs,
+               fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
+  const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
+  for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));
   const Chapter cycle = f.chapter("Steady cycle"), operation = f.chapter("Operating points (theory 4.15)"),
                 stability = f.chapter("Stability (theory 11.4)"), figures = f.chapter("Figures"),
                 how = f.chapter("How it was found"), notes = f.chapter("Notes");
@@ -369,6 +378,11 @@ Findings findings_of(const SteadyStudy& s) {
     f.draw(stability, [&s] { return multiplier_plot(s); });
     for (const SteadyCycle& c : s.cycles)
       if (c.found) f.say(stability, multiplier_table(c));
+    if (!ratings.empty()) {
+      Rows table = verdict_table(ratings);
+      table.key = "ratings", table.heading = "ratings";
+      f.say(figures, std::move(table));
+    }
     f.say(figures, shaft_table(s));
     show_formulas(f, figures, s);
     f.say(figures, figure_table(s));

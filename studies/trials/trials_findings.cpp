@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/run/run_findings.h"
 
@@ -46,6 +47,10 @@ std::string change_in_words(const TrialChange& c) {
 bool moves(const TrialChange& c) { return c.gone || c.change.told(); }
 bool worth_a_line(const TrialChange& c) {
   return c.gone || (c.change.told() && c.change.relative > least_worth_a_line);
+}
+
+bool changes_the_answer(const TrialChange& c) {
+  return c.gone || (c.change.told() && c.change.relative >= least_that_changes_the_answer);
 }
 
 template <class Which>
@@ -107,6 +112,18 @@ std::vector<std::string> other_words(const Trials& trials) {
   return lines;
 }
 
+// Trials that move a key figure worth a line.
+std::vector<const Trial*> moving_most_first(const Trials& trials) {
+  std::vector<const Trial*> moving;
+  for (const Trial& trial : trials.tried)
+    if (any(trial, worth_a_line)) moving.push_back(&trial);
+  const auto most = [](const Trial* t) {
+    return t->changes.front().gone ? HUGE_VAL : t->changes.front().change.sure();
+  };
+  std::stable_sort(moving.begin(), moving.end(), [&](const Trial* a, const Trial* b) { return most(a) > most(b); });
+  return moving;
+}
+
 Record trial_record(const Trial& trial) {
   Record record = {{"effect", trial.effect.name}};
   if (!trial.effect.gives_way.empty()) record.push_back({"in_place_of", trial.effect.gives_way});
@@ -130,8 +147,29 @@ Chapter chapter_of(Findings& f) {
   return found == f.chapters.end() ? f.chapter(chapter_of_trials) : static_cast<Chapter>(found - f.chapters.begin());
 }
 
+// The effect that is off and would change the answer most; how many were tried.
+void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
+  const std::vector<const Trial*> moving = moving_most_first(trials);
+  std::size_t count = 0;
+  for (const Trial* trial : moving) count += any(*trial, changes_the_answer);
+  if (count > 0) {
+    const MovedFigure moved = moved_by(*moving.front(), speed).front();
+    f.answer(Question::depends,
+             moved.on == "—"
+                 ? capitalised(fmt::format("{}, which is off, would leave no {}", moved.effect, moved.figure))
+                 : capitalised(fmt::format("{}, which is off, would move {} from {} to {} ({})", moved.effect,
+                                           moved.figure, moved.off, moved.on, moved.change)));
+  }
+  if (!f.brief) return;
+  std::string words = fmt::format("effects that are off: {} of {} tried would move a key figure by {:g} % or more",
+                                  count, trials.tried.size(), 100 * least_that_changes_the_answer);
+  if (!trials.not_tried.empty()) words += fmt::format("; {} not tried (report)", trials.not_tried.size());
+  f.brief->words.push_back(std::move(words));
+}
+
 void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   if (trials.tried.empty() && trials.not_tried.empty()) return;
+  conclude(f, trials, speed);
   const Chapter in = chapter_of(f);
   f.say(in, Sentences{.lines = words_of(trials, speed),
                       .heading = "effects that are off:",
@@ -162,14 +200,7 @@ void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
 
 std::vector<std::string> words_of(const Trials& trials, const SpeedUnit& speed) {
   std::vector<std::string> lines;
-  std::vector<const Trial*> moving;
-  for (const Trial& trial : trials.tried)
-    if (any(trial, worth_a_line)) moving.push_back(&trial);
-  const auto most = [](const Trial* t) {
-    return t->changes.front().gone ? HUGE_VAL : t->changes.front().change.sure();
-  };
-  std::stable_sort(moving.begin(), moving.end(), [&](const Trial* a, const Trial* b) { return most(a) > most(b); });
-  for (const Trial* trial : moving) lines.push_back(one_line(moved_by(*trial, speed).front()));
+  for (const Trial* trial : moving_most_first(trials)) lines.push_back(one_line(moved_by(*trial, speed).front()));
   for (std::string& line : other_words(trials)) lines.push_back(std::move(line));
   return lines;
 }

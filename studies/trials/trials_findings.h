@@ -8,6 +8,8 @@ namespace kurbel {
 
 // Smaller changes are told together, in one line: |relative|.
 inline constexpr double least_worth_a_line = 1e-3;
+// From here on it stands in the conclusion.
+inline constexpr double least_that_changes_the_answer = 0.02;
 
 Findings findings_of(const WithTrials<Result>& run);
 Findings findings_of(const WithTrials<Comparison>& comparison);

@@ -218,10 +218,19 @@ TEST(Ratings, NothingRatedNothingTold) {
   EXPECT_TRUE(judge_ratings(bare).empty());
   EXPECT_EQ(heat_recorder_of(*bare.model), nullptr);
   EXPECT_EQ(bare.find("engagement_heat.brake"), nullptr);
-  EXPECT_EQ(findings_of(bare).conclusion.find("rating"), std::string::npos);
+  EXPECT_EQ(findings_of(bare).conclusion().find("rating"), std::string::npos);
   EXPECT_NEAR(figure(rated, "engagement_heat.brake"), 5000, 1e-5);  // ½ J ω²
-  EXPECT_NE(findings_of(rated).conclusion.find("its rating holds"), std::string::npos);
-  EXPECT_NE(findings_of(rated).page_conclusion.find("Its rating holds."), std::string::npos);
+  EXPECT_NE(findings_of(rated).conclusion().find("Its rating holds"), std::string::npos);
+}
+
+// Beside the figures of two models, too, and in their conclusion: of the second.
+TEST(Ratings, OfAComparisonAreThoseOfItsSecondModel) {
+  const Scene scene = test::scene_file("scenes/belt_mill.toml");
+  SimulateOptions quick;
+  quick.measure_error = false;
+  const Comparison c = compare(scene, models_to_compare(scene), quick);
+  EXPECT_TRUE(findings_of(c).conclusion().find("1 of 3 ratings EXCEEDED, worst \"belts\"") != std::string::npos)
+      << findings_of(c).conclusion();
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady_findings.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -82,6 +83,7 @@ void expect_explained(const std::string& verb, const Findings& findings) {
 void expect_met(const std::string& verb, const Findings& findings, const std::string& form = "") {
   expect_explained(verb, findings);
   const std::string& told = form.empty() ? verb : form;
+  test::expect_sound_conclusion(findings, verb);
   EXPECT_EQ(misfit(schema().at("$defs").at(told), Json::parse(summary_json(findings)), told), "");
 }
 template <class Study>

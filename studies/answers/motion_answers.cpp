@@ -1,0 +1,175 @@
+// motion_answers.cpp — stalls, runaways, slip: judged by the state at the end and by what led there.
+#include "studies/answers/motion_answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double stands = 1e-3;   // of the usual speed: below it a shaft stands
+constexpr double drives = 1e-6;   // of the usual torque: above it something drives
+constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
+constexpr double nearly = 0.2;    // of the largest speed so far: below it the link has come to a stop
+
+class Judge {
+ public:
+  Judge(Equations& equations, const RunOutcome& outcome)
+      : equations_(equations),
+        m_(equations.model()),
+        outcome_(outcome),
+        shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
+        now_(equations.snapshot(outcome.t, outcome.state)) {}
+
+  std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
+  double angle() const { return now_.node_angle[m_.reduction_node]; }
+  double speed() const { return m_.gain_of_node[at(m_.reduction_node)] * now_.now.speed[shaft_]; }
+  bool is_held() const { return equations_.at_standstill(shaft_) && now_.now.speed[shaft_] == 0; }
+  bool is_commanded() const { return !m_.commands.empty(); }
+  // Of all that drives, reduced to the link [N·m].
+  double drive() const {
+    double torque = 0;
+    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
+      if (m_.network.elements[e].element->account == Account::driving)
+        torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
+    return torque;
+  }
+  // A motor under torque whose own shaft stands.
+  const MotorTorque* standing_motor() const {
+    for (const MotorTorque& motor : m_.motors) {
+      double torque = 0;
+      for (const std::size_t e : motor.elements) torque += now_.sums.element_torque[e];
+      const double own = m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
+      if (std::abs(torque) > drives * motor.rated_torque && std::abs(own) < stands * std::abs(motor.rated_speed))
+        return &motor;
+    }
+    return nullptr;
+  }
+  std::optional<double> rest() const {
+    const auto stop = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(),
+                                   [](const Event& e) { return e.kind == EventKind::rest; });
+    return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
+  }
+
+  std::optional<Stall> stall() const {
+    const MotorTorque* motor = standing_motor();
+    const std::optional<double> since = rest();
+    if (!is_held() || !since || (is_commanded() && !motor)) return {};
+    const double torque = drive();
+    if (torque == 0) return {};
+    return Stall{link(), motor ? motor->component : "", angle(), *since, torque};
+  }
+
+  // Turned back by more than half a turn, against what drove it from the start.
+  std::optional<Answer> backwards(double begins_at) const {
+    if (is_commanded() || begins_at > 0 || !(speed() < -stands * m_.speed_scale)) return {};
+    Equations first(equations_.shared_model(), false);
+    const std::vector<double> y = first.start(0);
+    const double before = first.snapshot(0, y).node_angle[m_.reduction_node];
+    if (m_.scene.run.start.speed < 0 || before - angle() < std::numbers::pi) return {};
+    if (!(drive() > drives * m_.torque_scale)) return {};
+    return Answer{Question::runs,
+                  fmt::format("\"{}\" turns backwards, at {} at the end: its loads are stronger than the {} N·m that "
+                              "drive it forwards",
+                              link(), m_.scene.speed_unit.text(speed()), drive()),
+                  80};
+  }
+
+  std::optional<Answer> runs_away(const Periods& p) const {
+    if (is_commanded() || p.steady || p.run_down_begin) return {};
+    if (!(std::abs(speed()) > far_away * m_.speed_scale) || !p.verdict.ends_with("does not shrink")) return {};
+    return Answer{Question::runs,
+                  fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed that its data tell of, and {}",
+                              link(), m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
+                  70};
+  }
+
+  // Held from the start, although something drives.
+  std::optional<Answer> never_starts(double fastest) const {
+    if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale) return {};
+    if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    return Answer{Question::runs,
+                  fmt::format("\"{}\" does not start: its loads hold the {} N·m that drive it", link(), drive()), 90};
+  }
+
+  // Not once round, and hardly any speed left, although something drives.
+  std::optional<Answer> never_gets_round(const Periods& p, bool any_cycle, double fastest) const {
+    if (is_commanded() || any_cycle || m_.cycle == 0 || p.run_down_begin) return {};
+    if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    return Answer{Question::runs,
+                  fmt::format("\"{}\" does not get round: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
+                              link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
+                  60};
+  }
+
+  // Closed clutches whose sides turn differently at the end; those that let go by themselves, too.
+  void slipping(std::vector<Answer>& answers) const {
+    for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
+      const ElasticJoint& joint = m_.elastic[e];
+      const Section* section = m_.scene.find(m_.network.joints[at(joint.joint)].component);
+      if (!joint.slips || equations_.modes().slip[e] == 0 || (section && section->kind->name == "brake")) continue;
+      const double torque = now_.joint_torque[joint.joint];
+      const double slip = joint.gain_a * now_.now.speed[joint.shaft_a] - joint.gain_b * now_.now.speed[joint.shaft_b];
+      const double usual = joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale;
+      if (!(std::abs(slip) > stands * std::abs(usual)) || !(std::abs(torque) > drives * m_.torque_scale)) continue;
+      answers.push_back({Question::runs,
+                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit",
+                                     m_.network.joints[at(joint.joint)].component,
+                                     m_.scene.speed_unit.text(std::abs(slip)), std::abs(torque)),
+                         50});
+    }
+  }
+
+ private:
+  Equations& equations_;
+  const Model& m_;
+  const RunOutcome& outcome_;
+  std::size_t shaft_;
+  const Snapshot& now_;
+};
+
+}  // namespace
+
+std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome) {
+  if (outcome.state.empty()) return {};
+  return Judge(equations, outcome).stall();
+}
+
+std::string in_words(const Stall& s) {
+  const double degrees = s.angle * 180 / std::numbers::pi;
+  return fmt::format(
+      "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
+      "the end",
+      s.link, degrees - 360 * std::floor(degrees / 360), s.time, s.torque);
+}
+
+std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outcome, const Periods& periods,
+                                   const std::vector<Figure>& figures, bool any_cycle, double begins_at) {
+  std::vector<Answer> answers;
+  if (!outcome.complete || outcome.state.empty()) return answers;
+  const Judge judge(equations, outcome);
+  if (const std::optional<Stall> stall = judge.stall()) {
+    answers.push_back({Question::runs, in_words(*stall), 90});
+    return answers;
+  }
+  double fastest = 0;
+  for (const Figure& f : figures)
+    if (f.what == QuantityKind::max_speed || f.what == QuantityKind::min_speed)
+      fastest = std::max(fastest, std::abs(f.value));
+  if (const std::optional<Answer> answer = judge.never_starts(fastest)) {
+    answers.push_back(*answer);
+    return answers;
+  }
+  for (const std::optional<Answer>& answer :
+       {judge.backwards(begins_at), judge.runs_away(periods), judge.never_gets_round(periods, any_cycle, fastest)})
+    if (answer) answers.push_back(*answer);
+  judge.slipping(answers);
+  return answers;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,103 @@
+// motor_figures.cpp — quadratures of the motors' torques as figures.
+#include "studies/answers/motor_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivetrain/induction/induction_law.h"
+
+namespace kurbel {
+namespace {
+
+// Synchronous speed of an induction motor at the mains that follows its static curve, and whose field nothing reverses;
+// none: no heat of slip is told.
+std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
+  const Section* section = m.scene.find(motor.component);
+  const std::optional<InductionData> data = section ? induction_data(*section) : std::nullopt;
+  const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(),
+                                     [&](const OwnStatePlace& own) { return own.component == motor.component; });
+  const bool commanded = std::any_of(m.commands.begin(), m.commands.end(),
+                                     [&](const CommandTarget& c) { return c.component == motor.component; });
+  return data && !data->by_converter && !transient && !commanded ? std::optional(data->synchronous_speed)
+                                                                 : std::nullopt;
+}
+
+std::optional<double> rated_torque(const Model& m, const MotorTorque& motor) {
+  const Section* section = m.scene.find(motor.component);
+  return section ? rated_torque_of(*section) : std::nullopt;
+}
+
+double driving_work(const Model& m, const std::string& component, const std::vector<double>& work) {
+  double sum = 0;
+  for (std::size_t k = 0; k < work.size(); ++k)
+    if (m.accounts[k].name == component && m.accounts[k].kind == Account::driving) sum += work[k];
+  return sum;
+}
+
+double root_mean_square(double square, double time) { return std::sqrt(std::max(0.0, square) / time); }
+
+Figure figure(const char* words, const MotorTorque& motor, double value, const char* unit, double scale) {
+  return Figure::of_name(Name::own(words, motor.component), value, unit, scale);
+}
+
+}  // namespace
+
+std::optional<double> rated_torque_of(const Section& s) {
+  if (s.has("rated_torque")) return s.number("rated_torque");
+  if (s.has("rated_power") && s.has("rated_speed")) return s.number("rated_power") / s.number("rated_speed");
+  return {};
+}
+
+std::optional<double> breakdown_torque_of(const Section& s) {
+  const double voltage = s.number_or("voltage_factor", 1);
+  if (s.has("breakdown_torque")) return voltage * voltage * s.number("breakdown_torque");
+  const std::optional<double> rated = rated_torque_of(s);
+  return rated && s.has("breakdown_ratio") ? std::optional(voltage * voltage * s.number("breakdown_ratio") * *rated)
+                                           : std::nullopt;
+}
+
+std::vector<Figure> motor_figures(const MotorRun& run) {
+  const Model& m = run.equations.model();
+  std::vector<Figure> figures;
+  if (!(run.duration > 0) || run.work.empty()) return figures;
+  for (std::size_t i = 0; i < m.motors.size(); ++i) {
+    const MotorTorque& motor = m.motors[i];
+    const double mean = run.y[run.equations.motor_index(i, false)], square = run.y[run.equations.motor_index(i, true)];
+    const double work = driving_work(m, motor.component, run.work);
+    figures.push_back(
+        figure("motor_rms_torque", motor, root_mean_square(square, run.duration), "N*m", motor.rated_torque));
+    figures.push_back(figure("motor_mean_power", motor, work / run.duration, "W", run.energy_scale / run.duration));
+    if (const std::optional<double> synchronous = synchronous_speed(m, motor)) {
+      const double usual = motor.rated_torque * *synchronous * run.duration;
+      figures.push_back(
+          figure("motor_slip_heat", motor, *synchronous * mean - work, "J", std::max(run.energy_scale, usual)));
+    }
+    if (!run.last) continue;
+    const double time = run.last->end - run.last->begin;
+    const double of_cycle = driving_work(m, motor.component, run.last->work);
+    figures.push_back(
+        figure("cycle_motor_power", motor, of_cycle / time, "W", std::abs(motor.rated_torque * motor.rated_speed)));
+    figures.back().at = run.last->end;
+    if (const std::optional<double> rated = rated_torque(m, motor); rated && *rated > 0) {
+      figures.push_back(
+          figure("thermal_use", motor, root_mean_square(run.last->of_motors[2 * i + 1], time) / *rated, "", 1));
+      figures.back().at = run.last->end;
+    }
+  }
+  return figures;
+}
+
+std::vector<Figure> motor_figure_list(const Model& m) {
+  std::vector<Figure> list;
+  for (const MotorTorque& motor : m.motors) {
+    list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
+    list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
+    if (synchronous_speed(m, motor)) list.push_back(figure("motor_slip_heat", motor, 0, "J", 0));
+    if (m.cycle == 0) continue;
+    list.push_back(figure("cycle_motor_power", motor, 0, "W", 0));
+    if (rated_torque(m, motor)) list.push_back(figure("thermal_use", motor, 0, "", 0));
+  }
+  return list;
+}
+
+}  // namespace kurbel

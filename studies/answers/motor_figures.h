@@ -1,0 +1,37 @@
+// motor_figures.h — what a run asks of its motors: power, RMS torque, heat of slip, use of what they are rated for.
+//
+//     mean power    ∫ M ω dt / t                        work of the motor's account over the time run
+//     RMS torque    √( ∫ M² dt / t )                    a lower bound of heating: no-load losses and starts come on top
+//     heat of slip  ω_s ∫ M dt − ∫ M ω dt               of the rotor of an induction motor at the mains (theory 4)
+//     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats
+// All of them are integrated along with the motion: ∫ M dt and ∫ M² dt are quadratures of the audit.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/events/equations.h"
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+// M_n of a component that states it, or its rated power and speed [N·m].
+std::optional<double> rated_torque_of(const Section& component);
+
+// M_b of an induction motor by its catalogue, at the voltage that it runs on [N·m]; none: it states none.
+std::optional<double> breakdown_torque_of(const Section& component);
+
+// What was integrated up to the end `y` of a run that lasted `duration` [s]; `work`: per account up to there [J]; `last`:
+// the last whole cycle of a motion that repeats, else null.
+struct MotorRun {
+  const Equations& equations;
+  std::span<const double> y;
+  const std::vector<double>& work;
+  double duration = 0, energy_scale = 0;
+  const CycleRecord* last = nullptr;
+};
+std::vector<Figure> motor_figures(const MotorRun& run);
+// Those that a run can yield: names and units.
+std::vector<Figure> motor_figure_list(const Model& model);
+
+}  // namespace kurbel

@@ -1,0 +1,72 @@
+// run_answers.cpp — a run that does what it should, in a sentence; and what keeps it from that.
+#include "studies/answers/run_answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/index.h"
+#include "studies/conclusions/headline.h"
+#include "studies/findings/figure_text.h"
+#include "studies/limits/ratings.h"
+
+namespace kurbel {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+class Words {
+ public:
+  explicit Words(const Result& result) : r_(result), p_(result.periods) {}
+
+  // What a sound run comes to.
+  std::string all() const {
+    if (p_.steady) return steady();
+    const Figure* last = figure(QuantityKind::final_speed);
+    const std::string end = !last ? std::string() : last->value == 0 ? "at rest" : "at " + speed(last->value);
+    if (r_.model && !r_.model->commands.empty())
+      return fmt::format("\"{}\" goes through its operating sequence{}", link(), end.empty() ? "" : " and ends " + end);
+    if (p_.remaining || p_.verdict.ends_with("does not shrink"))
+      return fmt::format("\"{}\" has not come to a steady motion by {}: {}", link(), seconds(r_.until), p_.verdict);
+    return end.empty() ? std::string() : fmt::format("\"{}\" is {} after {}", link(), end, seconds(r_.until));
+  }
+
+ private:
+  std::string steady() const {
+    const Figure* mean = figure(QuantityKind::mean_speed);
+    std::string text = fmt::format("\"{}\" runs steadily at {}", link(), speed(mean ? mean->value : p_.steady_speed));
+    if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
+    if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
+    if (p_.standstill) text += fmt::format(" and rests at {}", seconds(*p_.standstill));
+    return text;
+  }
+  std::string link() const { return r_.model ? r_.model->network.nodes[at(r_.model->reduction_node)].component : "it"; }
+  const Figure* figure(QuantityKind what) const { return r_.model ? r_.find(what, link()) : nullptr; }
+  std::string speed(double value) const {
+    return told_shortly(value, "rad/s", r_.model ? r_.model->scene.speed_unit : SpeedUnit{});
+  }
+  static std::string seconds(double t) { return told_shortly(t, "s"); }
+
+  const Result& r_;
+  const Periods& p_;
+};
+
+}  // namespace
+
+std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
+  if (!r.complete) return {{Question::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
+  std::vector<Answer> answers = r.answers;
+  if (answers.empty())
+    if (std::string words = Words(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
+  if (r.unconfirmed()) answers.push_back({Question::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
+  for (Answer& a : answers) a.sentence = capitalised(whose + a.sentence);
+  return answers;
+}
+
+std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts) {
+  if (verdicts.empty()) return {};
+  return {{Question::bears, capitalised(ratings_sentence(verdicts)), worst_excess(verdicts)}};
+}
+
+}  // namespace kurbel

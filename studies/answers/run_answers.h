@@ -1,0 +1,20 @@
+// run_answers.h — what a run answers before any figure: does the machine run, are its figures sure, does it bear what it
+// brings?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/result.h"
+#include "studies/limits/verdicts.h"
+
+namespace kurbel {
+
+// Does it run, and is that sure? Bad news of the motion (Result::answers), else what it comes to, in a sentence.
+// `whose`: before each, where models are compared: "elastic model: ".
+std::vector<Answer> run_answers(const Result& result, const std::string& whose = {});
+
+// Nothing is rated, nothing is said. The worst by its value over its limit, with the value that would mend it.
+std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts);
+
+}  // namespace kurbel

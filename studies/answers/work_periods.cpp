@@ -1,0 +1,97 @@
+// work_periods.cpp — cycles sorted into periods, works summed up between them.
+#include "studies/answers/work_periods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::array kinds = {Account::driving, Account::useful, Account::harmful, Account::weight};
+constexpr std::array names = {"run_up", "steady_motion", "run_down"};
+
+std::array<double, 4> by_kind(const Model& m, const std::vector<double>& work) {
+  std::array<double, 4> sums{};
+  for (std::size_t k = 0; k < work.size(); ++k)
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      if (m.accounts[k].kind == kinds[i]) sums[i] += work[k];
+  return sums;
+}
+
+// A moment at which works and energy are known.
+struct Border {
+  double t = 0, energy = 0;
+  std::array<double, 4> work{};
+};
+
+WorkPeriod between(const char* name, const Border& a, const Border& b) {
+  WorkPeriod p{.name = name, .begin = a.t, .end = b.t};
+  for (std::size_t i = 0; i < p.work.size(); ++i) p.work[i] = b.work[i] - a.work[i];
+  p.energy = b.energy - a.energy;
+  return p;
+}
+
+}  // namespace
+
+double WorkPeriod::residual() const {
+  double sum = 0;
+  for (const double w : work) sum += w;
+  return energy - sum;
+}
+
+std::optional<double> WorkPeriod::efficiency() const {
+  if (!(work[0] > 0) || !(work[1] < 0)) return {};
+  return -work[1] / work[0];
+}
+
+std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, const std::vector<CycleRecord>& cycles,
+                                     const WholeRun& whole) {
+  if (!periods.steady || whole.work.empty()) return {};
+  const double from = periods.run_up_end.value_or(whole.begin), to = periods.run_down_begin.value_or(whole.end);
+  const CycleRecord *first = nullptr, *last = nullptr;
+  for (const CycleRecord& c : cycles) {
+    if (c.begin < from || c.end > to || c.work_before.empty()) continue;
+    if (!first) first = &c;
+    last = &c;
+  }
+  if (!first) return {};
+  const auto at_begin = [&](const CycleRecord& c) {
+    return Border{c.begin, c.energy_before, by_kind(m, c.work_before)};
+  };
+  // The end of a cycle is the begin of the next, seen or not: its works are those before it and its own.
+  const auto at_end = [&](const CycleRecord& c) {
+    Border b{c.end, c.energy_after, by_kind(m, c.work_before)};
+    const std::array<double, 4> own = by_kind(m, c.work);
+    for (std::size_t i = 0; i < own.size(); ++i) b.work[i] += own[i];
+    return b;
+  };
+  const Border start{whole.begin, whole.energy_begin, {}}, end{whole.end, whole.energy_end, by_kind(m, whole.work)};
+  std::vector<WorkPeriod> list;
+  if (first->begin > whole.begin) list.push_back(between(names[0], start, at_begin(*first)));
+  list.push_back(between(names[1], at_begin(*first), at_end(*last)));
+  if (periods.run_down_begin) list.push_back(between(names[2], at_end(*last), end));
+  return list;
+}
+
+std::vector<Figure> work_figures(const std::vector<WorkPeriod>& periods) {
+  std::vector<Figure> figures;
+  for (const WorkPeriod& p : periods) {
+    const std::string words = std::string("work_of_") + p.name;
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      figures.push_back(Figure::of_name(Name::own(words, name_of(kinds[i])), p.work[i], "J"));
+    figures.push_back(Figure::of_name(Name::own(words, "energy"), p.energy, "J"));
+  }
+  return figures;
+}
+
+std::vector<Figure> work_figure_list(const Model& m) {
+  if (m.cycle == 0) return {};
+  std::vector<WorkPeriod> all;
+  for (const char* name : names) all.push_back({.name = name});
+  return work_figures(all);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,39 @@
+// work_periods.h — works of run-up, steady motion and run-down, between the borders of whole cycles.
+//
+// Run-up lasts here to the begin of the first whole cycle of steady motion, run-down begins with the end of the last one
+// before the drive goes off: over whole cycles work is what it is, whatever swings within them.
+//     A_d + A_u + A_h + A_w = ΔE      driving, useful, harmful works, that of weights; kinetic and stored energy
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+struct WorkPeriod {
+  const char* name = "";                     // "run_up", "steady_motion", "run_down"
+  double begin = 0, end = 0;                 // [s]
+  std::array<double, 4> work{};              // by Account: driving, useful, harmful, weight [J]
+  double energy = 0;                         // ΔE, of kinetic and stored energy as they are at both ends [J]
+  double residual() const;                   // ΔE less all works: what the balance leaves open [J]
+  std::optional<double> efficiency() const;  // −A_useful/A_driving, where both have their usual signs
+};
+
+// Kinetic and stored energy at begin and end of a run, and its works by account.
+struct WholeRun {
+  double begin = 0, end = 0, energy_begin = 0, energy_end = 0;  // [s], [J]
+  std::vector<double> work;                                     // per account [J]
+};
+
+// None where the motion is not steady, or not for a whole cycle.
+std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods, const std::vector<CycleRecord>& cycles,
+                                     const WholeRun& whole);
+
+// "work_of_run_up.driving" … "work_of_run_up.energy": their errors are told, not judged, as a border may be another in
+// another run.
+std::vector<Figure> work_figures(const std::vector<WorkPeriod>& periods);
+std::vector<Figure> work_figure_list(const Model& model);
+
+}  // namespace kurbel

@@ -1,0 +1,25 @@
+// headline.h — a headline rounds: no number in it has more than four significant digits.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kurbel {
+
+inline constexpr int headline_digits = 4;
+
+// Numbers with more significant digits are rounded to four; an error that is smaller than a thousandth of its number is
+// dropped. Names in quotes, and digits that are part of a word, stay as they are.
+//     "724.8855 ± 1e-06 N·m in \"shaft_10001\""  →  "724.9 N·m in \"shaft_10001\""
+std::string headline(std::string_view text);
+
+// A number as a headline has it: 19092.63 → "19090", 0.10438192 → "0.1044", 1.0 → "1".
+std::string headline_number(double value);
+
+// With a capital letter where it begins with a small one: for what begins with a word, not with a name.
+std::string capitalised(std::string sentence);
+
+// Significant digits as they are written: "0.0120" has 3, "19000" has 2, "1.0e-06" has 2.
+int significant_digits(std::string_view number);
+
+}  // namespace kurbel

@@ -1,0 +1,73 @@
+// steady_ratings.cpp — the cycle's figures under the names that a run gives them, judged as those of a run are.
+#include "studies/steady/steady_ratings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivetrain/shared/rating_keys.h"
+#include "studies/limits/ratings.h"
+
+namespace kurbel {
+namespace {
+
+Figure renamed(const Figure& f, Name name) {
+  Figure other = f;
+  other.name = std::move(name.text), other.what = name.what, other.of = std::move(name.of);
+  return other;
+}
+
+// Of a rim at the largest speed of its shaft, whose relative error is that of the link's.
+void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
+  const Figure* fastest = nullptr;
+  for (const Figure& f : c.figures)
+    if (f.what == QuantityKind::cycle_max_speed) fastest = &f;
+  for (const Section& s : c.model->scene.components) {
+    if (!s.has("rim_radius")) continue;
+    for (const ShaftFluctuation& shaft : c.shafts) {
+      if (shaft.shaft != s.name) continue;
+      const double speed = *rim_rating_fields().read(s).radius * std::max(std::abs(shaft.max), std::abs(shaft.min));
+      Figure rim = Figure::of_name(Name::own("rim_speed", s.name), speed, "m/s");
+      if (fastest && fastest->error && fastest->value != 0)
+        rim.error = speed * *fastest->error / std::abs(fastest->value);
+      as_run.figures.push_back(std::move(rim));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
+  if (!c.found || !c.model) return {};
+  Result as_run;
+  as_run.model = c.model;
+  as_run.until = 1;  // of short-time duty alone, which is not judged here
+  as_run.errors_measured =
+      std::any_of(c.figures.begin(), c.figures.end(), [](const Figure& f) { return f.error.has_value(); });
+  for (const Figure& f : c.figures) {
+    if (f.what == QuantityKind::cycle_peak_torque)
+      as_run.figures.push_back(renamed(f, Name::make(QuantityKind::peak_torque, f.of)));
+    if (f.what == QuantityKind::rms_drive_torque)
+      as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
+  }
+  add_rim_speeds(c, as_run);
+  std::vector<Figure> strands = rating_figures(*c.model, nullptr, as_run.figures, 0, 0);
+  for (Figure& strand : strands) {
+    const Figure* peak = as_run.find(QuantityKind::peak_torque, strand.of);
+    // F = F₀ + |τ|/(2 r₁): its error is that of the torque, by the same slope.
+    if (peak && peak->error && peak->value != 0) {
+      std::vector<Figure> moved = {*peak};
+      moved.front().value += std::copysign(*peak->error, peak->value);
+      for (const Figure& other : rating_figures(*c.model, nullptr, moved, 0, 0))
+        if (other.name == strand.name) strand.error = std::abs(other.value - strand.value);
+    }
+    as_run.figures.push_back(std::move(strand));
+  }
+  std::vector<Verdict> verdicts = judge_ratings(as_run);
+  std::erase_if(verdicts, [&](const Verdict& v) {
+    const Section* s = c.model->scene.find(v.component);
+    return s && s->has("duty") && duty_rating_fields().read(*s).duty == DutyRating::Duty::short_time;
+  });
+  return verdicts;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,237 @@
+// duty_test.cpp — what a run asks of its motors, and where its energy goes: closed forms, and works against powers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "studies/answers/work_periods.h"
+#include "studies/run/run_findings.h"
+#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady_ratings.h"
+#include "tests/support/conclusions.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+using test::figure;
+constexpr double pi = std::numbers::pi;
+
+// M = M₀ (1 − ω/ω₀) on an inertia alone: ω = ω₀ (1 − e^(−t/T)), M = M₀ e^(−t/T), T = J ω₀/M₀, so that
+//     M_rms² = M₀² T/(2 t) (1 − e^(−2t/T)),   P_mean = ½ J ω²/t
+TEST(MotorFigures, OfARunUpOnAnInertiaAreThoseOfTheClosedForm) {
+  const double M = 60, w = 40, J = 1.5 + 0.5, t = 2;
+  const Result r = test::run(R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", rated_torque = "20 N*m", inertia = "0.5 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "1.5 kg*m2" }
+    run = { start = "rest", until = "2 s", accuracy = 1e-9 }
+  )");
+  const double T = J * w / M, end = w * (1 - std::exp(-t / T));
+  EXPECT_NEAR(figure(r, "motor_rms_torque.motor"), M * std::sqrt(T / (2 * t) * (1 - std::exp(-2 * t / T))), 1e-7);
+  EXPECT_NEAR(figure(r, "motor_mean_power.motor"), 0.5 * J * end * end / t, 1e-6);
+  EXPECT_EQ(r.find("motor_slip_heat.motor"), nullptr) << "of induction motors only";
+  EXPECT_EQ(r.find("thermal_use.motor"), nullptr) << "no cycle, no use of one";
+}
+
+// Whatever its curve: an induction motor that runs an inertia up from rest to ω heats its rotor by
+//     ω_s J ω − ½ J ω²,   towards ω_s as much as it gives to the inertia.
+TEST(MotorFigures, HeatOfSlipOfAStartIsThatOfTheClosedForm) {
+  const Result r = test::run(R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "induction motor", rated_power = "7.5 kW", rated_speed = "1450 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 2.5, inertia = "0.1 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "2.9 kg*m2" }
+    run = { start = "rest", until = "10 s", accuracy = 1e-9 }
+  )");
+  const double J = 3, synchronous = 50 * pi, w = figure(r, "final_speed.motor");
+  EXPECT_GT(w, 0.9 * synchronous);
+  EXPECT_NEAR(figure(r, "motor_slip_heat.motor"), synchronous * J * w - 0.5 * J * w * w, 1e-4);
+  EXPECT_NEAR(figure(r, "motor_mean_power.motor") * 10, 0.5 * J * w * w, 1e-4);
+}
+
+// Mean power times time is the work; the cycle's are those that `steady` finds by itself.
+TEST(MotorFigures, PowerTimesTimeIsWorkAndRunAgreesWithSteady) {
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  const Result r = test::run(scene);
+  EXPECT_NEAR(figure(r, "motor_mean_power.motor") * r.until, figure(r, "work.driving"),
+              1e-9 * figure(r, "work.driving"));
+  const double of_cycle = figure(r, "driving_work_per_cycle");
+  EXPECT_NEAR(figure(r, "cycle_motor_power.motor") * figure(r, "cycle_time.press"), of_cycle, 1e-9 * of_cycle);
+  EXPECT_NEAR(figure(r, "machine_efficiency"), -figure(r, "useful_work_per_cycle") / of_cycle, 1e-12);
+  const SteadyStudy s = steady(scene, {scene.effects}, {});
+  ASSERT_TRUE(s.cycles.front().found);
+  const MotorUse& motor = s.cycles.front().motors.front();
+  ASSERT_TRUE(motor.thermal());
+  // M_b = ratio · P_n/ω_n
+  const Section& plate = *scene.find("motor");
+  const double breakdown = plate.number("breakdown_ratio") * plate.number("rated_power") / plate.number("rated_speed");
+  EXPECT_NEAR(s.cycles.front().find("breakdown_use.motor")->value, std::abs(motor.peak) / breakdown, 1e-12);
+  EXPECT_NEAR(s.cycles.front().find("cycle_motor_power.motor")->value, figure(r, "cycle_motor_power.motor"), 1e-2);
+  EXPECT_NEAR(s.cycles.front().find("machine_efficiency")->value, figure(r, "machine_efficiency"), 1e-6);
+  EXPECT_NEAR(figure(r, "thermal_use.motor"), *motor.thermal(), 1e-5 * *motor.thermal());
+  for (const char* name : {"motor_mean_power.motor", "thermal_use.motor", "cycle_motor_power.motor"})
+    EXPECT_TRUE(r.find(name)->error && *r.find(name)->error > 0) << name;
+}
+
+// ½ J (ω_max² − ω_min²) = J δ ω_mid²; `steady` finds the same.
+TEST(FlywheelEnergy, IsInertiaTimesFluctuationTimesSpeedSquared) {
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  const Result r = test::run(scene);
+  const double J = scene.find("flywheel")->number("inertia"), delta = figure(r, "delta.press"),
+               w = figure(r, "mid_speed.press");
+  const double energy = figure(r, "flywheel_energy.flywheel");
+  EXPECT_NEAR(energy, J * delta * w * w, 1e-9 * energy);
+  const SteadyStudy s = steady(scene, {scene.effects}, {});
+  const Figure* found = s.cycles.front().find("flywheel_energy.flywheel");
+  ASSERT_NE(found, nullptr);
+  EXPECT_NEAR(found->value, energy, 1e-5 * energy);
+}
+
+// --- ratings of the steady motion ---
+
+// 30 N·m on the motor against a drag of 2.4 N·m·s/rad behind a belt of 1 : 2: 60 N·m, 25 rad/s there, 50 rad/s at the
+// motor. F = F₀ + τ/(2 r₁) = 500 + 30/0.2 = 650 N; v = r ω = 0.4 · 25 m/s; M_rms/M_n = 30/20.
+TEST(SteadyRatings, AreThoseOfTheMotionThatItKeeps) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "belt", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", rated_torque = "20 N*m", inertia = "0.5 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "4 kg*m2", rim_radius = "400 mm", allowable_rim_speed = "9 m/s" }
+    drag = { kind = "load", on = "wheel", damping = "2.4 N*m*s/rad" }
+    [belt]
+    kind = "belt"
+    diameter_in = "200 mm"
+    diameter_out = "400 mm"
+    pretension = "500 N"
+    friction_coefficient = 0.3
+    wrap_angle = "180 deg"
+    allowable_tension = "700 N"
+    [run]
+    until = "30 s"
+    accuracy = 1e-8
+    start = { speed = "50 rad/s" }
+  )");
+  const SteadyStudy s = steady(scene, {scene.effects}, {});
+  ASSERT_TRUE(s.cycles.front().found) << s.cycles.front().why;
+  const std::vector<Verdict> verdicts = steady_ratings(s.cycles.front());
+  ASSERT_EQ(verdicts.size(), 2u);
+  for (const Verdict& v : verdicts)
+    if (v.component == "belt") {
+      EXPECT_NEAR(v.value, 650, 1e-4);
+      EXPECT_EQ(v.state(), Compliance::holds);
+    } else {
+      EXPECT_NEAR(v.value, 10, 1e-5);
+      EXPECT_EQ(v.state(), Compliance::exceeded);
+    }
+  const Findings f = findings_of(s);
+  test::expect_sound_conclusion(f, "steady ratings");
+  EXPECT_TRUE(f.conclusion().starts_with("1 of 2 ratings EXCEEDED, worst \"wheel\", rim speed")) << f.conclusion();
+}
+
+// --- works by period ---
+
+// Every period closes, ΔE = ΣW; together they are the whole run; steady cycles keep their energy.
+TEST(WorksByPeriod, CloseAndAddUpToTheRun) {
+  const Result r = test::run(test::scene_file("scenes/crank_press.toml"));
+  double all = 0, energy = 0;
+  const double turned_over = figure(r, "work.driving");
+  for (const char* period : {"run_up", "steady_motion"}) {
+    const auto of = [&](const char* kind) { return figure(r, std::string("work_of_") + period + "." + kind); };
+    EXPECT_NEAR(of("energy"), of("driving") + of("useful") + of("harmful") + of("weight"), 1e-6 * turned_over)
+        << period;
+    all += of("driving");
+    energy += of("energy");
+  }
+  // What follows the last whole cycle belongs to none of them.
+  EXPECT_LT(all, turned_over);
+  const double whole_cycles = figure(r, "work_of_steady_motion.driving") / figure(r, "driving_work_per_cycle");
+  EXPECT_NEAR(whole_cycles, std::round(whole_cycles), 1e-4);
+  EXPECT_NEAR(figure(r, "work_of_steady_motion.energy"), 0, 1e-4 * energy);
+}
+
+// Works of periods by hand: a cycle before, two steady ones, what follows run-down's begin.
+TEST(WorksByPeriod, AreSortedByTheBordersOfWholeCycles) {
+  const auto model = compile(test::scene_file("scenes/driven_slider_crank.toml"), {});
+  std::vector<CycleRecord> cycles;
+  std::vector<double> before(model->accounts.size(), 0.0);
+  const std::size_t drive =
+      static_cast<std::size_t>(std::find_if(model->accounts.begin(), model->accounts.end(),
+                                            [](const WorkAccount& a) { return a.kind == Account::driving; }) -
+                               model->accounts.begin());
+  ASSERT_LT(drive, model->accounts.size());
+  for (int k = 0; k < 4; ++k) {
+    std::vector<double> own(model->accounts.size(), 0.0);
+    own[drive] = 10 + k;
+    cycles.push_back({.begin = 1.0 * k,
+                      .end = 1.0 * (k + 1),
+                      .work = own,
+                      .work_before = before,
+                      .energy_before = 5.0 * k,
+                      .energy_after = 5.0 * (k + 1)});
+    before[drive] += own[drive];
+  }
+  before[drive] += 3;
+  Periods p;
+  p.steady = true, p.run_up_end = 0.5, p.run_down_begin = 3.5;
+  const std::vector<WorkPeriod> found =
+      work_periods(*model, p, cycles, {.begin = 0, .end = 6, .energy_begin = 0, .energy_end = 1, .work = before});
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].work[0], 10);
+  EXPECT_EQ(found[0].energy, 5);
+  EXPECT_EQ(found[0].end, 1);
+  EXPECT_EQ(found[1].work[0], 11 + 12);
+  EXPECT_EQ(found[1].energy, 10);
+  EXPECT_EQ(found[1].end, 3);
+  EXPECT_EQ(found[2].work[0], 13 + 3);
+  EXPECT_EQ(found[2].energy, 1 - 15);
+  EXPECT_EQ(found[2].residual(), -14 - 16);
+}
+
+// --- work within the loop ---
+
+// ∮ p dV of a compressor with clearance, compression and re-expansion alike:
+//     W = n/(n−1) p₁ V_s η_v ((p₂/p₁)^((n−1)/n) − 1),   η_v = 1 + ε − ε (p₂/p₁)^(1/n)
+TEST(LoopWork, OfACompressorIsTheIndicatedWork) {
+  const Result r = test::run(test::scene_file("scenes/compressor.toml"));
+  const double n = 1.3, ratio = 8, swept = pi / 4 * 0.16 * 0.16 * 0.11;
+  const double volumetric = 1 + 0.05 - 0.05 * std::pow(ratio, 1 / n);
+  const double work = n / (n - 1) * 1e5 * swept * volumetric * (std::pow(ratio, (n - 1) / n) - 1);
+  EXPECT_NEAR(figure(r, "loop_work.compressor"), -work, 1e-6 * work);
+  EXPECT_EQ(figure(r, "loop_work.compressor"), figure(r, "useful_work_per_cycle"));
+}
+
+// The loop of the page is closed, and its area, by trapezoids, is that work; the tachogram's marks are the periods.
+TEST(LoopWork, IsTheAreaOfTheIndicatorDiagram) {
+  SimulateOptions options;
+  options.traces = true;
+  options.measure_error = false;
+  for (const char* name : {"compressor", "crank_press"}) {
+    const Scene scene = test::scene_file(std::string("scenes/") + name + ".toml");
+    const Result r = simulate(scene, scene.effects, "test", options);
+    int loops = 0, tachograms = 0;
+    for (const Plot& plot : motion_plots({&r})) {
+      tachograms += plot.title.starts_with("Tachogram: ");
+      if (plot.note.find("Indicator diagram") == std::string::npos) continue;
+      ++loops;
+      const std::vector<double>&x = plot.series.front().x, &y = plot.series.front().y;
+      // mm · kN, or mm · bar on a bore of 160 mm
+      const double unit = plot.y.unit == "bar" ? 1e-3 * 1e5 * pi / 4 * 0.16 * 0.16 : 1;
+      EXPECT_EQ(plot.y.unit, std::string(name) == "compressor" ? "bar" : "kN");
+      double area = 0;
+      for (std::size_t i = 1; i < x.size(); ++i) area += 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]) * unit;
+      EXPECT_NEAR(x.front(), x.back(), 1e-3) << name;
+      const double work = figure(r, "useful_work_per_cycle");
+      EXPECT_NEAR(std::abs(area), std::abs(work), 0.02 * std::abs(work)) << name;
+      if (plot.y.unit == "bar") {
+        EXPECT_NE(plot.note.find("= 0.8025."), std::string::npos) << plot.note;
+        EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 8, 1e-6);
+        EXPECT_NEAR(*std::min_element(y.begin(), y.end()), 1, 1e-6);
+      }
+    }
+    EXPECT_EQ(loops, 1) << name;
+    EXPECT_EQ(tachograms, 1) << name;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel
