@@ -47,7 +47,7 @@ class Deadline {
   bool spent_ = false;
 };
 
-// Processor time of the process [s].
+// Processor time of this thread [s]: what other threads compute meanwhile is not its own.
 double processor_time();
 
 }  // namespace kurbel

@@ -1,0 +1,239 @@
+// sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "app/command_line.h"
+#include "app/terminal.h"
+#include "app/verb.h"
+#include "engine/scene/document.h"
+#include "studies/files/whole_file.h"
+#include "studies/sweep/machine.h"
+#include "studies/sweep/sweep_findings.h"
+
+namespace kurbel::app {
+namespace {
+
+constexpr std::size_t most_variant_bytes = 64'000'000;
+
+struct SweepArguments {
+  StudyOptions study;
+  std::vector<std::string> vary, figures, limits;
+  std::string variants, design, of = "run", errors = "measure", into, shard = "1/1", delta, xlsx;
+  int jobs = 0;
+  std::uint64_t seed = 1;
+};
+
+SweepStudy study_named(const std::string& of) {
+  if (of == "run") return SweepStudy::run;
+  if (of == "steady") return SweepStudy::steady;
+  if (of == "modes") return SweepStudy::modes;
+  if (of == "size") return SweepStudy::size;
+  throw std::invalid_argument(fmt::format("--of {}: must be run, steady, modes or size", in_quotes(of)));
+}
+
+std::size_t errors_every(const std::string& errors) {
+  if (errors == "measure") return 1;
+  if (errors == "none") return 0;
+  std::size_t every = 0;
+  const char* const end = errors.data() + errors.size();
+  if (errors.starts_with("every:") && errors.size() > 6 && errors.size() < 16)
+    if (const auto read = std::from_chars(errors.data() + 6, end, every); read.ptr == end && every > 0) return every;
+  throw std::invalid_argument(
+      fmt::format("--errors {}: must be measure, none or every:N, e.g. every:20", in_quotes(errors)));
+}
+
+void read_shard(const std::string& text, SweepJob& job) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
+  const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
+  if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
+      job.shard < 1 || job.shard > job.shards)
+    throw std::invalid_argument(fmt::format("--shard {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", in_quotes(text)));
+}
+
+// What is varied: of --variants with its values, else of --vary.
+VariantTable table_asked(const SweepArguments& a) {
+  if (!a.variants.empty()) {
+    if (!a.vary.empty() || !a.design.empty())
+      throw std::invalid_argument("--variants is the whole design; leave out --vary and --design");
+    return parse_variants(read_text_file(a.variants, most_variant_bytes), a.variants);
+  }
+  VariantTable table;
+  for (const std::string& text : a.vary) table.parameters.push_back(parse_parameter(text));
+  if (table.parameters.empty())
+    throw std::invalid_argument(
+        "nothing is varied; give --vary \"main_coupling.stiffness=500..1500 kN*m/rad\" or --variants FILE.csv");
+  return table;
+}
+
+Design design_of(const SweepArguments& a, VariantTable table) {
+  if (!a.variants.empty()) return Design(std::move(table));
+  return Design(a.design.empty() ? "grid" : a.design, std::move(table.parameters), a.seed);
+}
+
+MachineQuestion question_of(const SweepArguments& a) {
+  MachineQuestion q;
+  q.text = read_text_file(a.study.scene, max_scene_bytes);
+  q.file = a.study.scene;
+  q.settings = a.study.set;
+  q.allowed = a.study.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
+  q.of = study_named(a.of);
+  q.errors_every = errors_every(a.errors);
+  q.interrupted = &interrupted();
+  if (!a.delta.empty() && q.of != SweepStudy::size)
+    throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
+  if (!a.delta.empty()) q.delta = quantity_of("--delta", a.delta, "a plain number", "0.05", any_number);
+  return q;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += text + "\n";
+  return all;
+}
+
+SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Design& design,
+                          std::vector<SweptFigure> figures) {
+  SweepIdentity id{.meta = {},
+                   .shard = a.shard,
+                   .parameters = design.parameters(),
+                   .figures = std::move(figures),
+                   .rows = design.rows()};
+  std::vector<std::string> varied, names;
+  for (const SweptParameter& p : design.parameters()) varied.push_back(p.given);
+  for (const SweptFigure& f : id.figures) names.push_back(f.name);
+  id.meta = {{"version", "kurbel 0.1.0"},
+             {"title", scene.title},
+             {"scene file", a.study.scene},
+             {"scene text", scene.text},
+             {"settings", joined(a.study.set)},
+             {"of", a.of},
+             {"errors", a.errors},
+             {"design", design.text()},
+             {"seed", std::to_string(a.seed)},
+             {"varied", joined(varied)},
+             {"figures", joined(names)}};
+  if (!a.delta.empty()) id.meta["delta"] = a.delta;
+  if (!a.variants.empty()) id.meta["variants"] = read_text_file(a.variants, most_variant_bytes);
+  return id;
+}
+
+int sweep(const SweepArguments& a) {
+  VariantTable table = table_asked(a);
+  const MachineQuestion question = question_of(a);
+  SweepJob job{.jobs = a.jobs};
+  read_shard(a.shard, job);
+  if (job.jobs == 0) job.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  // Whatever is wrong is told before anything is written.
+  const Scene scene = read(a.study);
+  const VariedScene varied(question, table.parameters);
+  const Design design = design_of(a, std::move(table));
+  job.design = &design;
+  const std::vector<SweptFigure> figures = chosen(figures_of(question), a.figures);
+  for (const std::string& limit : a.limits) parse_limit(limit, figures);
+  check_folder(a.study);
+  if (!a.xlsx.empty())
+    if (const std::string why = why_no_file_at(a.xlsx); !why.empty())
+      throw std::invalid_argument(fmt::format("--xlsx: {}", why));
+
+  SweepStore store(a.into, identity_of(a, scene, design, figures));
+  Progress progress(a.study.quiet);
+  job.watch = watch_of(a.study, progress);
+  job.evaluator = [&] { return machine_evaluator(question, varied, figures); };
+  const SweepEnd end = run_sweep(job, store);
+  if (end.there > 0)
+    complain(fmt::format("kurbel: {} of {} rows were there already, {} computed\n", end.there, end.rows, end.computed));
+  SweepStudyResult study = study_of(store, a.limits);
+  study.wanted = end.rows;
+  study.interrupted = interrupted();
+  if (!a.xlsx.empty()) write_xlsx(study, a.xlsx);
+  return present(output_of(study), a.study);
+}
+
+void set_up_sweep(CLI::App& command, int& code) {
+  const auto a = std::make_shared<SweepArguments>();
+  add_study_options(command, a->study);
+  const auto many = CLI::MultiOptionPolicy::TakeAll;
+  command
+      .add_option("--vary", a->vary,
+                  "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
+                  "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable")
+      ->expected(1)
+      ->multi_option_policy(many);
+  command.add_option("--variants", a->variants,
+                     "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a "
+                     "variant");
+  command.add_option("--design", a->design,
+                     "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes "
+                     "1024 (k + 2) rows (default: grid, of lists)");
+  command
+      .add_option(
+          "--figures", a->figures,
+          "names joined by commas, or a quantity for all that have it: delta,peak_torque.main_coupling (default: all)")
+      ->delimiter(',');
+  command.add_option("--limit", a->limits, "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable")
+      ->expected(1)
+      ->multi_option_policy(many);
+  command.add_option("--of", a->of, "run (default), steady, modes or size");
+  command.add_option("--delta", a->delta, "demanded δ, of --of size");
+  command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
+  command
+      .add_option("--into", a->into, "the database (SQLite) that is filled, or gone on with; on a disk of this machine")
+      ->required();
+  command.add_option("--jobs", a->jobs, "threads (default: one for each core)")->check(CLI::Range(1, 1024));
+  command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");
+  command.add_option("--seed", a->seed, "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)");
+  command.add_option("--xlsx", a->xlsx, "writes the variants as a spread sheet, too");
+  command.callback([&code, a] { code = sweep(*a); });
+}
+
+struct MergeArguments {
+  std::vector<std::string> files;
+  std::string into;
+};
+
+int merge(const MergeArguments& a) {
+  const std::size_t rows = merge_sweeps(a.files, a.into);
+  const std::size_t wanted = SweepStore(a.into).identity().rows;
+  say(fmt::format("{}: {} of {} rows\n", a.into, rows, wanted));
+  if (rows < wanted)
+    complain(fmt::format("kurbel: {} rows are missing; kurbel sweep with --into {} and without --shard computes them\n",
+                         wanted - rows, a.into));
+  return exit_done;
+}
+
+void set_up_merge(CLI::App& command, int& code) {
+  const auto a = std::make_shared<MergeArguments>();
+  command.add_option("files", a->files, "databases of the shards")->required();
+  command.add_option("--into", a->into, "the database that is made")->required();
+  command.callback([&code, a] { code = merge(*a); });
+}
+
+const Verb sweep_verb{
+    {.place = 112,
+     .name = "sweep",
+     .arguments = "scene.toml --vary \"main_coupling.stiffness=500..1500 kN*m/rad\" --design sobol:512 --into r.db",
+     .help = "thousands of variants of a scene into a database; what moves the figures",
+     .does = "computes a design of variants (`--vary`, `--variants`, `--design`), each with measured errors, into an "
+             "SQLite file that resumes by itself; response curves, maps with limits (`--limit`), influence by Sobol's "
+             "indices, failures by reason, worst machines with the line that computes each alone",
+     .set_up = set_up_sweep}};
+
+const Verb merge_verb{{.place = 114,
+                       .name = "merge",
+                       .arguments = "a.db b.db --into all.db",
+                       .help = "shards of a sweep into one database",
+                       .does = "puts shards of one sweep together, after checking that scene, design and version agree "
+                               "and that no row has two results",
+                       .set_up = set_up_merge,
+                       .of_scene = false}};
+
+}  // namespace
+}  // namespace kurbel::app

@@ -1,0 +1,205 @@
+// parameter.cpp — ranges and lists as they are written on a command line or in a table.
+#include "studies/experiments/parameter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include "engine/scene/messages.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+constexpr const char* forms =
+    "write a range \"main_coupling.stiffness=500..1500 kN*m/rad\" or a list \"flywheel.inertia=200,400,800 kg*m2\"";
+constexpr std::size_t most_values = 1'000'000;
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
+}
+
+// A number and what stands behind it.
+struct Numbered {
+  double value;
+  std::string_view rest;
+};
+std::optional<Numbered> numbered(std::string_view text) {
+  text = trimmed(text);
+  double value = 0;
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return {};
+  return Numbered{value, trimmed({end, static_cast<std::size_t>(text.data() + text.size() - end)})};
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+  throw std::invalid_argument(fmt::format("--vary {}: {}; {}", in_quotes(text), why, forms));
+}
+
+std::vector<std::string_view> split(std::string_view text, char by) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(by, begin);
+    parts.push_back(trimmed(text.substr(begin, end - begin)));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+void check_unit(const std::string& text, const std::string& unit) {
+  UnitError error;
+  if (!parse_unit(unit, error)) refuse(text, fmt::format("unit {}: {}", in_quotes(unit), error.text));
+}
+
+void read_range(SweptParameter& p, std::string_view value, std::size_t dots) {
+  const auto low = numbered(value.substr(0, dots)), high = numbered(value.substr(dots + 2));
+  if (!low || !high) refuse(p.given, "a range needs a number on either side of \"..\"");
+  if (!low->rest.empty() && low->rest != high->rest)
+    refuse(p.given, fmt::format("the ends have two units, {} and {}; give one, behind the second end",
+                                in_quotes(low->rest), in_quotes(high->rest)));
+  p.unit = high->rest;
+  check_unit(p.given, p.unit);
+  p.low = low->value, p.high = high->value;
+  if (!(p.low < p.high)) refuse(p.given, "the first end must be below the second");
+}
+
+void read_list(SweptParameter& p, std::string_view value) {
+  const std::vector<std::string_view> items = split(value, ',');
+  if (items.size() > most_values) refuse(p.given, fmt::format("a list of more than {} values", most_values));
+  const auto last = numbered(items.back());
+  const auto is_plain = [&](std::string_view item) {
+    const auto read = numbered(item);
+    return read && (read->rest.empty() || read->rest == last->rest);
+  };
+  if (last && std::all_of(items.begin(), items.end() - 1, is_plain)) {
+    p.unit = last->rest;
+    check_unit(p.given, p.unit);
+    for (const std::string_view item : items) p.values.push_back(numbered(item)->value);
+    return;
+  }
+  for (const std::string_view item : items) {
+    if (item.empty()) refuse(p.given, "a value of the list is missing");
+    p.values.push_back(static_cast<double>(p.values.size()));
+    p.words.emplace_back(item);
+  }
+}
+
+}  // namespace
+
+double SweptParameter::at_share(double u) const {
+  if (!is_list()) return low + u * (high - low);
+  const auto count = static_cast<double>(values.size());
+  return values[static_cast<std::size_t>(std::min(std::floor(u * count), count - 1))];
+}
+
+double SweptParameter::at_step(std::size_t i, std::size_t n) const {
+  if (is_list()) return values[i];
+  return i + 1 == n && n > 1
+             ? high
+             : low + (high - low) * static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(n - 1, 1));
+}
+
+std::string SweptParameter::text_of(double value) const {
+  if (!words.empty()) return words[static_cast<std::size_t>(value)];
+  return unit.empty() ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
+}
+
+SweptParameter parse_parameter(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  SweptParameter p{.path = {}, .given = text};
+  if (equals == std::string::npos) refuse(text, "no values");
+  p.path = trimmed(std::string_view(text).substr(0, equals));
+  const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
+  if (p.path.empty()) refuse(text, "no key");
+  if (value.empty()) refuse(text, "no values");
+  const std::size_t dots = value.find("..");
+  if (dots != std::string_view::npos)
+    read_range(p, value, dots);
+  else
+    read_list(p, value);
+  return p;
+}
+
+namespace {
+
+[[noreturn]] void refuse_line(const std::string& file, std::size_t line, const std::string& why) {
+  throw std::invalid_argument(fmt::format("{}:{}: {}", file, line, why));
+}
+
+// "flywheel.inertia [kg*m2]"
+SweptParameter parse_heading(std::string_view cell, const std::string& file, std::size_t line) {
+  SweptParameter p{.path = {}, .given = std::string(cell)};
+  const std::size_t bracket = cell.rfind('[');
+  // The last bracket is a unit where a blank stands before it; "stages[2].ratio" is a path.
+  if (bracket != std::string_view::npos && bracket > 0 && cell[bracket - 1] == ' ' && cell.ends_with(']')) {
+    p.unit = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
+    UnitError error;
+    if (!parse_unit(p.unit, error)) refuse_line(file, line, fmt::format("unit {}: {}", in_quotes(p.unit), error.text));
+    cell = trimmed(cell.substr(0, bracket));
+  }
+  p.path = cell;
+  if (p.path.empty()) refuse_line(file, line, "a column has no heading; write COMPONENT.KEY [UNIT]");
+  return p;
+}
+
+// Plain numbers in a column stay numbers; a column with anything else is one of words.
+void fill_column(SweptParameter& p, const std::vector<std::vector<std::string>>& cells, std::size_t k,
+                 std::vector<std::vector<double>>& rows) {
+  const bool numbers = std::all_of(cells.begin(), cells.end(), [&](const auto& row) {
+    const auto read = numbered(row[k]);
+    return read && read->rest.empty();
+  });
+  for (std::size_t r = 0; r < cells.size(); ++r) {
+    if (numbers) {
+      rows[r][k] = numbered(cells[r][k])->value;
+      if (std::find(p.values.begin(), p.values.end(), rows[r][k]) == p.values.end()) p.values.push_back(rows[r][k]);
+      continue;
+    }
+    const bool bare = numbered(cells[r][k]) && numbered(cells[r][k])->rest.empty() && !p.unit.empty();
+    const std::string word = bare ? cells[r][k] + " " + p.unit : cells[r][k];
+    auto found = std::find(p.words.begin(), p.words.end(), word);
+    if (found == p.words.end()) {
+      p.values.push_back(static_cast<double>(p.words.size()));
+      found = p.words.insert(p.words.end(), word);
+    }
+    rows[r][k] = static_cast<double>(found - p.words.begin());
+  }
+  if (!numbers) p.unit.clear();
+}
+
+}  // namespace
+
+VariantTable parse_variants(const std::string& text, const std::string& file) {
+  VariantTable table;
+  std::vector<std::vector<std::string>> cells;
+  std::size_t number = 0;
+  const char by = text.find(';') != std::string::npos ? ';' : ',';
+  for (const std::string_view line : split(text, '\n')) {
+    ++number;
+    if (line.empty() || line.starts_with('#')) continue;
+    const std::vector<std::string_view> parts = split(line, by);
+    if (table.parameters.empty()) {
+      for (const std::string_view part : parts) table.parameters.push_back(parse_heading(part, file, number));
+      continue;
+    }
+    if (parts.size() != table.parameters.size())
+      refuse_line(file, number, fmt::format("{} cells under {} headings", parts.size(), table.parameters.size()));
+    for (const std::string_view part : parts)
+      if (part.empty()) refuse_line(file, number, "a cell is empty; give every key a value in every variant");
+    cells.emplace_back(parts.begin(), parts.end());
+  }
+  if (cells.empty())
+    refuse_line(file, number, "no variants; the first line names the keys, each further one is a variant");
+  table.rows.assign(cells.size(), std::vector<double>(table.parameters.size()));
+  for (std::size_t k = 0; k < table.parameters.size(); ++k) fill_column(table.parameters[k], cells, k, table.rows);
+  return table;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,67 @@
+// limit.cpp — limits on figures, and how sure a count of those that hold is.
+#include "studies/sweep/limit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/scene/keys.h"
+#include "engine/scene/messages.h"
+#include "engine/scene/units.h"
+#include "studies/sweep/influence.h"
+
+namespace kurbel {
+
+Side side_of(const FigureLimit& limit, const SweepRow& row) {
+  const double value = value_in(row, limit.figure);
+  if (!std::isfinite(value)) return Side::unknown;
+  const double beyond = limit.from_above ? value - limit.value : limit.value - value;
+  const double error = error_in(row, limit.figure).value_or(0);
+  if (error > 0 && std::abs(beyond) <= error) return Side::undecided;
+  return beyond <= 0 ? Side::holds : Side::beyond;
+}
+
+FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>& figures) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument(fmt::format(
+        "--limit {}: {}; write e.g. \"delta.press <= 0.05\" or \"min_speed.press >= 50 rpm\"", in_quotes(text), why));
+  };
+  const std::size_t sign = text.find_first_of("<>");
+  if (sign == std::string::npos) refuse("neither <= nor >=");
+  FigureLimit limit{.from_above = text[sign] == '<', .given = text};
+  std::string name = text.substr(0, sign);
+  name.resize(name.find_last_not_of(' ') + 1);
+  name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const SweptFigure& f) { return f.name == name; });
+  if (found == figures.end()) {
+    std::vector<std::string> names;
+    for (const SweptFigure& f : figures) names.push_back(f.name);
+    refuse(fmt::format("no figure {} in this sweep{}; it has: {}", in_quotes(name), suggestion(name, names),
+                       shortened_list(names, "and")));
+  }
+  limit.figure = static_cast<std::size_t>(found - figures.begin());
+  UnitError error;
+  const std::size_t value_at = text.find_first_not_of("<>= ", sign);
+  const auto quantity = parse_quantity(value_at == std::string::npos ? "" : text.substr(value_at), error);
+  if (!quantity) refuse(error.text);
+  const Dimension wanted = parse_unit(found->unit, error).value_or(Unit{}).dimension;
+  const Quantity taken = wanted_as(*quantity, wanted);
+  if (taken.dimension != wanted)
+    refuse(fmt::format("{} is {}, and the limit is {}", name, name_of(wanted), name_of(taken.dimension)));
+  limit.value = taken.value;
+  return limit;
+}
+
+Interval clopper_pearson(std::size_t successes, std::size_t trials, double confidence) {
+  if (trials == 0) return {};
+  using boost::math::binomial_distribution;
+  const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
+  const double tail = (1 - confidence) / 2;
+  return {binomial_distribution<>::find_lower_bound_on_p(n, k, tail),
+          binomial_distribution<>::find_upper_bound_on_p(n, k, tail)};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,312 @@
+// machine.cpp — rows of a sweep put to the studies.
+#include "studies/sweep/machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "engine/numerics/deadline.h"
+#include "engine/scene/units.h"
+#include "studies/modes/modes.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady.h"
+
+namespace kurbel {
+namespace {
+
+// The setting of a component's key that holds one quantity, or of one in a table within it; null: it is none such.
+Setting* quantity_at(std::vector<Section>& sections, const std::string& path) {
+  const std::size_t dot = path.find('.');
+  if (dot == std::string::npos) return nullptr;
+  const auto section =
+      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == path.substr(0, dot); });
+  if (section == sections.end()) return nullptr;
+  Section* in = &*section;
+  for (std::size_t begin = dot + 1;;) {
+    const std::size_t end = path.find('.', begin);
+    Setting* const setting = const_cast<Setting*>(in->find(path.substr(begin, end - begin)));
+    if (!setting || !setting->given) return nullptr;
+    if (end == std::string::npos) {
+      const auto key = std::find_if(in->kind->keys.begin(), in->kind->keys.end(),
+                                    [&](const Key& k) { return k.name == setting->key; });
+      return key != in->kind->keys.end() && key->type == KeyType::quantity ? setting : nullptr;
+    }
+    if (setting->sections.size() != 1) return nullptr;
+    in = &setting->sections[0];
+    begin = end + 1;
+  }
+}
+
+// In SI by its unit alone. Where the reader takes it otherwise ("60 1/min" as a speed), the check against reading finds
+// it, and the parameter is read anew in every row.
+double in_si(const SweptParameter& p, double value) {
+  UnitError error;
+  const auto quantity = parse_quantity(p.text_of(value), error);
+  return quantity ? quantity->value : std::nan("");
+}
+
+bool same_numbers(const Section& a, const Section& b);
+bool same_settings(const Setting& a, const Setting& b) {
+  if (a.key != b.key || a.number != b.number || a.flag != b.flag || a.text != b.text || a.numbers != b.numbers ||
+      a.curve.x != b.curve.x || a.curve.y != b.curve.y || a.curve.period != b.curve.period ||
+      a.sections.size() != b.sections.size())
+    return false;
+  return std::equal(a.sections.begin(), a.sections.end(), b.sections.begin(), same_numbers);
+}
+bool same_numbers(const Section& a, const Section& b) {
+  return a.name == b.name && a.kind == b.kind &&
+         std::equal(a.settings.begin(), a.settings.end(), b.settings.begin(), b.settings.end(), same_settings);
+}
+bool same_machine(const Scene& a, const Scene& b) {
+  return std::equal(a.components.begin(), a.components.end(), b.components.begin(), b.components.end(), same_numbers) &&
+         a.effects.describe() == b.effects.describe() && a.run.until == b.run.until &&
+         a.run.accuracy == b.run.accuracy && a.run.start.speed == b.run.start.speed;
+}
+
+}  // namespace
+
+VariedScene::VariedScene(const MachineQuestion& question, const std::vector<SweptParameter>& parameters)
+    : question_(question), parameters_(parameters), scene_(read_with(question.settings)) {
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other)
+      if (parameters_[k].path == parameters_[other].path)
+        throw std::invalid_argument(fmt::format("{} is varied twice; give one of them", parameters_[k].path));
+    check_ends(k);
+    all_in_place_ = all_in_place_ && in_place_.back();
+  }
+}
+
+Scene VariedScene::read_with(const std::vector<std::string>& settings) const {
+  return parse_scene(SettledText(question_.text, question_.file, settings), all_kinds(), question_.allowed);
+}
+
+Scene VariedScene::read(const std::vector<double>& values) const {
+  std::vector<std::string> settings = question_.settings;
+  for (std::size_t k = 0; k < parameters_.size(); ++k) settings.push_back(parameters_[k].setting(values[k]));
+  return read_with(settings);
+}
+
+// Of a list every value, of a range its ends: what lies between them lies in the key's domain, too.
+void VariedScene::check_ends(std::size_t k) {
+  const SweptParameter& p = parameters_[k];
+  std::vector<double> ends = p.is_list() ? p.values : std::vector<double>{p.low, p.high};
+  constexpr std::size_t most_checked = 200;
+  if (p.is_list() && p.words.empty() && ends.size() > most_checked) {
+    const auto [least, most] = std::minmax_element(p.values.begin(), p.values.end());
+    ends = {*least, *most};
+  }
+  for (const double value : ends) {
+    std::vector<std::string> settings = question_.settings;
+    settings.push_back(p.setting(value));
+    try {
+      read_with(settings);
+    } catch (SceneError& error) {
+      std::vector<Message> messages = error.messages;
+      for (Message& m : messages)
+        if (m.file == fmt::format("--set {}", in_quotes(settings.back())))
+          m.file = fmt::format("--vary {}", in_quotes(p.given));
+      for (Message& m : messages)
+        if (m.file.starts_with("--vary") && p.words.empty())
+          m.at = {}, m.text += fmt::format(" (at {})", p.text_of(value));
+      throw SceneError(std::move(messages));
+    }
+  }
+  in_place_.push_back(p.words.empty() && found_in_place(k, ends.front(), ends.back()));
+}
+
+bool VariedScene::found_in_place(std::size_t k, double low, double high) {
+  for (const double value : {low, high}) {
+    Scene patched = scene_;
+    Setting* const setting = quantity_at(patched.components, parameters_[k].path);
+    if (!setting) return false;
+    setting->number = in_si(parameters_[k], value);
+    std::vector<std::string> settings = question_.settings;
+    settings.push_back(parameters_[k].setting(value));
+    if (!same_machine(patched, read_with(settings))) return false;
+  }
+  return true;
+}
+
+const Scene& VariedScene::at(const std::vector<double>& values) {
+  if (!all_in_place_) {
+    scene_ = read(values);
+    return scene_;
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    Setting* const setting = quantity_at(scene_.components, parameters_[k].path);
+    setting->number = in_si(parameters_[k], values[k]);
+  }
+  return scene_;
+}
+
+namespace {
+
+struct Answer {
+  RowState state = RowState::done;
+  std::string diagnosis;
+  std::vector<Figure> figures;
+  bool interrupted = false;
+};
+
+Figure plain(std::string name, double value, std::string unit, std::optional<double> error) {
+  Figure figure;
+  figure.name = std::move(name), figure.value = value, figure.unit = std::move(unit), figure.error = error;
+  return figure;
+}
+
+Answer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
+  SimulateOptions options;
+  options.measure_error = measure;
+  options.watch.interrupted = q.interrupted;
+  const auto model = compile(scene, scene.effects);
+  Result result = simulate(model, "", options);
+  if (!result.complete) return {RowState::failed, result.diagnosis, {}};
+  return {result.unconfirmed() ? RowState::unconfirmed : RowState::done,
+          result.unconfirmed() ? result.accuracy_in_words() : "", std::move(result.figures)};
+}
+
+Answer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
+  SteadyOptions options;
+  options.start_search = false;
+  options.watch.interrupted = q.interrupted;
+  const SteadyStudy study = steady(scene, {scene.effects}, options);
+  if (study.cycles.empty()) return {RowState::failed, study.diagnosis, {}};
+  const SteadyCycle& cycle = study.cycles.front();
+  if (!cycle.found) return {RowState::failed, cycle.why.empty() ? study.diagnosis : cycle.why, {}};
+  Answer answer{RowState::done, "", cycle.figures};
+  if (!measure)
+    for (Figure& f : answer.figures) f.error.reset();
+  return answer;
+}
+
+Answer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
+  ModesOptions options;
+  options.watch.interrupted = q.interrupted;
+  Effects effects = scene.effects;
+  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
+  const ModesStudy study = find_modes(scene, effects, options);
+  if (!study.complete) return {RowState::failed, study.diagnosis, {}};
+  Answer answer;
+  for (const Mode& mode : study.modes) {
+    const std::string number = std::to_string(mode.number);
+    answer.figures.push_back(plain("natural_frequency." + number, mode.natural() / (2 * std::numbers::pi), "Hz",
+                                   mode.error / (2 * std::numbers::pi)));
+    if (mode.lambda.imag() > 0) answer.figures.push_back(plain("damping_ratio." + number, mode.ratio, "", {}));
+  }
+  return answer;
+}
+
+Answer answer_of_size(const MachineQuestion& q, const Scene& scene) {
+  SizeOptions options;
+  options.delta = q.delta;
+  options.simulate = false;
+  options.simulation.watch.interrupted = q.interrupted;
+  const Sizing sizing = size_flywheel(scene, options);
+  if (!sizing.complete) return {RowState::failed, sizing.diagnosis, {}};
+  Answer answer;
+  for (const KeyFigure& f : findings_of(sizing).figures)
+    if (!f.means.empty() && f.means != "delta_reached")
+      answer.figures.push_back(plain(f.means, f.value, f.unit, f.error));
+  return answer;
+}
+
+// What a variant cannot do is the row's own failure, and no end of the sweep.
+Answer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values, bool measure) {
+  const auto stopped = [&] { return q.interrupted && q.interrupted->load(); };
+  Answer answer;
+  try {
+    const Deadline deadline(HUGE_VAL, q.interrupted);
+    const Scene& scene = varied.at(values);
+    switch (q.of) {
+      case SweepStudy::run:
+        answer = answer_of_run(q, scene, measure);
+        break;
+      case SweepStudy::steady:
+        answer = answer_of_steady(q, scene, measure);
+        break;
+      case SweepStudy::modes:
+        answer = answer_of_modes(q, scene);
+        break;
+      case SweepStudy::size:
+        answer = answer_of_size(q, scene);
+        break;
+    }
+  } catch (const SceneError& error) {
+    answer = {RowState::failed, error.messages.empty() ? error.what() : error.messages.front().text, {}};
+  } catch (const OutOfTime& error) {
+    answer = {RowState::failed, error.what(), {}};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    answer = {RowState::failed, error.what(), {}};
+  }
+  answer.interrupted = stopped();
+  return answer;
+}
+
+}  // namespace
+
+std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
+  VariedScene scene(question, {});
+  std::vector<SweptFigure> known;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    if (std::none_of(known.begin(), known.end(), [&](const SweptFigure& f) { return f.name == name; }))
+      known.push_back({name, unit});
+  };
+  const Answer answer = answer_of(question, scene, {}, false);
+  if (answer.interrupted) throw OutOfTime(0);
+  for (const Figure& f : answer.figures) add(f.name, f.unit);
+  if (question.of == SweepStudy::run) {
+    const Scene& as_it_is = scene.at({});
+    for (const Figure& f : figure_list(*compile(as_it_is, as_it_is.effects))) add(f.name, f.unit);
+  }
+  if (known.empty())
+    throw std::runtime_error(fmt::format("the scene as it is yields no figures ({}); mend it first", answer.diagnosis));
+  return known;
+}
+
+std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked) {
+  if (asked.empty()) return known;
+  std::vector<SweptFigure> list;
+  for (const std::string& name : asked) {
+    const std::size_t before = list.size();
+    for (const SweptFigure& f : known)
+      if (f.name == name || f.name.starts_with(name + "."))
+        if (std::none_of(list.begin(), list.end(), [&](const SweptFigure& g) { return g.name == f.name; }))
+          list.push_back(f);
+    if (list.size() > before) continue;
+    std::vector<std::string> names;
+    for (const SweptFigure& f : known) names.push_back(f.name);
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;  // given twice
+    throw std::invalid_argument(fmt::format("--figures {}: no such figure{}; there are: {}", in_quotes(name),
+                                            suggestion(name, names), shortened_list(names, "and")));
+  }
+  return list;
+}
+
+Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
+                            const std::vector<SweptFigure>& figures) {
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (std::size_t k = 0; k < figures.size(); ++k) numbers[figures[k].name] = k;
+  return [question, numbers, varied = scene](SweepRow& row) mutable {
+    const bool measure = question.errors_every > 0 && row.row % question.errors_every == 0;
+    Answer answer = answer_of(question, varied, row.parameters, measure);
+    if (answer.interrupted) return false;
+    row.state = answer.state;
+    row.diagnosis = std::move(answer.diagnosis);
+    for (const Figure& f : answer.figures)
+      if (const auto found = numbers.find(f.name); found != numbers.end())
+        row.figures.push_back({found->second, f.value, f.error});
+    std::sort(row.figures.begin(), row.figures.end(),
+              [](const RowFigure& a, const RowFigure& b) { return a.figure < b.figure; });
+    return true;
+  };
+}
+
+}  // namespace kurbel

@@ -1,0 +1,63 @@
+// machine.h — a row of a sweep as a machine: the scene with the row's values in it, and the figures that a study finds.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/reading/read_scene.h"
+#include "studies/experiments/design.h"
+#include "studies/findings/result.h"
+#include "studies/sweep/sweep.h"
+
+namespace kurbel {
+
+enum class SweepStudy { run, steady, modes, size };
+
+struct MachineQuestion {
+  std::string text, file;             // of the scene
+  std::vector<std::string> settings;  // --set
+  DataFiles allowed = DataFiles::below_the_scene;
+  SweepStudy of = SweepStudy::run;
+  std::size_t errors_every = 1;  // errors are measured in rows 0, n, 2 n …; 0: in none
+  std::optional<double> delta;   // of size
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+// A scene that is read once; what a row changes is put into it. Keys of components that hold one quantity are changed
+// in place, which is checked against reading once per parameter; all else is read anew.
+class VariedScene {
+ public:
+  // Reads the scene at the ends of every parameter. Throws SceneError for what the reader refuses there, told under
+  // "--vary".
+  VariedScene(const MachineQuestion& question, const std::vector<SweptParameter>& parameters);
+
+  // With these values; valid until the next call. Throws SceneError where they do not go together.
+  const Scene& at(const std::vector<double>& values);
+  // The same by reading the text.
+  Scene read(const std::vector<double>& values) const;
+  bool is_in_place(std::size_t parameter) const { return in_place_[parameter]; }
+
+ private:
+  Scene read_with(const std::vector<std::string>& settings) const;
+  void check_ends(std::size_t parameter);
+  bool found_in_place(std::size_t parameter, double low, double high);
+
+  MachineQuestion question_;
+  std::vector<SweptParameter> parameters_;
+  Scene scene_;
+  std::vector<bool> in_place_;
+  bool all_in_place_ = true;
+};
+
+// Names and units of what the study yields for the scene as it is; of run also what other variants may yield.
+std::vector<SweptFigure> figures_of(const MachineQuestion& question);
+// Those asked for: whole names, or a quantity ("delta": of whatever has one); empty: all. Throws std::invalid_argument.
+std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked);
+
+// Computes rows: one for each thread.
+Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
+                            const std::vector<SweptFigure>& figures);
+
+}  // namespace kurbel

@@ -1,0 +1,38 @@
+// sweep.h — every row of a design computed, in threads, and written by one writer; what is there already is not computed
+// again. Knows no machine: what a row yields, a function of it says.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "studies/experiments/design.h"
+#include "studies/findings/watch.h"
+#include "studies/sweep/store.h"
+
+namespace kurbel {
+
+// Of row i with these values of the parameters: state, diagnosis, figures. A row that was interrupted returns false.
+using Evaluator = std::function<bool(SweepRow& row)>;
+
+struct SweepJob {
+  const Design* design = nullptr;
+  std::size_t shard = 1, shards = 1;          // rows with row mod shards = shard − 1
+  int jobs = 1;                               // threads
+  std::function<Evaluator()> evaluator = {};  // one for each thread
+  Watch watch = {};
+};
+
+struct SweepEnd {
+  std::size_t rows = 0;      // of this shard
+  std::size_t there = 0;     // before it began
+  std::size_t computed = 0;  // and written
+  std::size_t failed = 0;    // of those
+  double seconds = 0;        // by the clock
+  bool complete() const { return there + computed == rows; }
+};
+
+// Batches are committed four times a second. An interrupt ends it with what is done.
+SweepEnd run_sweep(const SweepJob& job, SweepStore& store);
+
+}  // namespace kurbel

@@ -1,0 +1,207 @@
+// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, evenly taken.
+#include "studies/sweep/sweep_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t most_points = 2000, most_figures = 4, most_parameters = 3;
+
+Axis axis_of(const SweptParameter& p) { return {p.path, pretty_unit(p.unit)}; }
+
+std::string label_of(const SweepStudyResult& s, const SweepRow& r) {
+  std::string label = fmt::format("row {}", r.row);
+  for (std::size_t k = 0; k < r.parameters.size(); ++k)
+    label += fmt::format(", {} = {}", s.identity.parameters[k].path, s.identity.parameters[k].text_of(r.parameters[k]));
+  return label;
+}
+
+std::vector<const SweepRow*> shown(const SweepStudyResult& s) {
+  std::vector<const SweepRow*> rows;
+  const std::size_t step = std::max<std::size_t>(1, (s.rows.size() + most_points - 1) / most_points);
+  for (std::size_t i = 0; i < s.rows.size(); i += step) rows.push_back(&s.rows[i]);
+  return rows;
+}
+
+// Figures that a limit is on come first.
+std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
+  std::vector<std::size_t> list;
+  for (const FigureLimit& l : s.limits)
+    if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
+  for (const FigureInfluence& f : s.influences)
+    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
+  if (list.size() > most_figures) list.resize(most_figures);
+  return list;
+}
+
+// Parameters by their influence on a figure; as they were given where none is known.
+std::vector<std::size_t> parameters_for(const SweepStudyResult& s, std::size_t figure) {
+  std::vector<std::size_t> list;
+  for (const Influence& i : s.influences[figure].ranked) list.push_back(i.parameter);
+  for (std::size_t k = 0; k < s.identity.parameters.size(); ++k)
+    if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
+  return list;
+}
+
+// Of one parameter: the curve with the band of its errors.
+void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
+               double factor) {
+  Series curve{.name = "value", .role = Role::elastic, .x = {}, .y = {}, .points = true};
+  Series low{.name = "− error", .role = Role::reference, .x = {}, .y = {}, .dashed = true}, high = low;
+  high.name = "+ error";
+  for (const auto& [row, x] : points) {
+    const double v = factor * value_in(*row, figure), error = factor * error_in(*row, figure).value_or(0);
+    curve.x.push_back(x), curve.y.push_back(v);
+    low.x.push_back(x), low.y.push_back(v - error);
+    high.x.push_back(x), high.y.push_back(v + error);
+  }
+  plot.series = {std::move(low), std::move(high), std::move(curve)};
+}
+
+void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pair<const SweepRow*, double>>& points,
+               std::size_t figure, double factor) {
+  Series cloud{.name = "variants", .role = Role::sky, .x = {}, .y = {}, .points = true, .line = false};
+  for (const auto& [row, x] : points) {
+    cloud.x.push_back(x), cloud.y.push_back(factor * value_in(*row, figure));
+    cloud.labels.push_back(label_of(s, *row));
+  }
+  // The mean along the parameter: of equally many rows each.
+  Series mean{.name = "mean along the parameter", .role = Role::elastic, .x = {}, .y = {}, .points = true};
+  const std::size_t bins = std::clamp<std::size_t>(points.size() / 12, 2, 20);
+  for (std::size_t b = 0; b < bins; ++b) {
+    const std::size_t from = b * points.size() / bins, to = (b + 1) * points.size() / bins;
+    double x = 0, y = 0;
+    for (std::size_t i = from; i < to; ++i)
+      x += points[i].second / static_cast<double>(to - from), y += cloud.y[i] / static_cast<double>(to - from);
+    if (to > from) mean.x.push_back(x), mean.y.push_back(y);
+  }
+  plot.series = {std::move(cloud), std::move(mean)};
+}
+
+Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t parameter) {
+  const SweptFigure& f = s.identity.figures[figure];
+  const SweptParameter& p = s.identity.parameters[parameter];
+  std::vector<std::pair<const SweepRow*, double>> points;
+  double largest = 0;
+  for (const SweepRow* r : shown(s))
+    if (const double v = value_in(*r, figure); std::isfinite(v))
+      points.emplace_back(r, r->parameters[parameter]), largest = std::max(largest, std::abs(v));
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const ReadableUnit unit = readable_unit(largest, f.unit);
+  Plot plot{
+      .title = fmt::format("{} over {}", f.name, p.path), .x = axis_of(p), .y = {f.name, unit.unit}, .series = {}};
+  if (s.identity.parameters.size() == 1)
+    add_curve(plot, points, figure, unit.factor);
+  else
+    add_cloud(plot, s, points, figure, unit.factor);
+  for (const FigureLimit& l : s.limits)
+    if (l.figure == figure && !points.empty())
+      plot.series.push_back({.name = l.given,
+                             .role = Role::vermillion,
+                             .x = {points.front().second, points.back().second},
+                             .y = {unit.factor * l.value, unit.factor * l.value},
+                             .dashed = true});
+  if (s.rows.size() > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.rows.size());
+  return plot;
+}
+
+Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b) {
+  const SweptFigure& f = s.identity.figures[figure];
+  Plot plot{
+      .title = fmt::format("{} over {} and {}", f.name, s.identity.parameters[a].path, s.identity.parameters[b].path),
+      .x = axis_of(s.identity.parameters[a]),
+      .y = axis_of(s.identity.parameters[b]),
+      .series = {}};
+  const auto add = [&](std::string name, Role role, const auto& belongs) {
+    Series series{.name = std::move(name), .role = role, .x = {}, .y = {}, .points = true, .line = false};
+    for (const SweepRow* r : shown(s))
+      if (belongs(*r)) {
+        series.x.push_back(r->parameters[a]), series.y.push_back(r->parameters[b]);
+        series.labels.push_back(fmt::format("{}; {} {}", label_of(s, *r), value_in(*r, figure), pretty_unit(f.unit)));
+      }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  };
+  const auto limit =
+      std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
+  if (limit != s.limits.end()) {
+    plot.title += fmt::format(": where {}", limit->given);
+    add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
+    add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });
+    add("beyond", Role::vermillion, [&](const SweepRow& r) { return side_of(*limit, r) == Side::beyond; });
+  } else {
+    std::vector<double> values;
+    for (const SweepRow& r : s.rows)
+      if (const double v = value_in(r, figure); std::isfinite(v)) values.push_back(v);
+    if (values.empty()) return plot;
+    std::sort(values.begin(), values.end());
+    const Role roles[] = {Role::purple, Role::elastic, Role::sky, Role::green, Role::orange};
+    for (std::size_t fifth = 0; fifth < 5; ++fifth) {
+      const double low = values[fifth * (values.size() - 1) / 5], high = values[(fifth + 1) * (values.size() - 1) / 5];
+      add(fmt::format("{:.4g} … {:.4g} {}", low, high, pretty_unit(f.unit)), roles[fifth], [&](const SweepRow& r) {
+        const double v = value_in(r, figure);
+        return (fifth == 0 ? v >= low : v > low) && v <= high;
+      });
+    }
+  }
+  add("failed", Role::reference, [](const SweepRow& r) { return r.state == RowState::failed; });
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Plot> response_plots(const SweepStudyResult& s) {
+  std::vector<Plot> plots;
+  for (const std::size_t figure : figures_drawn(s)) {
+    std::vector<std::size_t> parameters = parameters_for(s, figure);
+    if (parameters.size() > most_parameters) parameters.resize(most_parameters);
+    for (const std::size_t p : parameters) plots.push_back(response(s, figure, p));
+  }
+  return plots;
+}
+
+std::vector<Plot> limit_maps(const SweepStudyResult& s) {
+  std::vector<Plot> plots;
+  if (s.identity.parameters.size() < 2) return plots;
+  for (const std::size_t figure : figures_drawn(s)) {
+    const std::vector<std::size_t> parameters = parameters_for(s, figure);
+    plots.push_back(map_of(s, figure, parameters[0], parameters[1]));
+  }
+  return plots;
+}
+
+std::vector<Plot> influence_plots(const SweepStudyResult& s) {
+  std::vector<Plot> plots;
+  for (const std::size_t figure : figures_drawn(s)) {
+    const FigureInfluence& found = s.influences[figure];
+    if (found.ranked.size() < 2) continue;
+    Series first{.name = "first order", .role = Role::elastic, .x = {}, .y = {}},
+        total{.name = "total", .role = Role::orange, .x = {}, .y = {}};
+    std::string note = "Bars, by rank:";
+    for (std::size_t k = 0; k < found.ranked.size(); ++k) {
+      const Influence& i = found.ranked[k];
+      first.x.push_back(static_cast<double>(k + 1)), first.y.push_back(i.first.value);
+      first.labels.push_back(s.identity.parameters[i.parameter].path);
+      if (i.total)
+        total.x.push_back(static_cast<double>(k + 1)), total.y.push_back(i.total->value),
+            total.labels.push_back(first.labels.back());
+      note += fmt::format("{} {} {}", k ? "," : "", k + 1, first.labels.back());
+    }
+    Plot plot{.title = fmt::format("What moves {}: Sobol's indices", s.identity.figures[figure].name),
+              .x = {"rank"},
+              .y = {"share of the variance"},
+              .series = {std::move(first)},
+              .note = note + ".",
+              .bars = true};
+    if (!total.x.empty()) plot.series.push_back(std::move(total));
+    plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+}  // namespace kurbel
