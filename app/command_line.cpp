@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -73,6 +75,29 @@ void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::ve
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+namespace {
+
+constexpr std::uintmax_t largest_logo = 1 << 20;
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Why a file is no logo; empty: it is one.
+std::string svg_fault(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return fmt::format("{} cannot be read ({}); give an SVG file", in_quotes(path), error.message());
+  if (size > largest_logo)
+    return fmt::format("{} has {} bytes; allowed: up to {} for a logo", in_quotes(path), size, largest_logo);
+  if (text_of_file(path).find("<svg") == std::string::npos)
+    return fmt::format("{} is no SVG: it has no \"<svg\"; give a drawing saved as SVG", in_quotes(path));
+  return "";
+}
+
+}  // namespace
+
 void add_study_options(CLI::App& command, StudyOptions& options) {
   options.study = command.get_name();
   add_scene(command, options.scene, options.allow_files, options.set);
@@ -84,6 +109,8 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,
                    "write the plots for gnuplot too, and as SVG and PNG where it is installed");
+  command.add_option("--brand", options.brand, "logo above the report, an SVG file")->check(svg_fault);
+  command.add_option("--author", options.author, "name above the report");
   command.add_flag("--json", options.json, "print the summary as JSON");
   command.add_flag("--quiet", options.quiet, "print only the conclusion in one line, and no progress");
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
@@ -211,9 +238,11 @@ namespace {
 
 // Where the files are, said.
 void write_files(const StudyOutput& output, const StudyOptions& options, bool stopped) {
-  const WriteOptions how{.plots = options.plots,
-                         .interrupted = stopped,
-                         .made_by = fmt::format("kurbel {} {}", options.study, options.scene)};
+  const WriteOptions how{
+      .plots = options.plots,
+      .interrupted = stopped,
+      .made_by = fmt::format("kurbel {} {}", options.study, options.scene),
+      .head = {.brand_svg = options.brand.empty() ? "" : text_of_file(options.brand), .author = options.author}};
   const std::filesystem::path folder = write_output(output, results_of(options), how);
   if (!options.json && !options.quiet) {
     say(fmt::format("results: {}\n", (folder / "summary.json").string()));

@@ -122,13 +122,20 @@ class Rater {
     const auto rms = found("motor_rms_torque." + section_.name);
     const auto data = induction_data(section_);
     if (!rms || !data) return;
-    // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
-    const double span = result_.until - result_.begins_at,
-                 part = rating.time ? *rating.time / span : rating.share.value_or(1);
-    add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, data->rated_torque * std::sqrt(part), "N*m",
-        [&](double times) {
-          return fmt::format("it holds from a rated torque of {:.4g} N·m on", data->rated_torque * times);
-        });
+    const auto mends = [&](double times) {
+      return fmt::format("it holds from a rated torque of {:.4g} N·m on", data->rated_torque * times);
+    };
+    // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
+    const bool continuous = !rating.time && !rating.share && result_.find(QuantityKind::run_up_time, "");
+    if (const auto use = continuous ? found("thermal_use." + section_.name) : std::nullopt) {
+      add("RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
+          {use->value * data->rated_torque, use->error * data->rated_torque}, data->rated_torque, "N*m", mends);
+    } else {
+      // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
+      const double span = result_.until - result_.begins_at,
+                   part = rating.time ? *rating.time / span : rating.share.value_or(1);
+      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, data->rated_torque * std::sqrt(part), "N*m", mends);
+    }
     std::string& note = out_.back().note;
     note +=
         fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", data->rated_torque);

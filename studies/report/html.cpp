@@ -260,10 +260,12 @@ void write(Writer& w, const GearView& view) {
   w.field("closeUp", view.close_up);
 }
 
-std::string json_of(const Report& report) {
+std::string json_of(const Report& report, const Letterhead& head) {
   Writer w;
   w.object([&] {
     w.field("title", report.title);
+    if (!head.brand_svg.empty()) w.field("brand", head.brand_svg);
+    if (!head.author.empty()) w.field("author", head.author);
     w.field("subtitle", report.subtitle);
     w.field("conclusion", report.conclusion);
     w.field("complete", report.complete);
@@ -348,8 +350,8 @@ std::string json_string(const std::string& text) {
   return out + '"';
 }
 
-std::string html_of(const Report& report) {
-  const std::string json = json_of(report);
+std::string html_of(const Report& report, const Letterhead& head) {
+  const std::string json = json_of(report, head);
   const std::string_view page = report_assets::page_html();
   std::string html;
   html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);

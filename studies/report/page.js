@@ -865,6 +865,15 @@
   }
 
   // --- the page --------------------------------------------------------------------------------------------------------
+  if (report.brand || report.author) {
+    const head = make('header', 'letterhead', null, root);
+    if (report.brand) {  // as a picture: no script in it runs
+      const logo = make('img', '', null, head);
+      logo.src = 'data:image/svg+xml;charset=utf-8,' + encodeURIComponent(report.brand);
+      logo.alt = report.author || 'logo';
+    }
+    if (report.author) make('span', '', report.author, head);
+  }
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
   if (report.conclusion) make('p', 'conclusion' + (report.complete ? '' : ' incomplete'), report.conclusion, root);

@@ -11,8 +11,13 @@ namespace kurbel {
 // Points of a series that a page holds; longer ones are thinned with their peaks kept.
 inline constexpr std::size_t points_per_series = 2400;
 
+// Whose report it is: a logo as SVG and a name, above the title; empty: neither.
+struct Letterhead {
+  std::string brand_svg = {}, author = {};
+};
+
 // The page: styles, scripts and data inlined; it asks the network for nothing, and says so to the browser.
-std::string html_of(const Report& report);
+std::string html_of(const Report& report, const Letterhead& head = {});
 void write_html(const Report& report, const std::string& path);
 
 struct TextFile {

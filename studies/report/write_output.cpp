@@ -14,7 +14,7 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
   for (const CsvFile& csv : output.csv) set.add(csv.name, csv.text());
   set.add("summary.json", output.json + "\n");
   const Report report = output.report();
-  set.add("report.html", html_of(report));
+  set.add("report.html", html_of(report, options.head));
   if (options.plots) {
     const std::vector<TextFile> files = gnuplot_files(report);
     for (const TextFile& file : files) set.add("plots/" + file.name, file.text);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "studies/findings/output.h"
+#include "studies/report/render.h"
 
 namespace kurbel {
 
@@ -12,6 +13,7 @@ struct WriteOptions {
   bool plots = false;              // the report's plots for gnuplot too, into plots/
   bool interrupted = false;        // by the user: not to replace what is complete
   std::string made_by = "kurbel";  // for the manifest: the command
+  Letterhead head = {};            // of the page
 };
 
 // Writes summary.json, report.html and the CSV files as one result set (result_set.h): into the folder, but what is

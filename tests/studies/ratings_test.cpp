@@ -233,5 +233,18 @@ TEST(Ratings, OfAComparisonAreThoseOfItsSecondModel) {
       << findings_of(c).conclusion();
 }
 
+// Continuous duty is judged by the steady cycle, which a start with more than the rated torque does not change.
+TEST(Ratings, ContinuousDutyIsThatOfTheSteadyCycle) {
+  const Result r = test::run(test::scene_file("docs/tasks/two_cylinder_compressor.toml"));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double rated = 15e3 / (970 * 2 * std::numbers::pi / 60);
+  ASSERT_GT(test::figure(r, "motor_rms_torque.motor"), rated);
+  const std::vector<Verdict> verdicts = judge_ratings(r);
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts[0].requirement, "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N");
+  EXPECT_NEAR(verdicts[0].value, rated * test::figure(r, "thermal_use.motor"), 1e-9 * rated);
+  EXPECT_EQ(verdicts[0].state(), Compliance::holds);
+}
+
 }  // namespace
 }  // namespace kurbel
