@@ -352,7 +352,7 @@ Findings findings_of(const SteadyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
-  f.answer(s.complete ? Question::figures : Question::runs, s.conclusion, s.complete ? 0 : 100);
+  f.answer(Question::runs, s.conclusion, s.complete ? 0 : 100);
   for (const SteadyCycle& c : s.cycles)
     if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
       f.answer(Question::runs,

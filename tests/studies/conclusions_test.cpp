@@ -110,6 +110,21 @@ TEST(Conclusion, AMachineWithoutALimitRunsAway) {
   EXPECT_NE(first_sentence(r).find("runs away"), std::string::npos) << first_sentence(r);
 }
 
+// J ω̇ = 60 (1 − ω/40) − 80 N·m on 2 kg·m²: ω = −40/3 (1 − e^(−0.75 t)) rad/s, −12.67 rad/s after 4 s.
+TEST(Conclusion, AMachineThatItsLoadTurnsBackIsSaid) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.5 kg*m2" }
+    drum = { kind = "flywheel", inertia = "1.5 kg*m2" }
+    weight = { kind = "load", on = "drum", torque = "80 N*m", acts = "always" }
+    run = { start = "rest", until = "4 s" }
+  )",
+                             false);
+  EXPECT_EQ(first_sentence(r),
+            "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the "
+            "79 N·m that drive it forwards.");
+}
+
 // Motor M = 60 (1 − ω/40), clutch 12 N·m, drum at 12/1.25 = 9.6 rad/s: it can only slip, by 32 − 9.6 rad/s.
 TEST(Conclusion, AClosedClutchThatSlipsToTheEndIsSaid) {
   const Result r = test::run(test::scene_file("tests/agreement/clutch_slips_always.toml"), false);
