@@ -32,7 +32,7 @@ class AnyShaftElement {
   std::vector<OwnState> own_states = {};
   int modes = 1;                               // slots for them
   double mean_inertia = 0, least_inertia = 0;  // of a mechanism over a turn, on its own shaft [kg·m²]
-  double cycle = 0;                            // angle of one cycle of a mechanism [rad]; 0: it is none
+  double cycle = 0;                            // angle of one cycle of a mechanism [rad]; 0: it is none, ∞: it rocks
   // Work accounts beyond its own ("press.load"); the pool uses the indices that follow.
   std::vector<std::pair<std::string, Account>> further_accounts = {};
 

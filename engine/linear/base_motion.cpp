@@ -1,6 +1,8 @@
 // base_motion.cpp — states along the uniform motion, and the balance of its means.
 #include "engine/linear/base_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,6 +35,12 @@ double common_time(const Model& m) {
 
 BaseMotion::BaseMotion(std::shared_ptr<const Model> model, LinearisationPoint point)
     : shared_(std::move(model)), m_(*shared_), equations_(shared_, false), point_(std::move(point)) {
+  for (const Network::ShaftElement& e : m_.network.elements)
+    if (std::isinf(e.element->cycle))
+      throw std::invalid_argument(
+          fmt::format("the crank of \"{}\" rocks and never comes round, so that there is no mean over its angle to "
+                      "linearise about; follow its motion with kurbel run",
+                      e.component));
   turn_of_joint_.assign(m_.elastic.size(), -1);
   for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
     const Network::Joint& joint = m_.network.joints[kurbel::at(m_.elastic[j].joint)];

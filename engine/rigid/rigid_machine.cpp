@@ -42,6 +42,12 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
         "by a motor or a load, or switch its effect off",
         model->own_states.front().state.name, model->own_states.front().component,
         model->own_states.front().component));
+  for (const Network::ShaftElement& e : model->network.elements)
+    if (std::isinf(e.element->cycle))
+      throw std::invalid_argument(
+          fmt::format("the crank of \"{}\" rocks and never comes round, so that there is no cycle over its angle; "
+                      "follow its motion with kurbel run",
+                      e.component));
   return model;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "engine/rigid/work_equation.h"
@@ -27,6 +28,9 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
   if (!model->scene.sequence.steps.empty())
     return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
            "another method";
+  for (const Network::ShaftElement& e : model->network.elements)
+    if (std::isinf(e.element->cycle))
+      return fmt::format("the crank of \"{}\" rocks and never comes round; choose another method", e.component);
   const RigidMachine machine(model);
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)

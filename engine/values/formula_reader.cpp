@@ -10,6 +10,7 @@
 
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
+#include "engine/values/formula_builder.h"
 
 namespace kurbel {
 namespace {
@@ -17,34 +18,19 @@ namespace {
 constexpr std::size_t longest = 2000;  // characters of a formula
 constexpr int deepest = 32;            // of parentheses, functions, signs and powers within each other
 
-struct Term {
-  int node = -1;
-  BrokenDimension dimension{};
-  bool zero = false;  // the number 0 without a unit goes with every dimension
-  std::size_t column = 0;
-};
-
-struct NamedOp {
-  std::string_view name;
-  FormulaOp op;
-};
-constexpr NamedOp of_numbers[] = {{"asin", FormulaOp::asin}, {"acos", FormulaOp::acos}, {"atan", FormulaOp::atan},
-                                  {"tanh", FormulaOp::tanh}, {"exp", FormulaOp::exp},   {"log", FormulaOp::log}};
-constexpr NamedOp of_angles[] = {{"sin", FormulaOp::sin}, {"cos", FormulaOp::cos}, {"tan", FormulaOp::tan}};
-
 const std::vector<std::string>& function_names() {
-  static const std::vector<std::string> names = {"sin",   "cos",  "tan", "asin", "acos", "atan", "tanh", "exp", "log",
-                                                 "log10", "sqrt", "abs", "min",  "max",  "sign", "step", "if"};
+  static const std::vector<std::string> names = {"sin",   "cos",   "tan",   "asin", "acos", "atan", "tanh",
+                                                 "exp",   "log",   "log10", "sqrt", "abs",  "min",  "max",
+                                                 "clamp", "hypot", "atan2", "sign", "step", "if"};
   return names;
 }
 
-const Dimension angle{{0, 0, 0, 1, 0}};
 const BrokenDimension plain{};
 
-class FormulaParser {
+class FormulaParser : private FormulaBuilder {
  public:
   FormulaParser(std::string_view text, const FormulaNames& names, UnitError& error)
-      : text_(text), names_(names), error_(error) {}
+      : FormulaBuilder(text, error), names_(names) {}
 
   std::optional<ReadFormula> parse() {
     if (text_.size() > longest) return stop(fmt::format("more than {} characters", longest), longest), std::nullopt;
@@ -66,13 +52,6 @@ class FormulaParser {
   }
 
  private:
-  // --- faults: the first one counts ---
-  Term stop(std::string text, std::size_t column) {
-    if (!failed_) error_ = {std::move(text), column};
-    failed_ = true;
-    at_ = text_.size();
-    return {};
-  }
   Term fail_unexpected(const char* wanted) {
     if (at_ >= text_.size()) return stop(fmt::format("the formula ends where {} should follow", wanted), at_);
     const std::string_view rest = text_.substr(at_);
@@ -102,60 +81,6 @@ class FormulaParser {
     std::size_t end = begin;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
     return text_.substr(begin, end - begin);
-  }
-
-  // --- nodes; what hangs on constants alone is computed at once ---
-  const Formula::Node& of(const Term& t) const { return made_[t.node]; }
-  bool constant(const Term& t) const { return of(t).op == FormulaOp::number; }
-  Term number(double value, const BrokenDimension& dimension, std::size_t column, bool may_be_zero = false) {
-    return {made_.add({.op = FormulaOp::number, .number = value, .column = column}), dimension,
-            may_be_zero && value == 0, column};
-  }
-  Term make(Formula::Node node, const BrokenDimension& dimension) {
-    bool known = true;
-    for (const int k : {node.a, node.b, node.c}) known = known && (k < 0 || made_[k].op == FormulaOp::number);
-    if (!known) return {made_.add(node), dimension, false, node.column};
-    Formula alone;
-    for (int* k : {&node.a, &node.b, &node.c})
-      if (*k >= 0) *k = alone.add(made_[*k]);
-    alone.add(node);
-    double value = 0;
-    if (const auto fault = alone.value(0, value)) return stop(fault->text, node.column);
-    return number(value, dimension, node.column);
-  }
-  Term one(FormulaOp op, const Term& a, const BrokenDimension& dimension, std::size_t column, double exponent = 0) {
-    if (failed_) return {};
-    return make({.op = op, .a = a.node, .number = exponent, .column = column}, dimension);
-  }
-  Term two(FormulaOp op, const Term& a, const Term& b, const BrokenDimension& dimension, std::size_t column) {
-    if (failed_) return {};
-    return make({.op = op, .a = a.node, .b = b.node, .column = column}, dimension);
-  }
-  Term choose(const Term& asked, const Term& yes, const Term& no, const BrokenDimension& dimension,
-              std::size_t column) {
-    if (failed_) return {};
-    if (constant(asked)) return of(asked).number >= 0 ? yes : no;
-    return {made_.add({.op = FormulaOp::choose, .a = asked.node, .b = yes.node, .c = no.node, .column = column}),
-            dimension, false, column};
-  }
-
-  // --- dimensions ---
-  // Of two that are added, compared or alternatives.
-  BrokenDimension common(const Term& a, const Term& b, std::size_t column, const char* what) {
-    if (failed_ || a.zero || same_dimension(a.dimension, b.dimension)) return b.dimension;
-    if (b.zero) return a.dimension;
-    stop(fmt::format("{} {} and {}", what, name_of(a.dimension), name_of(b.dimension)), column);
-    return plain;
-  }
-  static BrokenDimension combined(const BrokenDimension& a, const BrokenDimension& b, double sign) {
-    BrokenDimension sum = a;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += sign * b[i];
-    return sum;
-  }
-  bool demand(const Term& t, const BrokenDimension& wanted, std::string_view who, const char* must) {
-    if (failed_ || t.zero || same_dimension(t.dimension, wanted)) return true;
-    stop(fmt::format("{} of {}; must be of {}", who, name_of(t.dimension), must), t.column);
-    return false;
   }
 
   // --- grammar ---
@@ -332,6 +257,7 @@ class FormulaParser {
     while (!failed_ && take(",")) args.push_back(sum());
     if (!failed_ && !take(")")) return unclosed(column + name.size());
     if (failed_) return {};
+    if (name == "clamp" || name == "hypot" || name == "atan2") return of_several(name, args, column);
     const bool of_two = name == "min" || name == "max";
     if (of_two ? args.size() < 2 : args.size() != 1)
       return stop(fmt::format("{} of {} value{}; must be {}", name, args.size(), args.size() == 1 ? "" : "s",
@@ -339,45 +265,6 @@ class FormulaParser {
                   column);
     if (of_two) return extreme(name == "max", args, column);
     return of_one(name, args.front(), column);
-  }
-  Term extreme(bool greatest, const std::vector<Term>& args, std::size_t column) {
-    Term best = args.front();
-    for (std::size_t k = 1; k < args.size() && !failed_; ++k) {
-      const Term& next = args[k];
-      const BrokenDimension d = common(best, next, next.column, "cannot compare");
-      const bool both_zero = best.zero && next.zero;
-      const Term more = two(FormulaOp::subtract, best, next, d, column);
-      best = greatest ? choose(more, best, next, d, column) : choose(more, next, best, d, column);
-      best.dimension = d, best.zero = both_zero;
-    }
-    return best;
-  }
-  Term of_one(const std::string& name, const Term& a, std::size_t column) {
-    for (const NamedOp& f : of_numbers)
-      if (f.name == name) {
-        if (!demand(a, plain, name, "a plain number")) return {};
-        const bool gives_angle = name == "asin" || name == "acos" || name == "atan";
-        return one(f.op, a, gives_angle ? broken(angle) : plain, column);
-      }
-    for (const NamedOp& f : of_angles)
-      if (f.name == name) {
-        if (!same_dimension(a.dimension, plain) && !demand(a, broken(angle), name, "an angle or a plain number"))
-          return {};
-        return one(f.op, a, plain, column);
-      }
-    if (name == "log10") {
-      if (!demand(a, plain, name, "a plain number")) return {};
-      return two(FormulaOp::divide, one(FormulaOp::log, a, plain, column), number(std::numbers::ln10, plain, column),
-                 plain, column);
-    }
-    if (name == "sqrt") {
-      BrokenDimension half = a.dimension;
-      for (double& e : half) e *= 0.5;
-      return one(FormulaOp::sqrt, a, half, column);
-    }
-    if (name == "abs") return choose(a, a, one(FormulaOp::negate, a, a.dimension, column), a.dimension, column);
-    const Term yes = number(1, plain, column), no = number(name == "sign" ? -1 : 0, plain, column);
-    return choose(a, yes, no, plain, column);
   }
   Term alternative(std::size_t column) {
     const Term left = sum();
@@ -406,13 +293,8 @@ class FormulaParser {
     return t;
   }
 
-  std::string_view text_;
   const FormulaNames& names_;
-  UnitError& error_;
-  Formula made_;
-  std::size_t at_ = 0;
   int depth_ = 0;
-  bool failed_ = false;
 };
 
 }  // namespace

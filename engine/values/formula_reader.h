@@ -7,9 +7,9 @@
 //     operand  number [unit] | name | name(sum, …) | (sum)
 //     unit     one symbol: 5 mm, 2 kN; others in brackets: 4 [kN*m/rad]
 //
-// Functions: sin cos tan asin acos atan tanh exp log log10 sqrt abs min max sign step, and if(a < b, c, d) with
-// < <= > >=; sign and step are 1 from 0 on. Constant: pi. Nothing else is there: a text cannot run anything, its length
-// and depth are bounded.
+// Functions: sin cos tan asin acos atan tanh exp log log10 sqrt abs min max clamp hypot atan2 sign step, and
+// if(a < b, c, d) with < <= > >=; sign and step are 1 from 0 on. Constant: pi. Nothing else is there: a text cannot run
+// anything, its length and depth are bounded.
 #pragma once
 
 #include <map>

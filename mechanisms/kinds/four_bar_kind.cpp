@@ -63,6 +63,7 @@ Kind four_bar_kind() {
   return {.name = "four-bar",
           .doc =
               "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; "
+              "a crank that cannot turn fully rocks within its arc, where the run ends if it is reached; "
               "the loads act on the rocker; φ = 0 with the crank towards the rocker's bearing",
           .keys = four_bar_fields().keys(),
           .build = build_four_bar};

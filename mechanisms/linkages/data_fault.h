@@ -39,8 +39,8 @@ struct CrankRockerLoop {
 };
 // The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < the sum of the two left.
 void check_crank_rocker(const CrankRockerLoop& loop, DataChecks& checks);
-// The crank turns fully, whatever the rocker does, be it through change points. Else the fault tells where it rocks.
-void check_crank_turns(const CrankRockerLoop& loop, DataChecks& checks);
+// The loop can be closed, and links that pass through one line, or hardly do not, do so clearly.
+void check_loop_closes(const CrankRockerLoop& loop, DataChecks& checks);
 
 // Throws std::invalid_argument with the first fault.
 void throw_if_any(const char* mechanism, const DataFaults& faults);

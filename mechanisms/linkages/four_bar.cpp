@@ -26,7 +26,7 @@ DataFaults faults_of(const FourBarData& d) {
   checks.not_negative("gravity", d.gravity, "m/s2");
   checks.finite("ground_angle", d.ground_angle, "rad");
   if (checks.sound())
-    check_crank_turns({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
+    check_loop_closes({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
   return checks.take();
 }
 
@@ -36,6 +36,8 @@ std::vector<double> values_of(const FourBarData& d) {
     values.insert(values.end(), {b->mass, b->com, b->inertia});
   return values;
 }
+
+std::optional<CrankArc> arc_of(const FourBarData& d) { return d.loop().arc(); }
 
 LinkageDrawing drawing_of(const FourBarData& d) {
   return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3, true};

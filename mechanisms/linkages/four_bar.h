@@ -1,4 +1,4 @@
-// four_bar.h — the four-bar linkage: crank, coupler, rocker on the ground link; the crank turns fully.
+// four_bar.h — the four-bar linkage: crank, coupler, rocker on the ground link.
 //
 //                B             O  crank axis, origin       A  crank pin, OA = crank
 //             ,·´ `.           D  rocker's bearing, OD = ground along +x
@@ -9,6 +9,7 @@
 // φ is measured from +x to OA, counter-clockwise. Branches: open, B left of the line A → D; crossed, B right of it, which
 // is the mirror image run backwards. The rocker rocks (the crank is the shortest link: crank–rocker, 0 < |ψ| < π) or goes
 // round with the crank (the ground is: drag link, double crank).
+// A crank that cannot turn fully (double and triple rockers) rocks within CrankArc, on the branch that is given.
 //
 // Where two links are as long as the two others (crank + ground = coupler + rocker, …) all pass through one line: a
 // change point. The motion goes on smoothly there; the branch is that of 0 < φ < π. Open parallelogram: ψ = φ; crossed:
@@ -17,6 +18,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanisms/linkages/data_fault.h"
@@ -38,6 +40,7 @@ struct FourBarData {
 DataFaults faults_of(const FourBarData& data);
 std::vector<double> values_of(const FourBarData& data);  // all of them
 LinkageDrawing drawing_of(const FourBarData& data);
+std::optional<CrankArc> arc_of(const FourBarData& data);  // of a crank that rocks
 
 // Bodies: crank, coupler, rocker. Joints: O, A, B, D. Throws std::invalid_argument with the first fault.
 std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& data);

@@ -57,6 +57,19 @@ Triangle by_heron(const FourBarLoop& l, const CosineSums& cosine, const Directio
 
 }  // namespace
 
+std::optional<CrankArc> FourBarLoop::arc() const {
+  const long double sum = b + c, gap = std::fabs(b - c), near = std::fabs(a - d), far = a + d;
+  const bool outside = sum < far && !in_line_at_half_turn(), inside = gap > near && !in_line_at_zero();
+  if ((!outside && !inside) || sum <= near || gap >= far) return {};
+  const auto angle = [&](long double ad) {
+    return static_cast<double>(std::acos((a * a + d * d - ad * ad) / (2 * a * d)));
+  };
+  const double pi = std::acos(-1.0), outer = outside ? angle(sum) : pi, inner = inside ? angle(gap) : 0;
+  if (!inside) return CrankArc{0, outer};
+  if (!outside) return CrankArc{pi, pi - inner};
+  return CrankArc{(inner + outer) / 2, (outer - inner) / 2};
+}
+
 Meeting meet(const FourBarLoop& l, long double phi, bool left) {
   const CosineSums cosine(phi);
   const Triangle t =

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "mechanisms/loops/taylor.h"
 
@@ -18,6 +19,17 @@ namespace kurbel {
 inline bool same_length(long double a, long double b) {
   return std::fabs(a - b) <= 2e-14L * (std::fabs(a) + std::fabs(b));
 }
+
+// Angles within which a crank rocks that cannot turn fully: middle ± half [rad]. At its ends coupler and follower lie in
+// one line, the crank stands still while they go on, and I_r(φ) has no bound: it grows as 1/(distance to the end).
+struct CrankArc {
+  double middle = 0, half = 0;
+  // What is computed of it. At its end I_r is some hundred times what it is in the middle.
+  static constexpr double share = 0.999;
+  double reach() const { return share * half; }
+  // φ but for whole turns, within a half turn of the middle.
+  double near(double phi) const { return middle + std::remainder(phi - middle, 2 * std::acos(-1.0)); }
+};
 
 // Crank a about O, coupler b, follower c about D = (d, 0). The pin B is reached while |b − c| ≤ AD ≤ b + c; a turn of the
 // crank takes AD from |a − d| at φ = 0 to a + d at π.
@@ -28,6 +40,9 @@ struct FourBarLoop {
   bool in_line_at_half_turn() const { return same_length(a + d, b + c); }
   bool meets_bearing() const { return same_length(a, d) && same_length(b, c); }  // A comes to D at φ = 0
   bool changes() const { return in_line_at_zero() || in_line_at_half_turn(); }
+  // Of a crank that does not turn fully, where AD cannot be all that a turn asks for; with stops on both sides of the
+  // ground the arc of 0 < φ < π. Empty: it turns, or the loop cannot be closed at all.
+  std::optional<CrankArc> arc() const;
   // Of a kite with its coupler on the crank and its follower on the ground for good, if B lies on that side.
   bool folds(bool left) const { return !left && same_length(a, b) && same_length(c, d); }
 };

@@ -41,20 +41,26 @@ double output_at(const MechanismData& data, double phi) { return static_cast<dou
 
 }  // namespace
 
-CrankCycle::CrankCycle(const MechanismData& data) : turns_(turns_of(data)) {
-  if (data.rocks()) follow_output(data);
-  find_change_points(data);
+CrankCycle::CrankCycle(const MechanismData& data) : arc_(data.arc()), turns_(arc_ ? 1 : turns_of(data)) {
+  if (arc_)
+    follow_output(data, arc_->middle - arc_->reach(), arc_->middle + arc_->reach());
+  else if (data.rocks())
+    follow_output(data, 0, angle());
+  if (!arc_) find_change_points(data);
+}
+
+double CrankCycle::within(double phi) const {
+  return arc_ ? arc_->middle + std::clamp(arc_->near(phi) - arc_->middle, -arc_->reach(), arc_->reach()) : phi;
 }
 
 double CrankCycle::angle() const { return static_cast<double>(turns_ * turn); }
 
 // Steps are halved until the output turns by no more than a bound, so that no turn of it is missed.
-void CrankCycle::follow_output(const MechanismData& data) {
+void CrankCycle::follow_output(const MechanismData& data, double from, double end) {
   constexpr double most = 0.5, first = 2 * std::numbers::pi / 64, least = 1e-9;
-  const double end = angle();
-  double psi = output_at(data, 0);
-  phi_ = {0}, part_ = {psi};
-  for (double phi = 0; phi < end;) {
+  double psi = output_at(data, from);
+  phi_ = {from}, part_ = {psi};
+  for (double phi = from; phi < end;) {
     double step = std::min(first, end - phi), moved = 0;
     for (;; step /= 2) {
       moved = std::remainder(output_at(data, phi + step) - psi, 2 * std::numbers::pi);
@@ -64,7 +70,7 @@ void CrankCycle::follow_output(const MechanismData& data) {
     psi += moved;
     phi_.push_back(phi), part_.push_back(psi);
   }
-  const double wound = std::round((part_.back() - part_.front()) / (2 * std::numbers::pi));
+  const double wound = arc_ ? 0 : std::round((part_.back() - part_.front()) / (2 * std::numbers::pi));
   winding_ = wound / turns_;
   double mean = 0;
   for (std::size_t i = 0; i < part_.size(); ++i)
@@ -75,7 +81,7 @@ void CrankCycle::follow_output(const MechanismData& data) {
 
 double CrankCycle::periodic_part(double phi, double output) const {
   if (phi_.empty()) return output;
-  const double end = phi_.back(), at = phi - end * std::floor(phi / end);
+  const double end = phi_.back(), at = arc_ ? within(phi) : phi - end * std::floor(phi / end);
   const auto next = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::upper_bound(phi_.begin(), phi_.end(), at) - phi_.begin()), 1, phi_.size() - 1);
   const double share = (at - phi_[next - 1]) / (phi_[next] - phi_[next - 1]);

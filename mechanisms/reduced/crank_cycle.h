@@ -2,9 +2,11 @@
 //
 // Most loops are closed after one turn. Links that pass through one line once a turn come back on the other side and
 // are closed after two. A link that carries the loads and goes round with the crank has an angle ψ that grows:
+// A crank that rocks has no cycle: what is asked of one beyond its arc is told of the arc's end.
 //     ψ(φ) = w φ + p(φ),   p with the cycle's period,   w = (turns of ψ)/(turns of φ) in a cycle
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mechanisms/reduced/mechanism_data.h"
@@ -18,9 +20,12 @@ class CrankCycle {
   // closed neither after one turn nor after two.
   explicit CrankCycle(const MechanismData& data);
 
-  int turns() const { return turns_; }         // of the crank
-  double angle() const;                        // of the crank in a cycle [rad]
-  double winding() const { return winding_; }  // w
+  int turns() const { return turns_; }                         // of the crank
+  double angle() const;                                        // of the crank in a cycle [rad]
+  double winding() const { return winding_; }                  // w
+  const std::optional<CrankArc>& arc() const { return arc_; }  // of a crank that rocks
+  // φ, or the end of the arc that it lies beyond.
+  double within(double phi) const;
   const std::vector<double>& change_points() const {
     return change_points_;
   }  // crank angles in a cycle, ascending [rad]
@@ -31,9 +36,10 @@ class CrankCycle {
   double unwound(double phi, double output) const { return periodic_part(phi, output) + winding_ * phi; }
 
  private:
-  void follow_output(const MechanismData& data);
+  void follow_output(const MechanismData& data, double from, double to);
   void find_change_points(const MechanismData& data);
 
+  std::optional<CrankArc> arc_;
   int turns_ = 1;
   double winding_ = 0;
   std::vector<double> change_points_;

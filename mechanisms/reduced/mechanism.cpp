@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "engine/model/network.h"
 #include "engine/scene/scene.h"
@@ -24,8 +25,11 @@ double reversal_between(const ReducedMechanism& reduced, double from, double to)
   return 0.5 * (from + to);
 }
 
+constexpr double degree = std::numbers::pi / 180;
+
 // "; change points at 90° and 270°; …" of a mechanism that has something to say of its cycle.
 std::string words_of(const CrankCycle& cycle) {
+  if (cycle.arc()) return "; its " + words_of(*cycle.arc());
   std::string text;
   for (const double phi : cycle.change_points())
     text += fmt::format("{}{:.6g}°", text.empty() ? "; passes change points at " : ", ", phi * 180 / std::numbers::pi);
@@ -37,11 +41,35 @@ std::string words_of(const CrankCycle& cycle) {
 
 }  // namespace
 
+std::string words_of(const CrankArc& arc) {
+  return fmt::format("crank rocks between φ = {:.4g}° and {:.4g}°, where coupler and rocker lie in one line",
+                     (arc.middle - arc.half) / degree, (arc.middle + arc.half) / degree);
+}
+
+std::string limit_reached(const Mechanism& mechanism, int end) {
+  const CrankArc& arc = *mechanism.arc();
+  return fmt::format(
+      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while they go on into the "
+      "other branch, and what is reduced to the crank has no bound; let a load, a spring or a brake turn it round "
+      "before, or let a link that turns fully be the crank",
+      mechanism.name, (arc.middle + end * arc.reach()) / degree, words_of(arc));
+}
+
+void require_on_arc(const Mechanism& mechanism, double phi) {
+  const CrankArc* arc = mechanism.arc();
+  if (!arc || std::abs(arc->near(phi) - arc->middle) < arc->reach()) return;
+  throw std::runtime_error(fmt::format("\"{}\" cannot stand at φ = {:.4g}°: its {}; give another start angle or phase",
+                                       mechanism.name, arc->near(phi) / degree, words_of(*arc)));
+}
+
 // I_r is least where the output stands still or near a sample.
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
   const int n = 1024 * reduced.cycle().turns();
-  const double cycle = reduced.cycle().angle(), shift = 0.37;  // no symmetric angle is a sample
-  const auto angle = [&](int i) { return cycle * (i + shift) / n; };
+  const auto& arc = reduced.cycle().arc();
+  const double from = arc ? arc->middle - arc->reach() : 0;
+  const double cycle = arc ? 2 * arc->reach() : reduced.cycle().angle(),
+               shift = 0.37;  // no symmetric angle is a sample
+  const auto angle = [&](int i) { return from + cycle * (i + shift) / n; };
   TravelOfTurn travel;
   travel.winding = reduced.cycle().winding();
   travel.least_inertia = travel.least = HUGE_VAL;
@@ -53,13 +81,15 @@ TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
     travel.least_inertia = std::min(travel.least_inertia, inertia);
   };
   travel.mean_inertia = reduced.mean(ReducedMechanism::inertia_channel);
+  if (arc) visit(from), visit(from + cycle);
   for (int i = 0; i < n; ++i) {
     visit(angle(i));
+    if (arc && i + 1 == n) break;
     const bool grows = reduced.output_velocity(angle(i)).value > 0;
     if (grows == (reduced.output_velocity(angle(i + 1)).value > 0)) continue;
     const double phi = reversal_between(reduced, angle(i), angle(i + 1));
     visit(phi);
-    travel.reversals.push_back(phi < cycle ? phi : phi - cycle);
+    travel.reversals.push_back(phi < from + cycle ? phi : phi - cycle);
   }
   std::sort(travel.reversals.begin(), travel.reversals.end());
   return travel;
@@ -126,6 +156,7 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
   }
   if (mechanism_.joint_friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
+  if (mechanism_.arc()) cycle = HUGE_VAL;          // it never comes round
   rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
   modes = 1 + static_cast<int>(loads.size()) + (mechanism_.joint_friction ? 3 : 0);
 }

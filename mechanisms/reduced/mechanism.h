@@ -54,6 +54,8 @@ struct Mechanism {
   // Of x′: half the stroke; what goes round does so like the crank; what stands still has none of its own.
   double output_scale() const { return travel.winding != 0 || stroke() == 0 ? 1 : 0.5 * stroke(); }
   double cycle() const { return reduced->cycle().angle(); }  // crank angle after which the links come back [rad]
+  // Of a crank that rocks; else null.
+  const CrankArc* arc() const { return reduced->cycle().arc() ? &*reduced->cycle().arc() : nullptr; }
 
   // The same with its tables, its travel and the ends that its loads count from taken from there.
   Mechanism extracted_from(Extraction from) const;
@@ -67,6 +69,13 @@ Network extracted_from(Network network, Extraction from);
 
 // Some mechanism works from tables; without, a second extraction would confirm nothing.
 bool has_tables(const Network& network);
+
+// "crank rocks between φ = 30° and 120°, where coupler and rocker lie in one line"
+std::string words_of(const CrankArc& arc);
+// Why a motion ends at an end of the arc, −1 or 1, and what to do.
+std::string limit_reached(const Mechanism& mechanism, int end);
+// Throws std::runtime_error where the crank cannot stand at this angle.
+void require_on_arc(const Mechanism& mechanism, double phi);
 
 class MechanismElement : public AnyShaftElement {
  public:
@@ -134,7 +143,7 @@ class MechanismPool final : public ReactingPool {
     std::size_t placed;
     int load;  // or the sign of x′, of β′, of what an edge of the guide bears
     int which;
-    static constexpr int travel = -1, rod = -2, edge = -3;
+    static constexpr int travel = -1, rod = -2, edge = -3, limit = -4;
   };
   // What acts at an angle: from the tables, or from the bodies.
   struct Reduced {

@@ -8,9 +8,12 @@
 //     PlanarLinkage linkage_of(const D&, long double phi);      its bodies and joints, with their series in φ
 //     LinkageDrawing drawing_of(const D&);                      how it is drawn, and whether its output rocks
 //     double D::gravity                                         [m/s²]
+// and, of one whose crank may be unable to turn,
+//     std::optional<CrankArc> arc_of(const D&);                 within which angles it rocks
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -38,6 +41,7 @@ class MechanismData {
   LinkageDrawing drawing() const { return held_->drawing(); }
   bool rocks() const { return rocks_; }  // the output is an angle
   double gravity() const { return held_->gravity(); }
+  std::optional<CrankArc> arc() const { return held_->arc(); }  // empty: the crank turns
 
  private:
   struct Held {
@@ -49,6 +53,7 @@ class MechanismData {
     virtual PlanarLinkage linkage(long double phi) const = 0;
     virtual LinkageDrawing drawing() const = 0;
     virtual double gravity() const = 0;
+    virtual std::optional<CrankArc> arc() const = 0;
   };
   template <class D>
   struct Of final : Held {
@@ -61,6 +66,12 @@ class MechanismData {
     PlanarLinkage linkage(long double phi) const override { return linkage_of(data, phi); }
     LinkageDrawing drawing() const override { return drawing_of(data); }
     double gravity() const override { return data.gravity; }
+    std::optional<CrankArc> arc() const override {
+      if constexpr (requires { arc_of(data); })
+        return arc_of(data);
+      else
+        return {};
+    }
   };
 
   bool rocks_;

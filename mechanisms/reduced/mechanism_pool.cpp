@@ -1,6 +1,7 @@
 // mechanism_pool.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engine/equations/jam.h"
 #include "mechanisms/reduced/closed_forms.h"
@@ -33,6 +34,8 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   for (const SliderLoad& load : placed.mechanism.loads)
     placed.watches_travel = placed.watches_travel || load.depends_on_travel();
   const std::size_t index = placed_.size();
+  if (placed.mechanism.arc())
+    for (const int end : {-1, 1}) owners_.push_back({index, GuardOwner::limit, end});
   if (placed.watches_travel) owners_.push_back({index, GuardOwner::travel, 0});
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
     if (placed.mechanism.loads[k].has_pieces())
@@ -60,7 +63,8 @@ SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, s
 MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
   const Mechanism& m = p.mechanism;
   if (m.in_the_loop) {
-    const ReducedSample s = m.extraction == Extraction::first ? m.bodies->sample(phi) : closed_sample(m.data, phi);
+    const double there = m.reduced->cycle().within(phi);
+    const ReducedSample s = m.extraction == Extraction::first ? m.bodies->sample(there) : closed_sample(m.data, there);
     const bool mean = m.mean_inertia;
     return {mean ? m.travel.mean_inertia : s.inertia, mean ? 0 : s.inertia_slope,
             m.reduced->cycle().unwound(phi, s.output_position), s.output_velocity_ratio, s.gravity_torque};
@@ -256,6 +260,11 @@ void MechanismPool::guards(const Instant& now, double* g) const {
       g[i] = 1;  // find_sides()
       continue;
     }
+    if (owner.load == GuardOwner::limit) {
+      const CrankArc& arc = *p.mechanism.arc();
+      g[i] = arc.reach() - owner.which * (arc.near(angle_of(p.at, now)) - arc.middle);
+      continue;
+    }
     if (owner.load == GuardOwner::travel) {
       const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
       g[i] = now.mode[p.at.mode] * ratio / p.output_scale;
@@ -275,6 +284,7 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
     mode[p.at.mode + 1 + owner.load] = p.mechanism.loads[load].next_piece(slider(p, now, load), owner.which);
     return;
   }
+  if (owner.load == GuardOwner::limit) throw std::runtime_error(limit_reached(p.mechanism, owner.which));
   if (owner.load == GuardOwner::rod) {
     mode[rod_mode(p)] = -mode[rod_mode(p)];
     return;
@@ -298,6 +308,7 @@ GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   const Placed& p = placed_[owner.placed];
   if (owner.load == GuardOwner::rod || owner.load == GuardOwner::edge) return {p.mechanism.name, {}};
+  if (owner.load == GuardOwner::limit) return {p.mechanism.name, "end of the crank's arc"};
   if (owner.load == GuardOwner::travel)
     return {p.mechanism.name, name_of_reversal(p.mechanism, now.mode[p.at.mode] * p.at.direction(now) > 0)};
   const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
@@ -312,6 +323,7 @@ void MechanismPool::set_timed_modes(double /*t*/, int* /*mode*/, char* active) c
 
 void MechanismPool::first_modes(const Instant& now, int* mode) const {
   for (const Placed& p : placed_) {
+    require_on_arc(p.mechanism, angle_of(p.at, now));
     const auto here = p.mechanism.reduced->at(angle_of(p.at, now));
     double ratio = here.output_position().slope;
     // On a dead centre the sign is that of the motion to come.
@@ -397,8 +409,9 @@ double MechanismPool::kinetic_energy_of_bodies(const Instant& now) const {
   double sum = 0;
   for (const Placed& p : placed_) {
     const double omega = p.at.gain * now.speed[p.at.shaft];
-    sum += p.mechanism.mean_inertia ? 0.5 * p.mechanism.travel.mean_inertia * omega * omega
-                                    : p.mechanism.bodies->kinetic_energy(angle_of(p.at, now), omega);
+    sum += p.mechanism.mean_inertia
+               ? 0.5 * p.mechanism.travel.mean_inertia * omega * omega
+               : p.mechanism.bodies->kinetic_energy(p.mechanism.reduced->cycle().within(angle_of(p.at, now)), omega);
   }
   return sum;
 }

@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -21,6 +22,11 @@ namespace kurbel {
 
 namespace {
 
+// The crank angle of a place in the table, 0 … 2π.
+double place_of(const CrankCycle& cycle, double part) {
+  return cycle.arc() ? cycle.arc()->middle + cycle.arc()->reach() * std::cos(part) : cycle.turns() * part;
+}
+
 std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& noise) {
   using enum ErrorScale;
   return {{"inertia", own_value, 10 * noise.inertia},
@@ -31,6 +37,22 @@ std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& nois
           {"output_acceleration_ratio", own_maximum, noise.output},
           {"gravity_torque", own_maximum, noise.gravity_torque},
           {"gravity_torque_slope", own_maximum, noise.gravity_torque}};
+}
+
+// On an arc the channels grow by orders towards the ends: each counts by itself, and where it passes zero by what it is
+// usually, which the inertia in the middle, the arc and the output tell.
+std::vector<ChannelSpec> arc_specs(const ReducedSample& middle, const CrankArc& arc) {
+  using enum ErrorScale;
+  const double inertia = middle.inertia / arc.half;
+  const double ratio = std::max(std::abs(middle.output_velocity_ratio), 0.1), weight = middle.gravity_torque_scale;
+  return {{"inertia", own_value, 0},
+          {"inertia_slope", own_value, inertia},
+          {"inertia_curvature", own_value, inertia / arc.half},
+          {"output_position", own_value, 1},
+          {"output_velocity_ratio", own_value, ratio},
+          {"output_acceleration_ratio", own_value, ratio / arc.half},
+          {"gravity_torque", own_value, weight},
+          {"gravity_torque_slope", own_value, weight / arc.half}};
 }
 
 void write_channels(const ReducedSample& sample, std::span<double> values) {
@@ -50,10 +72,11 @@ void write_channels(const ReducedSample& sample, std::span<double> values) {
 ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler,
                                            const CrankCycle& cycle) {
   constexpr int n = 16;
-  const double part = cycle.change_points().empty() ? 1e-4 : 0.1;  // beside those derivatives have fewer digits
+  const double part =
+      cycle.change_points().empty() && !cycle.arc() ? 1e-4 : 0.1;  // beside those derivatives have fewer digits
   ReducedMechanism::NoiseScales noise;
   for (int i = 0; i < n; ++i) {
-    const ReducedSample sample = sampler(cycle.angle() * (i + 0.5) / n);
+    const ReducedSample sample = sampler(place_of(cycle, 2 * std::numbers::pi * (i + 0.5) / n));
     noise.inertia += part * sample.inertia / n;
     noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
     noise.output += part * std::abs(sample.output_velocity_ratio) / n;
@@ -132,16 +155,23 @@ ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)
                                    double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut,
                                    CrankCycle cycle)
     : cycle_(std::move(cycle)),
+      rocks_(cycle_.arc().has_value()),
       part_(1.0 / cycle_.turns()),
       winding_(cycle_.winding()),
       table_(PeriodicTable::build(
           [&](double part, std::span<double> values) {
-            const double phi = cycle_.turns() * part;
+            const double phi = place_of(cycle_, part);
             write_channels(sampler(phi), values);
             double& output = values[output_position_channel];
             output = cycle_.periodic_part(phi, output);
           },
-          channel_specs(noise), tolerance, max_pieces, cut)) {}
+          rocks_ ? arc_specs(sampler(cycle_.arc()->middle), *cycle_.arc()) : channel_specs(noise), tolerance,
+          max_pieces, cut)) {}
+
+double ReducedMechanism::on_arc(double phi) const {
+  const CrankArc& arc = *cycle_.arc();
+  return std::acos(std::clamp((arc.near(phi) - arc.middle) / arc.reach(), -1.0, 1.0));
+}
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {

@@ -1,6 +1,8 @@
 // reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody,
 // or, for runs that confirm others, from the loop equations in closed form.
 //
+// Of a crank that rocks the tables are over σ with φ = middle + reach · cos σ: there is no seam at the ends of its arc.
+//
 // Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
 // digits.
 //     M_d − M_c = I_r ε + ½ ω² I_r′ (theory 2.4)        power of a force F on the output: F x′ ω
@@ -68,7 +70,7 @@ class ReducedMechanism {
   ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
                    std::size_t max_pieces, const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {});
 
-  At at(double phi) const { return At(table_, part_, winding_, phi); }
+  At at(double phi) const { return rocks_ ? At(table_, 1, 0, on_arc(phi)) : At(table_, part_, winding_, phi); }
   const CrankCycle& cycle() const { return cycle_; }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
   ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
@@ -76,15 +78,19 @@ class ReducedMechanism {
   ValueAndSlope<double> output_velocity(double phi) const { return at(phi).output_velocity(); }
   ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
 
-  double mean(Channel channel) const { return table_.mean(channel); }
+  // Over a cycle; of a crank that rocks the value in the middle of its arc.
+  double mean(Channel channel) const { return rocks_ ? at(cycle_.arc()->middle).value(channel) : table_.mean(channel); }
 
   // Pieces, samples and the measured error of every channel.
   const TableReport& report() const { return table_.report(); }
 
  private:
+  double on_arc(double phi) const;  // σ
+
   CrankCycle cycle_;
+  bool rocks_;
   double part_, winding_;
-  PeriodicTable table_;  // over part_ · φ
+  PeriodicTable table_;  // over part_ · φ, or σ
 };
 
 // Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what

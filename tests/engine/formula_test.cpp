@@ -197,6 +197,42 @@ TEST(Formula, ValuesAndSlopesOfAHundredRandomOnesAreThoseOfArithmeticAndOfDiffer
   EXPECT_GT(kinks, 30);
 }
 
+// Of functions of several values: against the C library and its derivatives, on a curve all round the origin.
+TEST(Formula, DirectionAndLengthOfAPointAreThoseOfTheLibrary) {
+  // (x, y) = (cos u + 0.3, 1.2 sin u − 0.1) goes round the origin.
+  const std::string px = "(cos(x) + 0.3)", py = "(1.2*sin(x) - 0.1)";
+  const Curve direction = curve_of(fmt::format("atan2({}, {})/1 [rad]", py, px), -2.9, 4.5);
+  const Curve length = curve_of(fmt::format("hypot({}, {})", px, py), -2.9, 4.5);
+  EXPECT_TRUE(direction.jumps());
+  for (double u = -2.87; u < 4.5; u += 0.0713) {
+    const long double a = std::cos(static_cast<long double>(u)) + 0.3L,
+                      b = 1.2L * std::sin(static_cast<long double>(u)) - 0.1L;
+    const long double a1 = -std::sin(static_cast<long double>(u)), b1 = 1.2L * std::cos(static_cast<long double>(u));
+    const Dual<3> w = direction.value(Dual<3>::input(u, 1)), r = length.value(Dual<3>::input(u, 1));
+    EXPECT_NEAR(w.value, static_cast<double>(std::atan2(b, a)), 1e-14) << u;
+    EXPECT_NEAR(w.d[1], static_cast<double>((a * b1 - b * a1) / (a * a + b * b)), 1e-13) << u;
+    EXPECT_NEAR(r.value, static_cast<double>(std::hypot(a, b)), 1e-14) << u;
+    EXPECT_NEAR(r.d[1], static_cast<double>((a * a1 + b * b1) / std::hypot(a, b)), 1e-13) << u;
+  }
+  for (const double y : {-2.0, -0.0, 0.0, 1.0})
+    for (const double x : {-3.0, -1.0, 0.0, 2.0})
+      if (x != 0 || y != 0) {
+        const std::string text = fmt::format("atan2({}, {})/1 [rad] + 0*x", y, x);
+        EXPECT_NEAR(curve_of(text, 0, 1).value(0.5), std::atan2(y == 0 ? 0.0 : y, x), 1e-15) << text;
+      }
+  EXPECT_NE(fault_of("atan2(0, 0)/1 [rad] + x", 0, 1).find("division by 0"), std::string::npos);
+}
+
+TEST(Formula, ClampHoldsBetweenItsEnds) {
+  const Curve c = curve_of("clamp(x^3, -1, 8)", -3, 3);
+  ASSERT_EQ(c.x().size(), 4u);
+  EXPECT_NEAR(c.x()[1], -1, 1e-15);
+  EXPECT_NEAR(c.x()[2], 2, 1e-15);
+  EXPECT_EQ(c.value(-2.0), -1);
+  EXPECT_EQ(c.value(1.5), 3.375);
+  EXPECT_EQ(c.value(2.5), 8);
+}
+
 TEST(Formula, KinksAndJumpsAreFoundToTheLastDigit) {
   const Curve rectified = curve_of("abs(sin(x))", 1, 10);
   ASSERT_EQ(rectified.x().size(), 5u);
@@ -326,6 +362,10 @@ const Wrong wrong_ones[] = {
     {"log(2 [1/s])", 4, "must be of a plain number"},
     {"atan(1 rad)", 5, "must be of a plain number"},
     {"max(x, s0)", 7, "cannot compare a plain number and a length"},
+    {"atan2(x)", 0, "atan2 of 1 value; must be two: y, x"},
+    {"hypot(x, s0)", 9, "cannot compare a plain number and a length"},
+    {"clamp(x, 1)", 0, "must be three: what, least, greatest"},
+    {"clamp(x, 2, 1)", 0, "must not exceed the greatest"},
     {"if(x, 1, 2)", 4, "expected a comparison"},
     {"if(x < s0, 1, 2)", 5, "cannot compare"},
     {"if(x < 1, 2)", 11, "expected a comma"},
