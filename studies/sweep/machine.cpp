@@ -147,7 +147,7 @@ const Scene& VariedScene::at(const std::vector<double>& values) {
 
 namespace {
 
-struct Answer {
+struct RowAnswer {
   RowState state = RowState::done;
   std::string diagnosis;
   std::vector<Figure> figures;
@@ -160,7 +160,7 @@ Figure plain(std::string name, double value, std::string unit, std::optional<dou
   return figure;
 }
 
-Answer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
+RowAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
   SimulateOptions options;
   options.measure_error = measure;
   options.watch.interrupted = q.interrupted;
@@ -171,7 +171,7 @@ Answer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure)
           result.unconfirmed() ? result.accuracy_in_words() : "", std::move(result.figures)};
 }
 
-Answer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
+RowAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
   SteadyOptions options;
   options.start_search = false;
   options.watch.interrupted = q.interrupted;
@@ -179,20 +179,20 @@ Answer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measu
   if (study.cycles.empty()) return {RowState::failed, study.diagnosis, {}};
   const SteadyCycle& cycle = study.cycles.front();
   if (!cycle.found) return {RowState::failed, cycle.why.empty() ? study.diagnosis : cycle.why, {}};
-  Answer answer{RowState::done, "", cycle.figures};
+  RowAnswer answer{RowState::done, "", cycle.figures};
   if (!measure)
     for (Figure& f : answer.figures) f.error.reset();
   return answer;
 }
 
-Answer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
+RowAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   ModesOptions options;
   options.watch.interrupted = q.interrupted;
   Effects effects = scene.effects;
   if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
   const ModesStudy study = find_modes(scene, effects, options);
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
-  Answer answer;
+  RowAnswer answer;
   for (const Mode& mode : study.modes) {
     const std::string number = std::to_string(mode.number);
     answer.figures.push_back(plain("natural_frequency." + number, mode.natural() / (2 * std::numbers::pi), "Hz",
@@ -202,14 +202,14 @@ Answer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   return answer;
 }
 
-Answer answer_of_size(const MachineQuestion& q, const Scene& scene) {
+RowAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
   SizeOptions options;
   options.delta = q.delta;
   options.simulate = false;
   options.simulation.watch.interrupted = q.interrupted;
   const Sizing sizing = size_flywheel(scene, options);
   if (!sizing.complete) return {RowState::failed, sizing.diagnosis, {}};
-  Answer answer;
+  RowAnswer answer;
   for (const KeyFigure& f : findings_of(sizing).figures)
     if (!f.means.empty() && f.means != "delta_reached")
       answer.figures.push_back(plain(f.means, f.value, f.unit, f.error));
@@ -217,9 +217,9 @@ Answer answer_of_size(const MachineQuestion& q, const Scene& scene) {
 }
 
 // What a variant cannot do is the row's own failure, and no end of the sweep.
-Answer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values, bool measure) {
+RowAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values, bool measure) {
   const auto stopped = [&] { return q.interrupted && q.interrupted->load(); };
-  Answer answer;
+  RowAnswer answer;
   try {
     const Deadline deadline(HUGE_VAL, q.interrupted);
     const Scene& scene = varied.at(values);
@@ -259,7 +259,7 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
     if (std::none_of(known.begin(), known.end(), [&](const SweptFigure& f) { return f.name == name; }))
       known.push_back({name, unit});
   };
-  const Answer answer = answer_of(question, scene, {}, false);
+  const RowAnswer answer = answer_of(question, scene, {}, false);
   if (answer.interrupted) throw OutOfTime(0);
   for (const Figure& f : answer.figures) add(f.name, f.unit);
   if (question.of == SweepStudy::run) {
@@ -296,7 +296,7 @@ Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& 
   for (std::size_t k = 0; k < figures.size(); ++k) numbers[figures[k].name] = k;
   return [question, numbers, varied = scene](SweepRow& row) mutable {
     const bool measure = question.errors_every > 0 && row.row % question.errors_every == 0;
-    Answer answer = answer_of(question, varied, row.parameters, measure);
+    RowAnswer answer = answer_of(question, varied, row.parameters, measure);
     if (answer.interrupted) return false;
     row.state = answer.state;
     row.diagnosis = std::move(answer.diagnosis);

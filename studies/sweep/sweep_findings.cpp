@@ -266,7 +266,7 @@ std::string conclusion_of(const SweepStudyResult& s) {
                         s.identity.parameters[most.parameter].path, percent(std::clamp(most.first.value, 0.0, 1.0)));
     break;
   }
-  return text + ".";
+  return text;
 }
 
 std::string csv_text(const SweepStudyResult& s) {
@@ -328,10 +328,10 @@ Findings findings_of(const SweepStudyResult& s) {
   Findings f{.title = meta_of(s.identity, "title"),
              .subtitle = fmt::format("Sweep of {} by {}", meta_of(s.identity, "of"), meta_of(s.identity, "design")),
              .scene_file = meta_of(s.identity, "scene file"),
-             .conclusion = conclusion_of(s),
              .complete = !s.interrupted && s.rows.size() >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
+  f.answer(Question::figures, conclusion_of(s));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
       f.figures.push_back(
