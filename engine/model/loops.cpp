@@ -139,7 +139,9 @@ void check_rigid_loops(Compilation& c, const Merging& merging) {
     throw SceneError(
         {{c.messages.file(), place_of_loop(c),
           "a closed loop of shafts with a gear that has losses, or a planetary gear, is rigid all round: how it "
-          "shares its torque is not determined; let a shaft or a coupling of the loop be elastic"}});
+          "shares its torque is not determined, for friction in its teeth keeps whatever share it was loaded with; let "
+          "a shaft or a coupling of the loop be elastic, or leave the losses of its gears out (--effects none; "
+          "kurbel compare --against none)"}});
   if (rigid + at(merging.groups) == net.nodes.size()) return;
   std::vector<LoadLink> links;
   std::vector<const Network::Joint*> joints;

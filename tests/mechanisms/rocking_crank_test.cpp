@@ -233,6 +233,40 @@ TEST(RockingCrank, HasNoCycleAndNoPlaceBeyondItsArc) {
   }
 }
 
+// Chrono's joint test Revolute_Case01 (ADAMS; tests/cases/mb05_adams_pendulum.toml) as a crank that rocks: it falls from
+// the horizontal with ω² = 2 m g h/I at the bottom, and its period is 4 √(I/(m g h)) K(sin 45°).
+TEST(RockingCrank, PendulumOfMb05HasThePeriodOfItsEllipticIntegral) {
+  const double m = 1, h = 2, g = 9.80665, inertia = 0.1 + m * h * h;
+  const double period = 4 * std::sqrt(inertia / (m * g * h)) * 1.8540746773013719;
+  const auto scene = [&](double until) {
+    return fmt::format(R"(
+line = ["pendulum"]
+[pendulum]
+kind = "four-bar"
+crank = "3 m"
+coupler = "10 m"
+rocker = "7.5 m"
+ground = "15 m"
+crank_mass = "{} kg"
+crank_com = "{} m"
+crank_inertia = "{} kg*m2"
+gravity = "{} m/s2"
+ground_angle = "-90 deg"
+[run]
+start = {{ angle = "90 deg", speed = "0 rpm" }}
+until = "{} s"
+accuracy = 1e-10
+)",
+                       m, h, inertia, g, until);
+  };
+  const Result bottom = run(scene(period / 4)), whole = run(scene(period));
+  ASSERT_TRUE(bottom.complete && whole.complete) << bottom.diagnosis << whole.diagnosis;
+  EXPECT_NEAR(figure(bottom, "final_angle.pendulum"), 0, 1e-8);
+  EXPECT_NEAR(figure(bottom, "final_speed.pendulum"), -std::sqrt(2 * m * g * h / inertia), 1e-8);
+  EXPECT_NEAR(figure(whole, "final_angle.pendulum"), pi / 2, 1e-8);
+  EXPECT_NEAR(figure(whole, "final_speed.pendulum"), 0, 1e-7);
+}
+
 // The crossed branch is the mirror image of the open one.
 TEST(RockingCrank, MirroredLinkageMakesTheMirroredMotion) {
   const FourBarData d = data_of(outside);
