@@ -1,4 +1,5 @@
-// sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one.
+// sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one;
+// kurbel uncertainty: what tolerances make of the figures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "studies/files/whole_file.h"
 #include "studies/sweep/machine.h"
 #include "studies/sweep/sweep_findings.h"
+#include "studies/uncertainty/uncertainty.h"
 
 namespace kurbel::app {
 namespace {
@@ -28,14 +30,6 @@ struct SweepArguments {
   int jobs = 0;
   std::uint64_t seed = 1;
 };
-
-SweepStudy study_named(const std::string& of) {
-  if (of == "run") return SweepStudy::run;
-  if (of == "steady") return SweepStudy::steady;
-  if (of == "modes") return SweepStudy::modes;
-  if (of == "size") return SweepStudy::size;
-  throw std::invalid_argument(fmt::format("--of {}: must be run, steady, modes or size", in_quotes(of)));
-}
 
 std::size_t errors_every(const std::string& errors) {
   if (errors == "measure") return 1;
@@ -234,6 +228,60 @@ const Verb merge_verb{{.place = 114,
                                "and that no row has two results",
                        .set_up = set_up_merge,
                        .of_scene = false}};
+
+struct UncertaintyArguments {
+  StudyOptions study;
+  UncertaintyOptions options;
+  std::string of = "run";
+  bool no_error = false;
+};
+
+int uncertainty(UncertaintyArguments a) {
+  MachineQuestion question;
+  question.of = study_named(a.of);
+  question.text = read_text_file(a.study.scene, max_scene_bytes);
+  question.file = a.study.scene;
+  question.settings = a.study.set;
+  question.allowed = a.study.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
+  question.errors_every = a.no_error ? 0 : 1;
+  question.interrupted = &interrupted();
+  read(a.study);  // what is wrong with it is told in its place
+  check_folder(a.study);
+  Progress progress(a.study.quiet);
+  a.options.watch = watch_of(a.study, progress);
+  if (a.options.jobs == 0) a.options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return present(output_of(study_uncertainty(question, a.options)), a.study);
+}
+
+void set_up_uncertainty(CLI::App& command, int& code) {
+  const auto a = std::make_shared<UncertaintyArguments>();
+  a->options.jobs = 0;
+  add_study_options(command, a->study);
+  command
+      .add_option("--figures", a->options.figures,
+                  "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)")
+      ->delimiter(',');
+  command.add_option("--limit", a->options.limits, "\"delta.press <= 0.05\": how surely it holds; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--of", a->of, "run (default), steady, modes or size");
+  command.add_option("--samples", a->options.samples, "machines drawn from the tolerances (default: 500)");
+  command.add_option("--seed", a->options.seed, "of what is drawn (default: 1)");
+  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)")->check(CLI::Range(1, 1024));
+  command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: none is undecided then");
+  command.add_flag("!--no-trials", a->options.biases, "skip the runs that try, one by one, the effects that are off");
+  command.callback([&code, a] { code = uncertainty(*a); });
+}
+
+const Verb uncertainty_verb{
+    {.place = 116,
+     .name = "uncertainty",
+     .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
+     .help = "what the tolerances of a scene make of its figures, and which of them matters",
+     .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 "
+             "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
+             "surely limits hold; which tolerance matters; numerical errors and known biases apart",
+     .set_up = set_up_uncertainty}};
 
 }  // namespace
 }  // namespace kurbel::app

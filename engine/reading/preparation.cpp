@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/reading/scene_reading.h"
+#include "engine/reading/tolerances.h"
 #include "engine/values/formula_reader.h"
 #include "engine/values/quantity_reader.h"
 
@@ -80,6 +81,7 @@ class Preparation {
   // Depth is bounded by the document's.
   void prepare(DocumentValue& value, bool is_tables) {
     if (value.type == Type::text && value.text.starts_with('=')) return compute(value);
+    if (has_tolerance(value)) return take_value(value);
     if (value.type == Type::table && !is_tables) {
       use(value);
       if (value.find("formula") || value.find("return_formula")) value.constants = shared_;
@@ -88,6 +90,19 @@ class Preparation {
       // A curve's own formula has a variable; who reads it knows which.
       if (entry.key != "formula" && entry.key != "return_formula") prepare(entry.value, false);
     for (DocumentValue& item : value.items) prepare(item, false);
+  }
+
+  // A run computes with the value that a tolerance is about.
+  void take_value(DocumentValue& table) {
+    const std::size_t faults = r_.messages.all().size();
+    for (DocumentEntry& entry : table.entries) prepare(entry.value, false);
+    read_tolerance(table, "value with a tolerance", r_.messages);
+    if (r_.messages.all().size() > faults) {
+      table.computed = std::make_shared<const Computed>(Computed{.quantity = {}, .faulty = true});
+      return;
+    }
+    DocumentValue value = table.find("value")->value;
+    table = std::move(value);
   }
 
   // `use = "table.gas"`: its keys, where the using table does not give them itself.

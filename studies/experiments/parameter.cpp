@@ -94,6 +94,7 @@ void read_list(SweptParameter& p, std::string_view value) {
 }  // namespace
 
 double SweptParameter::at_share(double u) const {
+  if (quantile) return quantile(u);
   if (!is_list()) return low + u * (high - low);
   const auto count = static_cast<double>(values.size());
   return values[static_cast<std::size_t>(std::min(std::floor(u * count), count - 1))];

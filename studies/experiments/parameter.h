@@ -5,6 +5,7 @@
 //     press.load.kind=press,none                     a list of words
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +13,13 @@
 namespace kurbel {
 
 struct SweptParameter {
-  std::string path;                     // "main_coupling.stiffness"
-  std::string unit = {};                // as it was given: "kN*m/rad"; empty: a plain number, or words
-  double low = 0, high = 0;             // of a range, in that unit
-  std::vector<double> values = {};      // of a list, in that unit; of words their numbers 0, 1, …
-  std::vector<std::string> words = {};  // of a list of words
-  std::string given = {};               // as it was written
+  std::string path;                             // "main_coupling.stiffness"
+  std::string unit = {};                        // as it was given: "kN*m/rad"; empty: a plain number, or words
+  double low = 0, high = 0;                     // of a range, in that unit
+  std::vector<double> values = {};              // of a list, in that unit; of words their numbers 0, 1, …
+  std::vector<std::string> words = {};          // of a list of words
+  std::string given = {};                       // as it was written
+  std::function<double(double)> quantile = {};  // in place of a range or list: the value at a share of the probability
 
   bool is_list() const { return !values.empty(); }
   // At a share 0 ≤ u < 1 of the range, or of the list's length; in the unit.

@@ -42,12 +42,31 @@ Json given_quantity() {
   return {{"anyOf", {{{"type", "string"}, {"pattern", number_with_unit}}, {{"type", "string"}, {"pattern", "^="}}}}};
 }
 
+// { value = "900 kN*m/rad", tolerance = "10 %", distribution = "normal", k = 2 }
+Json with_tolerance() {
+  const Json given = {{"type", {"string", "number"}}};
+  return table_of({{"value", given},
+                   {"tolerance", given},
+                   {"from", given},
+                   {"to", given},
+                   {"distribution", {{"enum", {"normal", "uniform", "triangular"}}}},
+                   {"k", {{"type", "number"}, {"exclusiveMinimum", 0}}}},
+                  {"value"});
+}
+
 Json quantity(const std::string& unit, const Domain& domain) {
-  if (!unit.empty()) return given_quantity();
+  if (!unit.empty()) {
+    Json given = given_quantity();
+    given["anyOf"].push_back(reference("with_tolerance"));
+    return given;
+  }
   Json number = {{"type", "number"}};
   bound(number, domain);
   return {{"anyOf",
-           {number, {{"type", "string"}, {"pattern", number_or_percent}}, {{"type", "string"}, {"pattern", "^="}}}}};
+           {number,
+            {{"type", "string"}, {"pattern", number_or_percent}},
+            {{"type", "string"}, {"pattern", "^="}},
+            reference("with_tolerance")}}};
 }
 
 // use = "table.gas"
@@ -210,6 +229,7 @@ std::string scene_schema() {
   const Json branch = table_of({{"from", from}, {"line", names}, {"to", to}}, {"from", "line"});
 
   Json definitions = Json::object(), kinds = Json::array();
+  definitions["with_tolerance"] = with_tolerance();
   for (const Kind& kind : all_kinds()) {
     definitions[kind.name] = kind_schema(kind, true);
     kinds.push_back(reference(kind.name));

@@ -20,27 +20,36 @@
 namespace kurbel {
 namespace {
 
-// The setting of a component's key that holds one quantity, or of one in a table within it; null: it is none such.
-Setting* quantity_at(std::vector<Section>& sections, const std::string& path) {
+struct QuantityPlace {
+  const Setting* setting = nullptr;  // null: the path leads to none
+  const Key* key = nullptr;
+};
+
+// The setting of a component's key that holds one quantity, or of one in a table within it.
+QuantityPlace place_of(const std::vector<Section>& sections, const std::string& path) {
   const std::size_t dot = path.find('.');
-  if (dot == std::string::npos) return nullptr;
+  if (dot == std::string::npos) return {};
   const auto section =
       std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == path.substr(0, dot); });
-  if (section == sections.end()) return nullptr;
-  Section* in = &*section;
+  if (section == sections.end()) return {};
+  const Section* in = &*section;
   for (std::size_t begin = dot + 1;;) {
     const std::size_t end = path.find('.', begin);
-    Setting* const setting = const_cast<Setting*>(in->find(path.substr(begin, end - begin)));
-    if (!setting || !setting->given) return nullptr;
+    const Setting* const setting = in->find(path.substr(begin, end - begin));
+    if (!setting || !setting->given) return {};
     if (end == std::string::npos) {
       const auto key = std::find_if(in->kind->keys.begin(), in->kind->keys.end(),
                                     [&](const Key& k) { return k.name == setting->key; });
-      return key != in->kind->keys.end() && key->type == KeyType::quantity ? setting : nullptr;
+      if (key == in->kind->keys.end() || key->type != KeyType::quantity) return {};
+      return {setting, &*key};
     }
-    if (setting->sections.size() != 1) return nullptr;
+    if (setting->sections.size() != 1) return {};
     in = &setting->sections[0];
     begin = end + 1;
   }
+}
+Setting* quantity_at(std::vector<Section>& sections, const std::string& path) {
+  return const_cast<Setting*>(place_of(sections, path).setting);  // of these sections, which are the caller's own
 }
 
 // In SI by its unit alone. Where the reader takes it otherwise ("60 1/min" as a speed), the check against reading finds
@@ -70,6 +79,14 @@ bool same_machine(const Scene& a, const Scene& b) {
 }
 
 }  // namespace
+
+SweepStudy study_named(const std::string& of) {
+  if (of == "run") return SweepStudy::run;
+  if (of == "steady") return SweepStudy::steady;
+  if (of == "modes") return SweepStudy::modes;
+  if (of == "size") return SweepStudy::size;
+  throw std::invalid_argument(fmt::format("--of {}: must be run, steady, modes or size", in_quotes(of)));
+}
 
 VariedScene::VariedScene(const MachineQuestion& question, const std::vector<SweptParameter>& parameters)
     : question_(question), parameters_(parameters), scene_(read_with(question.settings)) {
@@ -251,6 +268,8 @@ RowAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::ve
 }
 
 }  // namespace
+
+const Key* quantity_key(const Scene& scene, const std::string& path) { return place_of(scene.components, path).key; }
 
 std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
   VariedScene scene(question, {});

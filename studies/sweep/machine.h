@@ -14,6 +14,8 @@
 namespace kurbel {
 
 enum class SweepStudy { run, steady, modes, size };
+// Throws std::invalid_argument for another name.
+SweepStudy study_named(const std::string& of);
 
 struct MachineQuestion {
   std::string text, file;             // of the scene
@@ -50,6 +52,9 @@ class VariedScene {
   std::vector<bool> in_place_;
   bool all_in_place_ = true;
 };
+
+// The key of a component that a path leads to, if it holds one quantity; null: it is none such.
+const Key* quantity_key(const Scene& scene, const std::string& path);
 
 // Names and units of what the study yields for the scene as it is; of run also what other variants may yield.
 std::vector<SweptFigure> figures_of(const MachineQuestion& question);

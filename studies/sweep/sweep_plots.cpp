@@ -73,13 +73,16 @@ void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pai
   }
   // The mean along the parameter: of equally many rows each.
   Series mean{.name = "mean along the parameter", .role = Role::elastic, .x = {}, .y = {}, .points = true};
-  const std::size_t bins = std::clamp<std::size_t>(points.size() / 12, 2, 20);
-  for (std::size_t b = 0; b < bins; ++b) {
-    const std::size_t from = b * points.size() / bins, to = (b + 1) * points.size() / bins;
+  // Of each value, where there are few; else of equally many rows each.
+  std::size_t different = 1;
+  for (std::size_t i = 1; i < points.size(); ++i) different += points[i].second != points[i - 1].second;
+  const std::size_t least = 2 * different <= points.size() ? 1 : std::max<std::size_t>(points.size() / 20, 1);
+  for (std::size_t from = 0, to = 0; from < points.size(); from = to) {
+    to = std::min(from + least, points.size());
+    while (to < points.size() && points[to].second == points[to - 1].second) ++to;
     double x = 0, y = 0;
-    for (std::size_t i = from; i < to; ++i)
-      x += points[i].second / static_cast<double>(to - from), y += cloud.y[i] / static_cast<double>(to - from);
-    if (to > from) mean.x.push_back(x), mean.y.push_back(y);
+    for (std::size_t i = from; i < to; ++i) x += points[i].second, y += cloud.y[i];
+    mean.x.push_back(x / static_cast<double>(to - from)), mean.y.push_back(y / static_cast<double>(to - from));
   }
   plot.series = {std::move(cloud), std::move(mean)};
 }

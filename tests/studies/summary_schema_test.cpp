@@ -15,6 +15,8 @@
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady_findings.h"
+#include "studies/sweep/sweep_findings.h"
+#include "studies/uncertainty/uncertainty.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
@@ -153,6 +155,33 @@ TEST(SummarySchema, IsNotMetByWhatIsElse) {
   EXPECT_EQ(misfit(rule, less, ""), "/unit is missing");
   EXPECT_EQ(misfit(rule, more, ""), "/colour is not in the schema");
   EXPECT_NE(misfit(rule, other, ""), "");
+}
+
+// Their figures are those of the study that they ask, and are explained there.
+TEST(SummarySchema, HoldsForSweepsAndTolerances) {
+  SweepStudyResult sweep;
+  sweep.identity.meta = {
+      {"title", "Two masses"}, {"scene file", "two.toml"}, {"of", "run"}, {"design", "random:20"}, {"seed", "1"}};
+  sweep.identity.parameters = {parse_parameter("a.b=1..2 m")};
+  sweep.identity.figures = {{"peak_torque.c", "N*m"}};
+  for (std::size_t i = 0; i < 20; ++i)
+    sweep.rows.push_back({.row = i,
+                          .parameters = {1.0 + 0.05 * static_cast<double>(i)},
+                          .figures = {{0, 3.0 * static_cast<double>(i)}}});
+  sweep.rows[3].state = RowState::failed, sweep.rows[3].diagnosis = "it stops";
+  sweep.limits = {{.figure = 0, .value = 30, .given = "peak_torque.c <= 30 N*m"}};
+  sweep.influences = {influence_on(0, sweep.identity, sweep.rows, false)};
+  EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(summary_json(findings_of(sweep))), "sweep"), "");
+
+  MachineQuestion question;
+  question.text = test::scene_file("scenes/crank_press.toml").text;
+  question.file = "press.toml";
+  question.settings = {"run.until=0.3 s", "flywheel.inertia={ value = \"420 kg*m2\", tolerance = \"5 %\" }"};
+  const UncertaintyStudy uncertainty = study_uncertainty(
+      question, {.figures = {"peak_torque"}, .limits = {"peak_torque.main_coupling <= 8 kN*m"}, .samples = 20});
+  EXPECT_EQ(misfit(schema().at("$defs").at("uncertainty"), Json::parse(summary_json(findings_of(uncertainty))),
+                   "uncertainty"),
+            "");
 }
 
 }  // namespace

@@ -1,0 +1,264 @@
+// uncertainty.cpp — gradients with steps above the noise, samples, biases by trials.
+#include "studies/uncertainty/uncertainty.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "engine/numerics/deadline.h"
+#include "engine/scene/units.h"
+#include "studies/run/simulate.h"
+#include "studies/scenes/kinds.h"
+#include "studies/trials/trials.h"
+
+namespace kurbel {
+namespace {
+
+// Of the deviation: a central difference over ± 0.2 u is off by 0.04/6 u² y''', little of what the linear law itself is
+// off. Where the measured errors would be more than 2 % of the difference, it is taken over ± u.
+constexpr double short_step = 0.2, long_step = 1, most_noise = 0.02;
+
+class UncertaintyWork {
+ public:
+  UncertaintyWork(const MachineQuestion& question, const UncertaintyOptions& options)
+      : question_(question),
+        options_(options),
+        scene_(
+            parse_scene(SettledText(question.text, question.file, question.settings), all_kinds(), question.allowed)) {
+    study_.title = scene_.heading(), study_.scene_file = question.file, study_.scene_text = scene_.text;
+    study_.parameters = tolerated_parameters(scene_);
+    for (const Tolerated& t : study_.parameters) swept_.push_back(t.swept());
+    varied_.emplace(question_, swept_);
+    figures_ = chosen(figures_of(question_), options.figures);
+    for (const std::string& limit : options.limits) limits_.push_back(parse_limit(limit, figures_));
+  }
+
+  UncertaintyStudy run() {
+    const SweepRow nominal = compute({nominal_values()}).at(0);
+    if (nominal.state == RowState::failed) {
+      study_.complete = false, study_.diagnosis = nominal.diagnosis;
+      study_.conclusion = "The machine as it is given does not run: " + nominal.diagnosis;
+      return std::move(study_);
+    }
+    for (std::size_t k = 0; k < figures_.size(); ++k)
+      if (std::isfinite(value_in(nominal, k))) numbers_.push_back(k);
+    for (const std::size_t k : numbers_)
+      study_.figures.push_back(
+          {.figure = figures_[k], .value = value_in(nominal, k), .numerical = error_in(nominal, k)});
+    gradients();
+    samples();
+    if (options_.biases && question_.of == SweepStudy::run) biases();
+    conclude();
+    return std::move(study_);
+  }
+
+ private:
+  std::vector<double> nominal_values() const {
+    std::vector<double> values;
+    for (const Tolerated& t : study_.parameters) values.push_back(t.given().value);
+    return values;
+  }
+
+  // In threads; each row a function of its values alone.
+  std::vector<SweepRow> compute(const std::vector<std::vector<double>>& values) {
+    std::vector<SweepRow> rows(values.size());
+    std::atomic<std::size_t> next = 0, done = 0;
+    std::atomic<bool> interrupted = false;
+    std::mutex mutex;
+    std::exception_ptr thrown;
+    const auto work = [&] {
+      try {
+        const Evaluator evaluate = machine_evaluator(question_, *varied_, figures_);
+        for (std::size_t i = next++; i < values.size() && !interrupted; i = next++) {
+          rows[i].row = 0;  // errors are measured in all
+          rows[i].parameters = values[i];
+          if (!evaluate(rows[i])) interrupted = true;
+          rows[i].row = i;
+          ++done;
+        }
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        thrown = std::current_exception();
+        interrupted = true;
+      }
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (int k = 1; k < options_.jobs; ++k) threads.emplace_back(work);
+      work();
+    }
+    if (thrown) std::rethrow_exception(thrown);
+    if (interrupted) throw OutOfTime(0);
+    options_.watch.at("uncertainty", 1);
+    return rows;
+  }
+
+  // Where a step leaves the domain it is taken to its end, and the difference is over what lies between.
+  std::vector<std::vector<double>> about_nominal(double step) const {
+    std::vector<std::vector<double>> points;
+    for (std::size_t p = 0; p < swept_.size(); ++p)
+      for (const double sign : {-1.0, 1.0}) {
+        std::vector<double> x = nominal_values();
+        const Tolerated& t = study_.parameters[p];
+        x[p] = std::clamp(x[p] + sign * step * t.deviation(), t.low(), t.high());
+        points.push_back(std::move(x));
+      }
+    return points;
+  }
+
+  void gradients() {
+    const std::vector<SweepRow> near = compute(about_nominal(short_step));
+    std::vector<SweepRow> far;
+    for (std::size_t f = 0; f < numbers_.size(); ++f) {
+      FigureUncertainty& figure = study_.figures[f];
+      double squares = 0;
+      for (std::size_t p = 0; p < swept_.size(); ++p) {
+        ToleranceShare share = share_of(f, p, near);
+        if (!(share.noise <= most_noise * share.deviation)) {
+          if (far.empty()) far = compute(about_nominal(long_step));
+          share = share_of(f, p, far);
+        }
+        if (!std::isfinite(share.deviation)) {
+          study_.notes.push_back(
+              fmt::format("{}: no gradient by {}, beside its value the machine does not run; it counts as none",
+                          figure.figure.name, swept_[p].path));
+          share.gradient = share.deviation = share.noise = 0;
+        }
+        squares += share.deviation * share.deviation;
+        figure.shares.push_back(share);
+      }
+      figure.by_gradients = std::sqrt(squares);
+      for (ToleranceShare& s : figure.shares) {
+        s.share = squares > 0 ? s.deviation * s.deviation / squares : 0;
+        s.without = std::sqrt(std::max(0.0, squares - s.deviation * s.deviation));
+      }
+      std::stable_sort(figure.shares.begin(), figure.shares.end(),
+                       [](const ToleranceShare& a, const ToleranceShare& b) { return a.share > b.share; });
+    }
+  }
+
+  ToleranceShare share_of(std::size_t f, std::size_t p, const std::vector<SweepRow>& rows) const {
+    const SweepRow &below = rows[2 * p], &above = rows[2 * p + 1];
+    const std::size_t k = numbers_[f];
+    const double over = above.parameters[p] - below.parameters[p], u = study_.parameters[p].deviation();
+    ToleranceShare share{.parameter = p};
+    share.gradient = (value_in(above, k) - value_in(below, k)) / over;
+    share.deviation = std::abs(share.gradient) * u;
+    share.noise = (error_in(above, k).value_or(0) + error_in(below, k).value_or(0)) / over * u;
+    return share;
+  }
+
+  void samples() {
+    const Design design(fmt::format("random:{}", options_.samples), swept_, options_.seed);
+    std::vector<std::vector<double>> points;
+    for (std::size_t i = 0; i < design.rows(); ++i) points.push_back(design.row(i));
+    const std::vector<SweepRow> rows = compute(points);
+    study_.drawn = rows.size();
+    study_.failed = static_cast<std::size_t>(
+        std::count_if(rows.begin(), rows.end(), [](const SweepRow& r) { return r.state == RowState::failed; }));
+    for (std::size_t f = 0; f < numbers_.size(); ++f) {
+      std::vector<double> y;
+      for (const SweepRow& r : rows)
+        if (const double v = value_in(r, numbers_[f]); std::isfinite(v)) y.push_back(v);
+      spread(study_.figures[f], std::move(y));
+    }
+    for (const FigureLimit& limit : limits_) study_.limits.push_back(chance_of(limit, rows));
+  }
+
+  static void spread(FigureUncertainty& figure, std::vector<double> y) {
+    figure.samples = y.size();
+    if (y.size() < 2) return;
+    const auto n = static_cast<double>(y.size());
+    for (const double v : y) figure.mean += v / n;
+    double squares = 0;
+    for (const double v : y) squares += (v - figure.mean) * (v - figure.mean);
+    figure.by_samples = std::sqrt(squares / (n - 1));
+    std::sort(y.begin(), y.end());
+    const auto at = [&](double share) {
+      const double place = share * (n - 1);
+      const auto i = static_cast<std::size_t>(place);
+      return i + 1 < y.size() ? std::lerp(y[i], y[i + 1], place - static_cast<double>(i)) : y.back();
+    };
+    figure.low = at(0.025), figure.high = at(0.975);
+  }
+
+  // A machine that does not run holds no limit.
+  static LimitChance chance_of(const FigureLimit& limit, const std::vector<SweepRow>& rows) {
+    LimitChance c;
+    c.limit = limit.given;
+    for (const SweepRow& r : rows) {
+      const Side side = side_of(limit, r);
+      ++(side == Side::holds       ? c.holds
+         : side == Side::undecided ? c.undecided
+         : side == Side::beyond    ? c.beyond
+                                   : c.failed);
+    }
+    c.chance = {clopper_pearson(c.holds, rows.size()).low, clopper_pearson(c.holds + c.undecided, rows.size()).high};
+    return c;
+  }
+
+  // Each effect that is off and has data, tried by itself.
+  void biases() {
+    SimulateOptions options;
+    options.watch = options_.watch;
+    options.watch.progress = {};
+    const Result run = simulate(scene_, scene_.effects, "", options);
+    std::vector<std::string> names;
+    for (const FigureUncertainty& f : study_.figures) names.push_back(f.figure.name);
+    const Trials trials = try_effects(run, names, options);
+    for (const Trial& trial : trials.tried) {
+      if (!trial.failed.empty())
+        study_.notes.push_back(fmt::format("{}: not known what it would shift ({})", trial.effect.words, trial.failed));
+      for (FigureUncertainty& f : study_.figures)
+        for (const TrialChange& c : trial.changes)
+          if (c.change.figure == f.figure.name && !c.gone && c.change.told())
+            f.biases.push_back({trial.effect.words, c.change.without - c.change.full, c.error_on});
+    }
+    for (const NotTried& n : trials.not_tried)
+      study_.notes.push_back(fmt::format("{}: not tried ({})", n.words, n.because));
+  }
+
+  void conclude() {
+    std::string& text = study_.conclusion;
+    for (const LimitChance& c : study_.limits)
+      text += fmt::format("{}{} holds in {:.3g} … {:.3g} % of such machines ({} of {} drawn{})",
+                          text.empty() ? "" : "; ", c.limit, 100 * c.chance.low, 100 * c.chance.high, c.holds,
+                          study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
+    const auto figure = std::find_if(study_.figures.begin(), study_.figures.end(), [&](const FigureUncertainty& f) {
+      return f.by_gradients > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);
+    });
+    if (figure != study_.figures.end()) {
+      const ToleranceShare& most = figure->shares.front();
+      text += fmt::format(
+          "{}{} is {:.5g} ± {:.2g} {} (one deviation); a tighter {} would help most: without its tolerance ± {:.2g}",
+          text.empty() ? "" : "; ", figure->figure.name, figure->value, figure->by_gradients,
+          pretty_unit(figure->figure.unit), swept_[most.parameter].path, most.without);
+    }
+    if (text.empty()) text = "No figure hangs on the tolerances that are given";
+  }
+
+  MachineQuestion question_;
+  const UncertaintyOptions& options_;
+  Scene scene_;
+  UncertaintyStudy study_;
+  std::vector<SweptParameter> swept_;
+  std::optional<VariedScene> varied_;
+  std::vector<SweptFigure> figures_;
+  std::vector<FigureLimit> limits_;
+  std::vector<std::size_t> numbers_;  // of the figures that the machine as given has
+};
+
+}  // namespace
+
+UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options) {
+  if (options.samples < 20) throw std::invalid_argument("--samples: must be 20 or more");
+  return UncertaintyWork(question, options).run();
+}
+
+}  // namespace kurbel

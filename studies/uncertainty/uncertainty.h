@@ -1,0 +1,80 @@
+// uncertainty.h — what tolerances make of the figures, and how sure each of them is (after ASME V&V 20 and JCGM 101):
+// numerical error, uncertainty by the inputs, and known biases, apart.
+//
+//     u² = Σ (∂y/∂x_i · u_i)²       by gradients: first order, independent parameters (JCGM 100, 5.1.2)
+//     y(x), x drawn                 by samples: what the gradients are checked by (JCGM 101)
+//     b = y with an effect − y      a bias: signed, one each, never added in quadrature
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/findings/output.h"
+#include "studies/sweep/influence.h"
+#include "studies/sweep/limit.h"
+#include "studies/sweep/machine.h"
+#include "studies/uncertainty/tolerated.h"
+
+namespace kurbel {
+
+struct UncertaintyOptions {
+  std::vector<std::string> figures = {}, limits = {};
+  std::size_t samples = 500;
+  std::uint64_t seed = 1;
+  int jobs = 1;
+  bool biases = true;  // of run: try the effects that are off
+  Watch watch = {};
+};
+
+// Of one figure by one parameter.
+struct ToleranceShare {
+  std::size_t parameter = 0;
+  double gradient = 0;   // ∂y/∂x, x in its unit
+  double deviation = 0;  // |∂y/∂x| u
+  double noise = 0;      // of that: what the measured errors of the two runs leave open
+  double share = 0;      // of Σ deviation²
+  double without = 0;    // u that would remain if this parameter had no tolerance
+};
+
+struct Bias {
+  std::string effect;
+  double shift = 0;  // signed: with the effect − without
+  std::optional<double> error = {};
+};
+
+struct FigureUncertainty {
+  SweptFigure figure;
+  double value = 0;                                    // at the values as given
+  std::optional<double> numerical = {};                // measured error there
+  double by_gradients = 0;                             // standard uncertainty u
+  double by_samples = 0, mean = 0, low = 0, high = 0;  // deviation, mean, 95 % of the samples
+  std::size_t samples = 0;
+  std::vector<ToleranceShare> shares = {};  // the greatest first
+  std::vector<Bias> biases = {};
+};
+
+struct LimitChance {
+  std::string limit;
+  std::size_t holds = 0, undecided = 0, beyond = 0, failed = 0;
+  Interval chance;  // that it holds: 95 %, the undecided on either side
+};
+
+struct UncertaintyStudy {
+  std::string title, scene_file, scene_text;
+  std::vector<Tolerated> parameters;
+  std::vector<FigureUncertainty> figures;
+  std::vector<LimitChance> limits;
+  std::vector<std::string> notes;
+  std::size_t drawn = 0, failed = 0;
+  std::string conclusion;
+  bool complete = true;
+  std::string diagnosis;
+};
+
+// Throws std::invalid_argument where the scene gives no tolerance, a figure or a limit is none.
+UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options);
+
+Findings findings_of(const UncertaintyStudy& study);
+
+}  // namespace kurbel

@@ -1,0 +1,154 @@
+// uncertainty_findings.cpp — figures with what makes them uncertain, said once.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/scene/units.h"
+#include "studies/uncertainty/uncertainty.h"
+
+namespace kurbel {
+namespace {
+
+std::string as_unit(const std::string& unit) { return pretty_unit(unit); }
+
+Rows figure_table(const UncertaintyStudy& s) {
+  return table_of("figures", "Figures of machines within these tolerances", s.figures)
+      .column("figure", "figure", [](const FigureUncertainty& f) { return f.figure.name; })
+      .column("value", "as given", &FigureUncertainty::value)
+      .column("numerical", "numerical error", &FigureUncertainty::numerical, {.digits = 1})
+      .column("by_gradients", "deviation by gradients", &FigureUncertainty::by_gradients, {.digits = 3})
+      .column("by_samples", "by samples", &FigureUncertainty::by_samples, {.digits = 3})
+      .column("mean", "mean", &FigureUncertainty::mean)
+      .column("low", "95 % from", &FigureUncertainty::low, {.digits = 5})
+      .column("high", "to", &FigureUncertainty::high, {.digits = 5})
+      .column(
+          "unit", "unit", [](const FigureUncertainty& f) { return f.figure.unit; }, as_unit)
+      .column("samples", "samples", &FigureUncertainty::samples);
+}
+
+Rows limit_table(const UncertaintyStudy& s) {
+  return table_of("limits", "How sure each limit holds", s.limits)
+      .column("limit", "limit", &LimitChance::limit)
+      .column("holds", "hold", &LimitChance::holds)
+      .column("undecided", "within their error", &LimitChance::undecided)
+      .column("beyond", "beyond", &LimitChance::beyond)
+      .column("failed", "without the figure", &LimitChance::failed)
+      .column("low", "probability from [%]", [](const LimitChance& c) { return c.chance.low; },
+              {.factor = 100, .digits = 4})
+      .column("high", "to [%]", [](const LimitChance& c) { return c.chance.high; }, {.factor = 100, .digits = 4});
+}
+
+struct ShareRow {
+  std::string figure, parameter, unit;
+  ToleranceShare share;
+};
+std::vector<ShareRow> share_rows(const UncertaintyStudy& s) {
+  std::vector<ShareRow> rows;
+  for (const FigureUncertainty& f : s.figures)
+    for (const ToleranceShare& share : f.shares)
+      if (f.by_gradients > 0)
+        rows.push_back({f.figure.name, s.parameters[share.parameter].given().path, f.figure.unit, share});
+  return rows;
+}
+Rows share_table(const UncertaintyStudy& s) {
+  return table_of("shares", "Which tolerance makes the deviation", share_rows(s))
+      .text_in(2)
+      .column("figure", "figure", &ShareRow::figure)
+      .column("parameter", "tolerance", &ShareRow::parameter)
+      .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3})
+      .column("deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, {.digits = 3})
+      .column("noise", "open by errors", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
+      .column("without", "figure's without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
+      .column("unit", "unit", &ShareRow::unit, as_unit);
+}
+
+struct BiasRow {
+  std::string figure, unit;
+  Bias bias;
+};
+std::vector<BiasRow> bias_rows(const UncertaintyStudy& s) {
+  std::vector<BiasRow> rows;
+  for (const FigureUncertainty& f : s.figures)
+    for (const Bias& b : f.biases) rows.push_back({f.figure.name, f.figure.unit, b});
+  return rows;
+}
+Rows bias_table(const UncertaintyStudy& s) {
+  return table_of("biases", "Known biases: what each effect that is off would shift", bias_rows(s))
+      .text_in(2)
+      .column("figure", "figure", &BiasRow::figure)
+      .column("effect", "effect", [](const BiasRow& r) { return r.bias.effect; })
+      .column(
+          "shift", "shift", [](const BiasRow& r) { return r.bias.shift; },
+          [](double v) { return fmt::format("{:+.4g}", v); })
+      .column("error", "error", [](const BiasRow& r) { return r.bias.error; }, {.digits = 1})
+      .column("unit", "unit", &BiasRow::unit, as_unit);
+}
+
+Rows parameter_table(const UncertaintyStudy& s) {
+  return table_of("parameters", "Tolerances", s.parameters)
+      .text_in(2)
+      .column("path", "key", [](const Tolerated& t) { return t.given().path; })
+      .column("words", "value", [](const Tolerated& t) { return t.in_words(); })
+      .only_for_programs("value", [](const Tolerated& t) { return t.given().value; })
+      .only_for_programs("deviation", [](const Tolerated& t) { return t.deviation(); })
+      .only_for_programs("unit", [](const Tolerated& t) { return t.given().unit; })
+      .only_for_programs("cut_off", [](const Tolerated& t) { return t.cut_off(); });
+}
+
+// Numerical error, inputs and biases side by side, in percent of the value.
+std::vector<Plot> pictures(const UncertaintyStudy& s) {
+  std::vector<Plot> plots;
+  for (const FigureUncertainty& f : s.figures) {
+    if (!(std::abs(f.value) > 0) || !(f.by_gradients > 0) || plots.size() >= 6) continue;
+    const double percent = 100 / std::abs(f.value);
+    Plot plot{.title = fmt::format("What makes {} uncertain", f.figure.name),
+              .x = {"number"},
+              .y = {"of its value", "%"},
+              .series = {},
+              .note = {},
+              .bars = true};
+    double at = 1;
+    const auto bar = [&](const std::string& name, Role role, double height) {
+      plot.series.push_back({.name = name, .role = role, .x = {at++}, .y = {height}, .labels = {name}});
+    };
+    bar("numerical error", Role::reference, percent * f.numerical.value_or(0));
+    bar("all tolerances, one deviation", Role::elastic, percent * f.by_gradients);
+    for (std::size_t k = 0; k < f.shares.size() && k < 4; ++k)
+      bar("tolerance of " + s.parameters[f.shares[k].parameter].given().path, Role::sky,
+          percent * f.shares[k].deviation);
+    for (const Bias& b : f.biases) bar("bias, off: " + b.effect, Role::vermillion, percent * b.shift);
+    plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+}  // namespace
+
+Findings findings_of(const UncertaintyStudy& s) {
+  Findings f{.title = s.title,
+             .subtitle = "Uncertainty by tolerances, numerical errors and known biases",
+             .scene_file = s.scene_file,
+             .complete = s.complete,
+             .diagnosis = s.diagnosis};
+  f.answer(s.complete ? Question::figures : Question::runs, s.conclusion, s.complete ? 0 : 1);
+  for (const FigureUncertainty& figure : s.figures)
+    if (figure.by_gradients > 0 && f.figures.size() < 4)
+      f.figures.push_back({figure.figure.name, figure.value, figure.figure.unit, 2 * figure.by_gradients,
+                           "two deviations of the tolerances", 0, figure.figure.name});
+  const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
+                shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),
+                given = f.chapter("Tolerances");
+  if (!s.limits.empty()) f.say(limits, limit_table(s));
+  f.say(figures, figure_table(s));
+  f.draw(figures, [&s] { return pictures(s); });
+  f.say(shares, share_table(s));
+  f.say(biases, bias_table(s));
+  f.say(given, parameter_table(s));
+  f.tell("drawn", s.drawn);
+  f.tell("failed", s.failed);
+  f.note(given, s.notes);
+  f.show_scene(s.scene_file, s.scene_text);
+  return f;
+}
+
+}  // namespace kurbel

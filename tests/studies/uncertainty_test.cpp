@@ -1,0 +1,172 @@
+// uncertainty_test.cpp — tolerances as distributions, and what they make of a two-mass resonance against its closed
+// form f = √(k (1/J₁ + 1/J₂))/2π.
+#include "studies/uncertainty/uncertainty.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "studies/run/simulate.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double j1 = 0.2, j2 = 1.5, stiffness = 4000, deviation = 200;  // of k: 10 % / 2
+
+double resonance(double k, double j) { return std::sqrt(k * (1 / j1 + 1 / j)) / (2 * std::numbers::pi); }
+
+MachineQuestion resonator(const std::string& of_mass) {
+  MachineQuestion q;
+  q.text = fmt::format(
+      "title = \"Two masses\"\nline = [\"rotor\", \"spring\", \"mass\"]\n"
+      "rotor = {{ kind = \"inertia\", inertia = \"0.2 kg*m2\" }}\n"
+      "spring = {{ kind = \"coupling\", stiffness = {{ value = \"4 kN*m/rad\", tolerance = \"10 %\", distribution = "
+      "\"normal\", k = 2 }}, damping = \"0 N*m*s/rad\" }}\n"
+      "mass = {{ kind = \"inertia\", inertia = {} }}\nrun = {{ until = \"0.1 s\" }}\n",
+      of_mass);
+  q.file = "two.toml";
+  q.of = SweepStudy::modes;
+  return q;
+}
+
+const FigureUncertainty& of_figure(const UncertaintyStudy& s, const std::string& name) {
+  for (const FigureUncertainty& f : s.figures)
+    if (f.figure.name == name) return f;
+  throw std::logic_error(name);
+}
+
+// k is normal, f grows with it: the share of f is the share of k.
+TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
+  UncertaintyOptions options;
+  options.samples = 4000;
+  const double limit = 25, at_limit = std::pow(2 * std::numbers::pi * limit, 2) / (1 / j1 + 1 / j2);
+  options.limits = {"natural_frequency.1 <= 25 Hz"};
+  const UncertaintyStudy s = study_uncertainty(resonator("\"1.5 kg*m2\""), options);
+  const FigureUncertainty& f = of_figure(s, "natural_frequency.1");
+  const boost::math::normal k(stiffness, deviation);
+  EXPECT_NEAR(f.value, resonance(stiffness, j2), 1e-9);
+  // First order: u = f/(2k) · 200; the central difference over ± 0.2 u is off by (0.2 · 0.05)²/8.
+  EXPECT_NEAR(f.by_gradients, f.value / (2 * stiffness) * deviation, 2e-5 * f.by_gradients);
+  EXPECT_NEAR(f.shares.at(0).share, 1, 1e-12);
+  EXPECT_NEAR(f.shares[0].without, 0, 1e-12);
+  // Mean and deviation of √k by its series: E = √k (1 − c²/8), u = √k c/2 (1 + 7c²/64 …), c = 0.05.
+  EXPECT_NEAR(f.mean, f.value * (1 - 0.05 * 0.05 / 8), 3.5 * f.by_gradients / std::sqrt(4000.0));
+  EXPECT_NEAR(f.by_samples, f.by_gradients, 3.5 * f.by_gradients / std::sqrt(8000.0));
+  // Quantiles scatter by √(p (1 − p)/n)/density: 4 % of u here.
+  EXPECT_NEAR(f.low, resonance(boost::math::quantile(k, 0.025), j2), 3.5 * 0.042 * f.by_gradients);
+  EXPECT_NEAR(f.high, resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients);
+  const double chance = boost::math::cdf(k, at_limit);
+  ASSERT_EQ(s.limits.size(), 1u);
+  EXPECT_LT(s.limits[0].chance.low, chance);
+  EXPECT_GT(s.limits[0].chance.high, chance);
+  EXPECT_LT(s.limits[0].chance.high - s.limits[0].chance.low, 0.04);
+  EXPECT_EQ(s.limits[0].holds + s.limits[0].beyond + s.limits[0].undecided, 4000u);
+}
+
+// ∂f/∂k = f/2k, ∂f/∂J₂ = −f/2 · (1/J₂²)/(1/J₁ + 1/J₂).
+TEST(Uncertainty, SharesOfTwoTolerancesAreThoseOfTheDerivatives) {
+  UncertaintyOptions options;
+  options.samples = 1000;
+  const UncertaintyStudy s = study_uncertainty(
+      resonator("{ value = \"0.3 kg*m2\", tolerance = \"0.06 kg*m2\", distribution = \"triangular\" }"), options);
+  const FigureUncertainty& f = of_figure(s, "natural_frequency.1");
+  const double by_k = f.value / (2 * stiffness) * deviation;
+  const double by_j = f.value / 2 / (0.3 * 0.3) / (1 / j1 + 1 / 0.3) * 0.06 / std::sqrt(6.0);
+  ASSERT_EQ(f.shares.size(), 2u);
+  const ToleranceShare& of_k = f.shares[0].parameter == 0 ? f.shares[0] : f.shares[1];
+  EXPECT_NEAR(of_k.share, by_k * by_k / (by_k * by_k + by_j * by_j), 1e-3);
+  EXPECT_NEAR(f.by_gradients, std::hypot(by_k, by_j), 1e-3 * f.by_gradients);
+  EXPECT_NEAR(f.by_samples, f.by_gradients, 0.08 * f.by_gradients);
+  EXPECT_NEAR(of_k.without, by_j, 1e-3 * by_j);
+}
+
+// Φ cut off at 0: of a deviation as large as the value 15.87 % lie below, and are told.
+TEST(Uncertainty, ADistributionIsCutOffWhereTheDomainEnds) {
+  Tolerance t{.path = "a.b",
+              .unit = "kg*m2",
+              .value = 1,
+              .low = 0,
+              .high = 2,
+              .distribution = Tolerance::Distribution::normal,
+              .k = 1,
+              .at = {}};
+  const Tolerated cut(t, positive);
+  EXPECT_NEAR(cut.cut_off(), 0.158655, 1e-6);
+  EXPECT_GT(cut.quantile(0), 0);
+  EXPECT_NEAR(cut.quantile(0.5), 1 + boost::math::quantile(boost::math::normal(), 0.158655 + 0.5 * 0.841345), 1e-5);
+  EXPECT_NE(cut.in_words().find("16 % cut off"), std::string::npos) << cut.in_words();
+  t.distribution = Tolerance::Distribution::triangular, t.high = 4, t.low = 0.5;
+  const Tolerated triangular(t, positive);
+  EXPECT_NEAR(triangular.quantile(0.5 / 3.5), 1, 1e-12);  // the mode, by the area on its left
+  EXPECT_NEAR(triangular.deviation(), std::sqrt((0.25 + 16 + 1 - 2 - 0.5 - 4) / 18), 1e-12);
+  t.distribution = Tolerance::Distribution::uniform;
+  EXPECT_NEAR(Tolerated(t, positive).quantile(0.25), 0.5 + 3.5 / 4, 1e-12);
+}
+
+// A run computes with the value, to the last bit.
+TEST(Uncertainty, ARunTakesTheValueOfATolerance) {
+  const MachineQuestion q = resonator("{ value = \"1.5 kg*m2\", from = \"1.4 kg*m2\", to = \"1.7 kg*m2\" }");
+  std::string plain = q.text;
+  const auto put = [&](const std::string& from, const std::string& to, const std::string& by) {
+    const std::size_t begin = plain.find(from), end = plain.find(to, begin) + to.size();
+    plain.replace(begin, end - begin, by);
+  };
+  put("{ value = \"4 kN", "k = 2 }", "\"4 kN*m/rad\"");
+  put("{ value = \"1.5", "1.7 kg*m2\" }", "\"1.5 kg*m2\"");
+  const Scene a = test::scene_from(q.text), b = test::scene_from(plain);
+  EXPECT_EQ(a.find("spring")->number("stiffness"), b.find("spring")->number("stiffness"));
+  EXPECT_EQ(a.find("mass")->number("inertia"), b.find("mass")->number("inertia"));
+}
+
+TEST(Uncertainty, WrongTolerancesAreToldInTheirPlace) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 kg\" }", "is a mass"},
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", distribution = \"normall\" }", "did you mean \"normal\""},
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", from = \"1 kg*m2\" }", "either tolerance, or from and to"},
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", widht = 3 }", "no key"},
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", k = 2 }", "normal"},
+      {"{ value = \"1.5 kg\", tolerance = \"3 %\" }", "inertia"},
+      {"{ value = \"1.5 kg*m2\", from = \"2 kg*m2\", to = \"3 kg*m2\" }", "between"}};
+  for (const auto& [text, told] : cases) {
+    try {
+      test::scene_from(resonator(text).text);
+      ADD_FAILURE() << text;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << text << "\n" << error.what();
+    }
+  }
+  MachineQuestion none = resonator("\"1.5 kg*m2\"");
+  none.settings = {"spring.stiffness=4 kN*m/rad"};
+  EXPECT_THROW(study_uncertainty(none, {}), std::invalid_argument);
+}
+
+// The bias of an effect that is off is what kurbel run with it on says, signed.
+TEST(Uncertainty, BiasesAreSignedShiftsOfEffectsThatAreOff) {
+  MachineQuestion q;
+  q.text = test::scene_file("scenes/crank_press.toml").text;
+  q.file = "press.toml";
+  q.settings = {"run.until=0.5 s", "flywheel.inertia={ value = \"420 kg*m2\", tolerance = \"5 %\" }",
+                "effects.elasticity=false"};
+  UncertaintyOptions options;
+  options.samples = 20;
+  options.figures = {"peak_torque.main_coupling"};
+  const UncertaintyStudy s = study_uncertainty(q, options);
+  const FigureUncertainty& f = of_figure(s, "peak_torque.main_coupling");
+  EXPECT_GT(f.by_gradients, 0);
+  ASSERT_TRUE(f.numerical);
+  ASSERT_FALSE(f.biases.empty());
+  const Scene elastic =
+      parse_scene(SettledText(q.text, q.file, {"run.until=0.5 s", "effects.elasticity=true"}), all_kinds());
+  const Result on = simulate(elastic, elastic.effects, "", {});
+  bool found = false;
+  for (const Bias& b : f.biases)
+    if (std::abs(f.value + b.shift - on.find("peak_torque.main_coupling")->value) < 1e-5 * f.value) found = true;
+  EXPECT_TRUE(found);
+}
+
+}  // namespace
+}  // namespace kurbel
