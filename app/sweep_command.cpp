@@ -21,6 +21,13 @@
 namespace kurbel::app {
 namespace {
 
+// Why a text is no number of threads; an empty one is told of every option.
+std::string thread_count(const std::string& text) {
+  if (text.empty()) return "";
+  std::string given = text;
+  return CLI::Range(1, 1024)(given);
+}
+
 constexpr std::size_t most_variant_bytes = 64'000'000;
 
 struct SweepArguments {
@@ -181,7 +188,7 @@ void set_up_sweep(CLI::App& command, int& code) {
   command
       .add_option("--into", a->into, "the database (SQLite) that is filled, or gone on with; on a disk of this machine")
       ->required();
-  command.add_option("--jobs", a->jobs, "threads (default: one for each core)")->check(CLI::Range(1, 1024));
+  command.add_option("--jobs", a->jobs, "threads (default: one for each core)")->check(thread_count);
   command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");
   command.add_option("--seed", a->seed, "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)");
   command.add_option("--xlsx", a->xlsx, "writes the variants as a spread sheet, too");
@@ -267,7 +274,7 @@ void set_up_uncertainty(CLI::App& command, int& code) {
   command.add_option("--of", a->of, "run (default), steady, modes or size");
   command.add_option("--samples", a->options.samples, "machines drawn from the tolerances (default: 500)");
   command.add_option("--seed", a->options.seed, "of what is drawn (default: 1)");
-  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)")->check(CLI::Range(1, 1024));
+  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)")->check(thread_count);
   command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: none is undecided then");
   command.add_flag("!--no-trials", a->options.biases, "skip the runs that try, one by one, the effects that are off");
   command.callback([&code, a] { code = uncertainty(*a); });
