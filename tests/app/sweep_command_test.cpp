@@ -162,7 +162,7 @@ TEST_F(SweepCommand, ShardsOfASlurmArrayMergedAreOneSweep) {
 }
 
 TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
-  const std::string design = varied + "--design sobol:6000 ";
+  const std::string design = varied + "--design sobol:200000 ";
   const Said said =
       shell(fmt::format("{{ cd '{}' && timeout -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
                         "--jobs 2; }}",
@@ -170,7 +170,7 @@ TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
   EXPECT_NE(said.text.find("interrupted"), std::string::npos) << said.text;
   const std::vector<SweepRow> there = rows("r.db");
   EXPECT_GT(there.size(), 0u);
-  EXPECT_LT(there.size(), 6000u);
+  EXPECT_LT(there.size(), 200000u);
   for (const SweepRow& r : there) EXPECT_EQ(r.state, RowState::done);
 }
 
