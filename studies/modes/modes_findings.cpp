@@ -23,9 +23,6 @@ constexpr std::size_t responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.
 ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
-ReadAs in_unit(const SpeedUnit& unit, int count = 5) {
-  return {.factor = unit.of(1), .digits = count, .otherwise = "unbounded"};
-}
 
 bool is_forced(const ModesStudy& m) {
   return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());

@@ -251,14 +251,22 @@ Rows worst_table(const SweepStudyResult& s) {
 
 // --- all of it ---
 
+// A count by thousands, "10,007": a headline rounds numbers, and a count is none to round.
+std::string counted(std::size_t count) {
+  std::string text = fmt::format("{}", count);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
 std::string conclusion_of(const SweepStudyResult& s) {
-  std::string text = fmt::format("{} variants computed", s.rows.size());
-  if (s.rows.size() < s.wanted) text = fmt::format("{} of {} variants computed", s.rows.size(), s.wanted);
-  if (const std::size_t n = s.count(RowState::failed)) text += fmt::format(", {} failed", n);
-  if (const std::size_t n = s.count(RowState::unconfirmed)) text += fmt::format(", {} not confirmed", n);
+  std::string text = counted(s.rows.size());
+  if (s.rows.size() < s.wanted) text += " of " + counted(s.wanted);
+  text += " variants computed";
+  if (const std::size_t n = s.count(RowState::failed)) text += fmt::format(", {} failed", counted(n));
+  if (const std::size_t n = s.count(RowState::unconfirmed)) text += fmt::format(", {} not confirmed", counted(n));
   for (const LimitCount& c : counts_of(s))
-    text += fmt::format("; {}: {} of {} hold{}", c.limit, c.holds, c.decided(),
-                        c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
+    text += fmt::format("; {}: {} of {} hold{}", c.limit, counted(c.holds), counted(c.decided()),
+                        c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
   for (const FigureInfluence& f : s.influences) {
     if (f.ranked.empty()) continue;
     const Influence& most = f.ranked.front();

@@ -185,21 +185,17 @@ std::vector<Plot> influence_plots(const SweepStudyResult& s) {
     if (found.ranked.size() < 2) continue;
     Series first{.name = "first order", .role = Role::elastic, .x = {}, .y = {}},
         total{.name = "total", .role = Role::orange, .x = {}, .y = {}};
-    std::string note = "Bars, by rank:";
+    std::vector<std::string> names;
     for (std::size_t k = 0; k < found.ranked.size(); ++k) {
       const Influence& i = found.ranked[k];
       first.x.push_back(static_cast<double>(k + 1)), first.y.push_back(i.first.value);
-      first.labels.push_back(s.identity.parameters[i.parameter].path);
-      if (i.total)
-        total.x.push_back(static_cast<double>(k + 1)), total.y.push_back(i.total->value),
-            total.labels.push_back(first.labels.back());
-      note += fmt::format("{} {} {}", k ? "," : "", k + 1, first.labels.back());
+      names.push_back(s.identity.parameters[i.parameter].path);
+      if (i.total) total.x.push_back(static_cast<double>(k + 1)), total.y.push_back(i.total->value);
     }
     Plot plot{.title = fmt::format("What moves {}: Sobol's indices", s.identity.figures[figure].name),
-              .x = {"rank"},
+              .x = {.label = "parameter", .names = std::move(names)},
               .y = {"share of the variance"},
               .series = {std::move(first)},
-              .note = note + ".",
               .bars = true};
     if (!total.x.empty()) plot.series.push_back(std::move(total));
     plots.push_back(std::move(plot));

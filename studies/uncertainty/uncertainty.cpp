@@ -236,9 +236,11 @@ class UncertaintyWork {
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
       text += fmt::format(
-          "{}{} is {:.5g} ± {:.2g} {} (one deviation); a tighter {} would help most: without its tolerance ± {:.2g}",
-          text.empty() ? "" : "; ", figure->figure.name, figure->value, figure->by_gradients,
-          pretty_unit(figure->figure.unit), swept_[most.parameter].path, most.without);
+          "{}{} is {:.5g} {} with a deviation of {:.2g} {} by the tolerances; a tighter {} would help most: without "
+          "its "
+          "tolerance {:.2g}",
+          text.empty() ? "" : "; ", figure->figure.name, figure->value, pretty_unit(figure->figure.unit),
+          figure->by_gradients, pretty_unit(figure->figure.unit), swept_[most.parameter].path, most.without);
     }
     if (text.empty()) text = "No figure hangs on the tolerances that are given";
   }

@@ -102,14 +102,15 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
     if (!(std::abs(f.value) > 0) || !(f.by_gradients > 0) || plots.size() >= 6) continue;
     const double percent = 100 / std::abs(f.value);
     Plot plot{.title = fmt::format("What makes {} uncertain", f.figure.name),
-              .x = {"number"},
+              .x = {.label = "where it comes from"},
               .y = {"of its value", "%"},
               .series = {},
               .note = {},
               .bars = true};
     double at = 1;
     const auto bar = [&](const std::string& name, Role role, double height) {
-      plot.series.push_back({.name = name, .role = role, .x = {at++}, .y = {height}, .labels = {name}});
+      plot.series.push_back({.name = name, .role = role, .x = {at++}, .y = {height}});
+      plot.x.names.push_back(name);
     };
     bar("numerical error", Role::reference, percent * f.numerical.value_or(0));
     bar("all tolerances, one deviation", Role::elastic, percent * f.by_gradients);
