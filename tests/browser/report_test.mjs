@@ -32,9 +32,10 @@ try {
     await page.goto(pathToFileURL(report).href);
     await page.waitForSelector('main[data-ready]', {timeout: 60000});
 
-    // Plots: each has lines with length in it, and its axes say what they are.
+    // Plots: each has lines with length in it, points, or a map, and its axes say what they are.
     const plots = await page.$$eval('.plot', list => list.map(place => ({
-      lines: [...place.querySelectorAll('.scatterlayer .trace path.js-line, .barlayer .point path')].filter(line => line.getTotalLength() > 20).length,
+      lines: [...place.querySelectorAll('.scatterlayer .trace path.js-line, .barlayer .point path')].filter(line => line.getTotalLength() > 20).length
+        + place.querySelectorAll('.scatterlayer .trace .points path, .imagelayer image, .layer-below image').length,
       axes: place.querySelectorAll('.xtitle, .ytitle').length,
       title: place.parentElement.querySelector('h3').textContent,
     })));
