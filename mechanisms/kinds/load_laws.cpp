@@ -1,6 +1,7 @@
 // load_laws.cpp — from the keys of a load on a mechanism's output to its law.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -80,10 +81,20 @@ double cycle_of(const CurveData& data) {
   return data.x.back() - data.x.front() > turn * 1.0001 ? 2 * turn : turn;
 }
 
+// The travel has its greatest place at 0 and its least at 180 deg of the crank, as the diagram counts: a diagram mirrored
+// about 0 deg then does no work. Not of a crank with an offset, nor of other linkages in general.
+bool turns_at_dead_centres(const Mechanism& mechanism) {
+  const auto turns_at = [&](double angle) {
+    const auto near = [&](double r) { return std::abs(std::remainder(r - angle, 2 * std::numbers::pi)) < 1e-6; };
+    return std::any_of(mechanism.travel.reversals.begin(), mechanism.travel.reversals.end(), near);
+  };
+  return turns_at(0) && turns_at(std::numbers::pi);
+}
+
 // The diagram that acts: of a cylinder that does not fire the motored one. False, with a message, where there is none.
 // Throws std::invalid_argument in words.
 template <class Keys>
-bool choose_diagram(const Reading<Keys>& s, CurveData& data) {
+bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveData& data) {
   if (data.over != "angle") {
     if (s.motored)
       return s.refuse(&Keys::motored, fmt::format("belongs to a diagram over \"angle\"; it is over \"{}\"", data.over));
@@ -100,6 +111,11 @@ bool choose_diagram(const Reading<Keys>& s, CurveData& data) {
     return s.refuse(&Keys::misfire,
                     "the compression of a cylinder at the folded end does not end at 0 deg and is not "
                     "mirrored; give \"motored\"");
+  if (!s.motored && !turns_at_dead_centres(mechanism))
+    return s.refuse(
+        &Keys::misfire,
+        "the travel does not turn at 0 and 180 deg of the crank, as it does not with an offset, so that the "
+        "compression mirrored about 0 deg would do work that is none; give \"motored\"");
   const double period = data.period;
   data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
   data.period = period;
@@ -111,7 +127,7 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
   const auto refuse = [&](const std::string& text) { return s.refuse(&Table::force, text); };
   const WorkingEnd end = working_end(s.from_greatest, mechanism);
   try {
-    if (!choose_diagram(s, data)) return false;
+    if (!choose_diagram(s, mechanism, data)) return false;
     if (data.over != "angle") {
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
       if (mechanism.travel.winding != 0)
@@ -192,7 +208,7 @@ bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load)
   const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
   CurveData pressure = s.pressure;
   try {
-    if (!choose_diagram(s, pressure)) return false;
+    if (!choose_diagram(s, mechanism, pressure)) return false;
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }

@@ -147,6 +147,37 @@ pressure = {{ over = "angle", unit = ["deg", "bar"], points = [[0, 40], [12, 70]
   EXPECT_GT(figure(after("1.3 s", ""), "max_speed.engine"), 120);
 }
 
+// With an offset the piston turns elsewhere, and the mirror image would do work (2.6 % of the speed a cycle here): refused,
+// while the motored diagram is taken; without offset the same throw loses nothing.
+TEST(Misfire, OfAThrowWithAnOffsetNeedsTheMotoredDiagram) {
+  const auto after = [](const char* offset, const char* motored) {
+    return run(fmt::format(R"(
+line = ["c"]
+run = {{ start = {{ speed = "100 rad/s", angle = "180 deg" }}, until = "1.3 s", accuracy = 1e-9, samples = 3 }}
+[c]
+kind = "slider-crank"
+radius = "44 mm"
+rod = "144 mm"
+offset = "{}"
+crank_inertia = "0.5 kg*m2"
+load = {{ kind = "cylinder", bore = "81 mm", outside_pressure = "1 bar", misfire = true, {} pressure = {{ over = "angle", unit = ["deg", "bar"], points = [[0, 40], [12, 70], [40, 30], [95, 8], [170, 3], [175, 1], [540, 1], [610, 2], [660, 6], [700, 24], [720, 40]] }} }}
+)",
+                           offset, motored));
+  };
+  const Result straight = after("0 mm", "");
+  ASSERT_TRUE(straight.complete) << straight.diagnosis;
+  EXPECT_NEAR(figure(straight, "max_speed.c"), 100, 1e-6);  // comes back to where each cycle began
+  try {
+    after("15 mm", "");
+    FAIL() << "taken";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("give \"motored\""), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(
+      after("15 mm", R"(motored = { over = "angle", unit = ["deg", "bar"], points = [[0, 20], [360, 1], [720, 20]] },)")
+          .complete);
+}
+
 // Massless throws by the firing order do what one engine does, cylinder by cylinder, misfire included.
 TEST(FiringOrder, ThrowsAreTheCylindersOfOneEngine) {
   std::string throws = R"(
