@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "engine/model/compile_steps.h"
-#include "engine/numerics/load_paths.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/load_paths.h"
 
 namespace kurbel {
 namespace {

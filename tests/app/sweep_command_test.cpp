@@ -163,10 +163,10 @@ TEST_F(SweepCommand, ShardsOfASlurmArrayMergedAreOneSweep) {
 
 TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
   const std::string design = varied + "--design sobol:200000 ";
-  const Said said =
-      shell(fmt::format("{{ cd '{}' && timeout -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
-                        "--jobs 2; }}",
-                        folder_.string(), KURBEL_EXECUTABLE, design));
+  const Said said = shell(
+      fmt::format("{{ cd '{}' && timeout -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
+                  "--jobs 2; }}",
+                  folder_.string(), KURBEL_EXECUTABLE, design));
   EXPECT_NE(said.text.find("interrupted"), std::string::npos) << said.text;
   const std::vector<SweepRow> there = rows("r.db");
   EXPECT_GT(there.size(), 0u);

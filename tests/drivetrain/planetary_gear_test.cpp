@@ -131,10 +131,8 @@ run = {{ until = "0.1 s" }}
           out("sun = 32, ring = 72, in = \"carrier\", out = \"sun\", fixed = \"ring\"", 18), 58.5, 1e-9);
   is.near("ex. 10: speed of the carrier, compound planets", "rpm",
           out("sun = 50, planet = 20, second_planet = 35, ring = 105, fixed = \"ring\"", 110), 50, 1e-9);
-  is.near("carrier held: speed of the ring", "rpm",
-          out("sun = 30, ring = 80, in = \"sun\", out = \"ring\", fixed = \"carrier\"", 80), -30, 1e-9);
-  is.near("sun held: speed of the carrier", "rpm",
-          out("sun = 30, ring = 80, in = \"ring\", out = \"carrier\", fixed = \"sun\"", 110), 80, 1e-9);
+  EXPECT_NEAR(out("sun = 30, ring = 80, in = \"sun\", out = \"ring\", fixed = \"carrier\"", 80), -30, 1e-9);
+  EXPECT_NEAR(out("sun = 30, ring = 80, in = \"ring\", out = \"carrier\", fixed = \"sun\"", 110), 80, 1e-9);
 }
 
 // As in an automatic gearbox: the ring runs free, then a brake takes hold of it, and sun and carrier turn by 1 − i₀.
