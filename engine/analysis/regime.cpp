@@ -20,7 +20,8 @@ constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
 constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
 constexpr double never = 1e299;
-constexpr std::ptrdiff_t most_remembered = 400;  // events
+// Events: several rounds of a sequence with some hundred events each (joints that move to and fro, gears that rattle).
+constexpr std::ptrdiff_t most_remembered = 20000;
 
 class Search {
  public:
@@ -259,13 +260,14 @@ class Search {
     return outcome.complete;
   }
 
-  // The same event again and again after the same time, with the whole state: so many events may lie between.
+  // The same event again and again after the same time, with the whole state: so many of its kind may lie between, of a
+  // sequence as many as it has steps.
   bool find_own_period() {
-    constexpr std::size_t most_between = 8;
     constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
+    const std::size_t most_between = sequence ? std::max<std::size_t>(8, m_.scene.sequence.steps.size()) : 8;
     std::vector<double> times;  // of the last event of its kind, latest first
     const auto wanted = [&](const Event& e) { return !sequence || e.kind == EventKind::command; };
     const auto last = std::find_if(events_.rbegin(), events_.rend(), wanted);

@@ -1,6 +1,7 @@
 // regime_test.cpp — where a machine's own start leads to, against closed forms: what slips, what is switched, what stands.
 #include "engine/analysis/regime.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -175,6 +176,37 @@ TEST(Regime, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
   EXPECT_GT(off, 2 * regime.point.residual);  // a round's change is not the error
   EXPECT_LT(off, 1.2 * regime.point.still_to_come() + 1e-11);
   EXPECT_LT((z - regime.point.z - regime.point.to_come).cwiseAbs().maxCoeff(), 0.2 * off + 1e-11);
+}
+
+// However many events a round holds: a brake of 5 N·m grips 150 times a round of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
+// off at its end. A DC motor behind it is linear, so its periodic speed is a sum of exponentials.
+TEST(Regime, ASequenceOfManyStepsComesAgain) {
+  constexpr int strokes = 150;
+  constexpr double pulse = 0.01, pause = 0.1, fades = 60.0 / 40 / 6, gripped = 40 * (1 - 5 / 60.0);
+  std::string steps;
+  for (int i = 0; i < strokes; ++i)
+    steps += fmt::format(
+        "{{ after = \"{} s\", set = \"brake\", to = 1 }}, {{ after = \"{} s\", set = \"brake\", to = 0 }}, ",
+        i == 0 ? pulse + pause : pulse, pulse);
+  const Scene scene = scene_from(
+      "line = [\"motor\", \"brake\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
+      "\"40 rad/s\", inertia = \"6 kg*m2\" }\nbrake = { kind = \"brake\", torque = \"5 N*m\" }\n[sequence]\nrepeat = "
+      "true\nsteps = [" +
+      steps + "]\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_NEAR(regime.point.time, strokes * 2 * pulse + pause, 1e-9);
+  EXPECT_LT(regime.rounds, 40);
+  // Speed at the section, in the middle of the widest gap: of its round from there on, in which every interval brings it
+  // nearer to where the motor balances, e^(-κ t).
+  double factor = 1, offset = 0;
+  const auto go = [&](double time, double towards) {
+    const double left = std::exp(-fades * time);
+    factor *= left, offset = left * offset + (1 - left) * towards;
+  };
+  go((pause + pulse) / 2, 40);
+  for (int i = 0; i < strokes; ++i) go(pulse, gripped), go(i + 1 < strokes ? pulse : (pause + pulse) / 2, 40);
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), offset / (1 - factor), 1e-7);
 }
 
 // A flywheel so heavy that a turn takes off 1e-7 of a deviation: that is slow, not a family of motions.
