@@ -70,7 +70,23 @@ void ExtremeRecorder::consider(std::size_t i, double t, double value) {
     found.value = wanted_[i].which == ExtremeOf::Which::largest_magnitude ? std::copysign(value, found.value) : value;
     return;
   }
-  found = {value, t, true, merit_now};
+  found.value = value, found.time = t, found.any = true, found.merit_then = merit_now;
+}
+
+void ExtremeRecorder::take_row(Found& found, const Snapshot& snapshot) const {
+  found.row_time = found.time;
+  found.row.clear();
+  for (const Channel& channel : channels_) found.row.push_back(channel.value(snapshot));
+}
+
+std::vector<TrajectoryRecorder::Row> ExtremeRecorder::rows() const {
+  std::vector<TrajectoryRecorder::Row> rows;
+  for (const Found& found : found_)
+    if (found.any && !found.row.empty()) rows.push_back({found.row_time, found.row});
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  rows.erase(std::unique(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.time == b.time; }),
+             rows.end());
+  return rows;
 }
 
 void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) const {
@@ -86,8 +102,12 @@ void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) co
 }
 
 void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equations) {
-  sample(equations.snapshot(t, y), t, last_);
+  const Snapshot& snapshot = equations.snapshot(t, y);
+  sample(snapshot, t, last_);
   for (std::size_t i = 0; i < wanted_.size(); ++i) consider(i, t, last_.value[i]);
+  if (channels_.empty()) return;
+  for (Found& found : found_)
+    if (found.time == t) take_row(found, snapshot);
 }
 
 void ExtremeRecorder::step(StepView& view) {
@@ -96,17 +116,23 @@ void ExtremeRecorder::step(StepView& view) {
     sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
   else
     std::swap(first_, last_);
-  sample(view.snapshot(t1), t1, last_);
+  const Snapshot& end = view.snapshot(t1);
+  sample(end, t1, last_);
   bool any = false;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
     any = any || may_be_beaten(i);
+    if (!channels_.empty() && found_[i].time == t1) take_row(found_[i], end);
   }
-  if (!any) return;
-  sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
-  for (std::size_t i = 0; i < wanted_.size(); ++i)
-    if (may_be_beaten(i)) search(view, i);
+  if (any) {
+    sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+    for (std::size_t i = 0; i < wanted_.size(); ++i)
+      if (may_be_beaten(i)) search(view, i);
+  }
+  if (channels_.empty()) return;
+  for (Found& found : found_)
+    if (found.any && found.row_time != found.time && found.time >= t0) take_row(found, view.snapshot(found.time));
 }
 
 // A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far

@@ -29,12 +29,21 @@ class TrajectoryRecorder final : public Observer {
   const std::vector<double>& values() const { return values_; }
   double value(std::size_t row, std::size_t channel) const { return values_[row * channels_.size() + channel]; }
 
+  // Further rows at times between, with the same columns.
+  struct Row {
+    double time = 0;
+    std::vector<double> values;
+  };
+  void add_peaks(std::vector<Row> rows) { peaks_ = std::move(rows); }
+  const std::vector<Row>& peaks() const { return peaks_; }  // by time
+
  private:
   void record(double t, const Snapshot& snapshot);
   std::vector<Channel> channels_;
   double begin_ = 0, until_;
   int rows_;
   std::vector<double> time_, values_;
+  std::vector<Row> peaks_;
 };
 
 // A quantity whose extreme is wanted, located on the continuous solution by a root of its rate.
@@ -59,7 +68,9 @@ class ExtremeRecorder final : public Observer {
     double value = 0, time = 0;
     bool any = false;
     double merit_then = 0;  // at that time: what is a little larger later on is the same peak
-    void remember(Tape& tape) { tape(value, time, any, merit_then); }
+    std::vector<double> row = {};
+    double row_time = HUGE_VAL;  // that `row` was taken at
+    void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time); }
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
@@ -67,6 +78,9 @@ class ExtremeRecorder final : public Observer {
   void remember(Tape& tape) override { tape(found_); }
   const std::vector<ExtremeOf>& wanted() const { return wanted_; }
   const std::vector<Found>& found() const { return found_; }
+  // At the time of each extreme the values of all these are taken, too.
+  void take_rows_of(std::vector<Channel> channels) { channels_ = std::move(channels); }
+  std::vector<TrajectoryRecorder::Row> rows() const;  // by time, none twice
 
  private:
   struct Sample {
@@ -78,8 +92,10 @@ class ExtremeRecorder final : public Observer {
   void sample(const Snapshot& snapshot, double t, Sample& out) const;
   bool may_be_beaten(std::size_t i) const;
   void search(StepView& view, std::size_t i);
+  void take_row(Found& found, const Snapshot& snapshot) const;
 
   std::vector<ExtremeOf> wanted_;
+  std::vector<Channel> channels_;
   std::vector<Found> found_;
   Sample first_, middle_, last_;
 };

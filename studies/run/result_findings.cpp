@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "engine/run/recorders.h"
 #include "engine/scene/units.h"
 #include "studies/answers/work_periods.h"
 #include "studies/findings/figure_text.h"
@@ -231,12 +233,40 @@ std::string trajectory_csv(const Result& r) {
   text += "time [s]";
   for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name.text, channel.unit);
   text += "\n";
-  for (std::size_t row = 0; row < t.time().size(); ++row) {
-    text += fmt::format("{}", t.time()[row]);
-    for (std::size_t k = 0; k < t.channels().size(); ++k) text += fmt::format(",{:.12g}", t.value(row, k));
+  const auto add = [&](double time, std::span<const double> values) {
+    text += fmt::format("{}", time);
+    for (const double value : values) text += fmt::format(",{:.12g}", value);
     text += "\n";
+  };
+  auto peak = t.peaks().begin();
+  for (std::size_t row = 0; row < t.time().size(); ++row) {
+    for (; peak != t.peaks().end() && peak->time < t.time()[row]; ++peak) add(peak->time, peak->values);
+    if (peak != t.peaks().end() && peak->time == t.time()[row]) ++peak;
+    add(t.time()[row], std::span(t.values()).subspan(row * t.channels().size(), t.channels().size()));
   }
+  for (; peak != t.peaks().end(); ++peak) add(peak->time, peak->values);
   return text;
+}
+
+std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
+  constexpr double tolerable = 0.05;
+  const std::size_t columns = t.channels().size();
+  std::size_t worst = 0;
+  double missed = 0;
+  for (std::size_t k = 0; k < columns; ++k) {
+    double held = 0, reached = 0;
+    for (std::size_t row = 0; row < t.time().size(); ++row) held = std::max(held, std::abs(t.value(row, k)));
+    for (const TrajectoryRecorder::Row& peak : t.peaks()) reached = std::max(reached, std::abs(peak.values[k]));
+    if (reached > 0 && 1 - held / reached > missed) worst = k, missed = 1 - held / reached;
+  }
+  if (!(missed > tolerable) || t.time().size() < 2) return {};
+  const double enough = std::max(std::pow(10, std::ceil(std::log10(2.0 * static_cast<double>(steps)))),
+                                 10 * static_cast<double>(t.time().size()));
+  return fmt::format(
+      "the rows of trajectory.csv, one every {}, are coarser than the motion: {} goes {:.0f} % beyond them; its peaks "
+      "stand in rows of their own, and samples = {:.0f} gives rows that follow it",
+      told_shortly(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, 100 * missed / (1 - missed),
+      std::min(enough, 1e6));
 }
 
 // --- chapters of the page ---

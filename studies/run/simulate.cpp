@@ -227,6 +227,7 @@ class Simulation {
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
+    run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
@@ -331,6 +332,7 @@ class Simulation {
     result_.cycles = run.cycles.cycles();
     result_.statistics = run.outcome.statistics;
     result_.statistics.limits = limits_of(run.outcome);
+    run.trajectory->add_peaks(run.extremes->rows());
     result_.trajectory = run.trajectory;
     result_.model = model_;
     result_.energy = energy_balance(m, *run.energy);
@@ -341,6 +343,8 @@ class Simulation {
     judge_motion(run.outcome);
     note_regularised(run.outcome.regularised);
     for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
+    if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
+      result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
   }
   void note_regularised(const std::vector<std::string>& list) {
