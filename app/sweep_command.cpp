@@ -1,5 +1,5 @@
 // sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one;
-// kurbel uncertainty: what tolerances make of the figures.
+// kurbel uncertainty: what tolerances make of the figures; kurbel diff: two machines side by side.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/scene/document.h"
+#include "studies/difference/difference.h"
 #include "studies/files/whole_file.h"
 #include "studies/sweep/machine.h"
 #include "studies/sweep/sweep_findings.h"
@@ -79,15 +80,21 @@ Design design_of(const SweepArguments& a, VariantTable table) {
   return Design(a.design.empty() ? "grid" : a.design, std::move(table.parameters), a.seed);
 }
 
-MachineQuestion question_of(const SweepArguments& a) {
+// A scene that is put to a study, as it is.
+MachineQuestion question_of(const StudyOptions& options, const std::string& of) {
   MachineQuestion q;
-  q.text = read_text_file(a.study.scene, max_scene_bytes);
-  q.file = a.study.scene;
-  q.settings = a.study.set;
-  q.allowed = a.study.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
-  q.of = study_named(a.of);
-  q.errors_every = errors_every(a.errors);
+  q.text = read_text_file(options.scene, max_scene_bytes);
+  q.file = options.scene;
+  q.settings = options.set;
+  q.allowed = options.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
+  q.of = study_named(of);
   q.interrupted = &interrupted();
+  return q;
+}
+
+MachineQuestion question_of(const SweepArguments& a) {
+  MachineQuestion q = question_of(a.study, a.of);
+  q.errors_every = errors_every(a.errors);
   if (!a.delta.empty() && q.of != SweepStudy::size)
     throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
   if (!a.delta.empty()) q.delta = quantity_of("--delta", a.delta, "a plain number", "0.05", any_number);
@@ -244,14 +251,8 @@ struct UncertaintyArguments {
 };
 
 int uncertainty(UncertaintyArguments a) {
-  MachineQuestion question;
-  question.of = study_named(a.of);
-  question.text = read_text_file(a.study.scene, max_scene_bytes);
-  question.file = a.study.scene;
-  question.settings = a.study.set;
-  question.allowed = a.study.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
+  MachineQuestion question = question_of(a.study, a.of);
   question.errors_every = a.no_error ? 0 : 1;
-  question.interrupted = &interrupted();
   read(a.study);  // what is wrong with it is told in its place
   check_folder(a.study);
   Progress progress(a.study.quiet);
@@ -289,6 +290,58 @@ const Verb uncertainty_verb{
              "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
              "surely limits hold; which tolerance matters; numerical errors and known biases apart",
      .set_up = set_up_uncertainty}};
+
+struct DifferenceArguments {
+  StudyOptions study;
+  std::string other, of = "run", delta;
+  std::vector<std::string> other_set;
+  bool no_error = false;
+};
+
+int difference(const DifferenceArguments& a) {
+  StudyOptions second = a.study;
+  second.scene = a.other;
+  second.set.insert(second.set.end(), a.other_set.begin(), a.other_set.end());
+  MachineQuestion questions[] = {question_of(a.study, a.of), question_of(second, a.of)};
+  for (MachineQuestion& q : questions) {
+    q.errors_every = a.no_error ? 0 : 1;
+    if (!a.delta.empty()) q.delta = quantity_of("--delta", a.delta, "a plain number", "0.05", any_number);
+  }
+  if (!a.delta.empty() && questions[0].of != SweepStudy::size)
+    throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
+  read(a.study);  // what is wrong with either is told in its place
+  read(second);
+  check_folder(a.study);
+  Progress progress(a.study.quiet);
+  progress(fmt::format("{} of both", a.of), 0);
+  return present(output_of(difference_between(questions[0], questions[1], a.of)), a.study);
+}
+
+void set_up_difference(CLI::App& command, int& code) {
+  const auto a = std::make_shared<DifferenceArguments>();
+  add_study_options(command, a->study);
+  command.add_option("other", a->other, "scene file of the other machine")->required();
+  command
+      .add_option("--other-set", a->other_set,
+                  "COMPONENT.KEY=VALUE in the other machine alone; --set holds for both; repeatable")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--of", a->of, "run (default), steady, modes or size");
+  command.add_option("--delta", a->delta, "demanded δ, of --of size");
+  command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: any change counts then");
+  command.callback([&code, a] { code = difference(*a); });
+}
+
+const Verb difference_verb{
+    {.place = 22,
+     .name = "diff",
+     .arguments = "a.toml b.toml",
+     .help = "two machines figure by figure, and what differs in their scenes",
+     .does =
+         "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure of "
+         "both with its error, whether they differ by more than that, and the keys that differ",
+     .set_up = set_up_difference,
+     .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}}};
 
 }  // namespace
 }  // namespace kurbel::app

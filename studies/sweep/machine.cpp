@@ -309,6 +309,15 @@ std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std
   return list;
 }
 
+MachineAnswer answer_of(const MachineQuestion& question) {
+  VariedScene varied(question, {});
+  RowAnswer answer = answer_of(question, varied, {}, question.errors_every > 0);
+  if (answer.interrupted) throw OutOfTime(0);
+  const Scene& scene = varied.at({});
+  return {answer.state,    std::move(answer.diagnosis), std::move(answer.figures), scene.title, scene.text,
+          scene.speed_unit};
+}
+
 Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
                             const std::vector<SweptFigure>& figures) {
   std::unordered_map<std::string, std::size_t> numbers;

@@ -61,6 +61,17 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question);
 // Those asked for: whole names, or a quantity ("delta": of whatever has one); empty: all. Throws std::invalid_argument.
 std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked);
 
+// What a study says of the scene as it is.
+struct MachineAnswer {
+  RowState state = RowState::done;
+  std::string diagnosis;
+  std::vector<Figure> figures;
+  std::string title, text;  // of the scene, settings in it
+  SpeedUnit speed_unit;
+};
+// Throws SceneError, and OutOfTime where it is interrupted.
+MachineAnswer answer_of(const MachineQuestion& question);
+
 // Computes rows: one for each thread.
 Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
                             const std::vector<SweptFigure>& figures);

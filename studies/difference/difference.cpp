@@ -1,0 +1,73 @@
+// difference.cpp — the same study of both scenes, figure by figure.
+#include "studies/difference/difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/findings/figure_changes.h"
+
+namespace kurbel {
+
+std::optional<double> FigureDifference::change() const {
+  if (!a || !b) return {};
+  return *b - *a;
+}
+
+std::optional<double> FigureDifference::error() const {
+  if (!a_error || !b_error) return {};
+  return *a_error + *b_error;
+}
+
+std::optional<double> FigureDifference::relative() const {
+  if (!a || !b || !(std::abs(*a) > a_error.value_or(0)) || *a == 0) return {};
+  return *b / *a - 1;
+}
+
+double FigureDifference::weight() const {
+  if (!a || !b) return 0;
+  const double most = std::max({std::abs(*a), std::abs(*b), scale});
+  return most > 0 ? std::abs(*b - *a) / most : 0;
+}
+
+bool FigureDifference::differs() const {
+  if (!a || !b) return true;
+  return std::abs(*b - *a) > error().value_or(0);
+}
+
+namespace {
+
+struct Answered {
+  MachineOfTwo machine;
+  MachineAnswer answer;
+};
+
+Answered answered(const MachineQuestion& question) {
+  Answered found{.machine = {.file = question.file}, .answer = answer_of(question)};
+  found.machine.title = found.answer.title;
+  found.machine.text = found.answer.text;
+  found.machine.done = found.answer.state == RowState::done;
+  found.machine.diagnosis = found.answer.diagnosis;
+  return found;
+}
+
+}  // namespace
+
+MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of) {
+  const Answered first = answered(a), second = answered(b);
+  MachineDifference d{.of = of, .a = first.machine, .b = second.machine, .speed_unit = first.answer.speed_unit};
+  for (const Figure& f : first.answer.figures) {
+    FigureDifference row{
+        .name = f.name, .unit = f.unit, .a = f.value, .a_error = f.error, .scale = f.scale, .telling = is_telling(f)};
+    d.figures.push_back(std::move(row));
+  }
+  for (const Figure& f : second.answer.figures) {
+    auto row = std::find_if(d.figures.begin(), d.figures.end(), [&](const auto& r) { return r.name == f.name; });
+    if (row == d.figures.end())
+      row = d.figures.insert(row, {.name = f.name, .unit = f.unit, .scale = f.scale, .telling = is_telling(f)});
+    row->b = f.value, row->b_error = f.error;
+  }
+  d.changes = scene_changes(parse_toml(d.a.text, d.a.file), parse_toml(d.b.text, d.b.file));
+  return d;
+}
+
+}  // namespace kurbel

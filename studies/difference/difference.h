@@ -1,0 +1,50 @@
+// difference.h — two machines side by side: what differs between their scenes, and what that does to their figures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/difference/scene_changes.h"
+#include "studies/findings/findings.h"
+#include "studies/sweep/machine.h"
+
+namespace kurbel {
+
+// A figure of both machines, in SI.
+struct FigureDifference {
+  std::string name, unit;
+  std::optional<double> a = {}, b = {};              // nothing: that machine has no such figure
+  std::optional<double> a_error = {}, b_error = {};  // nothing: not measured
+  double scale = 0;                                  // what is usual of it
+  bool telling = false;                              // a peak, a speed, a fluctuation: worth a headline
+
+  std::optional<double> change() const;    // b − a
+  std::optional<double> error() const;     // of the change: both errors; nothing where one is not known
+  std::optional<double> relative() const;  // b/a − 1; nothing where a does not differ from nothing
+  double weight() const;                   // |b − a| over the greatest of |a|, |b| and what is usual
+  bool differs() const;                    // by more than both errors; where none is known, at all
+};
+
+struct MachineOfTwo {
+  std::string file, text = {}, title = {};
+  bool done = true;
+  std::string diagnosis = {};  // of one that failed, or whose accuracy is not confirmed
+};
+
+struct MachineDifference {
+  std::string of;  // "run", "steady", "modes", "size"
+  MachineOfTwo a, b;
+  SpeedUnit speed_unit;
+  std::vector<FigureDifference> figures = {};  // in the order of the first machine, then those of the second alone
+  std::vector<SceneChange> changes = {};
+
+  bool complete() const { return a.done && b.done; }
+};
+
+// Puts the same question to two scenes. Throws SceneError for either, and std::invalid_argument.
+MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of);
+
+Findings findings_of(const MachineDifference& difference);
+
+}  // namespace kurbel
