@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t most_peaks = 3;
 constexpr int never = 100;
+constexpr double stands_within_the_cycle = 2;  // (ω_max − ω_min)/ω_mid from there on: ω_min ≤ 0
 
 // Ranks of figures by their names' beginnings.
 struct Ranked {
@@ -37,8 +38,9 @@ int rank_of(const Figure& f, const std::string& link, const std::set<std::string
   if (judged.contains(f.name)) return 1;
   const bool of_link = f.of == link;
   switch (f.what) {
-    case delta:
     case cycle_fluctuation:
+      return of_link && f.value < stands_within_the_cycle ? 2 : never;
+    case delta:
     case mean_speed:
       return of_link ? 2 : never;
     case peak_torque:
@@ -94,8 +96,9 @@ std::vector<std::size_t> chosen_figures(const Result& r, std::size_t most) {
       ranked.emplace_back(rank, 0, i);
   }
   std::stable_sort(peaks.begin(), peaks.end());
+  // The greatest of them comes first whatever is rated.
   for (std::size_t k = 0; k < peaks.size(); ++k)
-    ranked.emplace_back(k < most_peaks ? 4 : 8, static_cast<double>(k), peaks[k].second);
+    ranked.emplace_back(k == 0 ? 0 : k < most_peaks ? 4 : 8, static_cast<double>(k), peaks[k].second);
   std::stable_sort(ranked.begin(), ranked.end());
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < std::min(most, ranked.size()); ++k) chosen.push_back(std::get<2>(ranked[k]));

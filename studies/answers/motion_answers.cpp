@@ -82,7 +82,7 @@ class Judge {
 
   std::optional<Answer> runs_away(const Periods& p) const {
     if (is_commanded() || p.steady || p.run_down_begin) return {};
-    if (!(std::abs(speed()) > far_away * m_.speed_scale) || !p.verdict.ends_with("does not shrink")) return {};
+    if (!(std::abs(speed()) > far_away * m_.speed_scale) || !p.without_limit) return {};
     return Answer{Question::runs,
                   fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed that its data tell of, and {}",
                               link(), m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),

@@ -24,15 +24,22 @@ class Words {
   std::string all() const {
     if (p_.steady) return steady();
     const Figure* last = figure(QuantityKind::final_speed);
-    const std::string end = !last ? std::string() : last->value == 0 ? "at rest" : "at " + speed(last->value);
+    const std::string end = !last                  ? std::string()
+                            : last->value == 0     ? "at rest"
+                            : all_but_rests(*last) ? fmt::format("all but at rest ({})", speed(last->value))
+                                                   : "at " + speed(last->value);
     if (r_.model && !r_.model->commands.empty())
       return fmt::format("\"{}\" goes through its operating sequence{}", link(), end.empty() ? "" : " and ends " + end);
-    if (p_.remaining || p_.verdict.ends_with("does not shrink"))
+    if (p_.remaining || p_.without_limit)
       return fmt::format("\"{}\" has not come to a steady motion by {}: {}", link(), seconds(r_.until), p_.verdict);
     return end.empty() ? std::string() : fmt::format("\"{}\" is {} after {}", link(), end, seconds(r_.until));
   }
 
  private:
+  // What still trembles in shafts that are held.
+  bool all_but_rests(const Figure& last) const {
+    return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
+  }
   std::string steady() const {
     const Figure* mean = figure(QuantityKind::mean_speed);
     std::string text = fmt::format("\"{}\" runs steadily at {}", link(), speed(mean ? mean->value : p_.steady_speed));

@@ -140,6 +140,12 @@ struct MachineView {
     std::vector<Link> links;                // in the order of drawing
     std::vector<int> fixed;                 // joints that are bearings in the frame
     int output = 0;                         // joint that the load is shown at
+    struct Gap {
+      std::string joint;
+      double size = 0;  // radial clearance [m]
+    };
+    std::vector<Gap> gaps;        // of pins in their bearings
+    double bend_enlargement = 1;  // of its rod's deflection
   };
   // Per frame; twists and torques per part, empty where there are none.
   struct Motion {
@@ -150,6 +156,9 @@ struct MachineView {
     std::vector<std::vector<double>> torque;               // [N·m]
     // Per linkage on its output, positive towards its greatest x [N], or angle [N·m]; empty where there is none.
     std::vector<std::vector<double>> force;
+    std::vector<std::vector<double>>
+        bend;  // per linkage: its rod's deflection in the middle [m]; empty where none bends
+    std::vector<std::vector<double>> shift;  // per gap of all linkages, of the pin in its gap, x and y by turns [m]
   };
   std::string title, link;
   std::vector<Part> parts;

@@ -51,6 +51,7 @@ struct Periods {
   double steady_speed = 0;                                  // of steady motion only [rad/s]
   bool steady = false;                                      // what remains to the mid speed's limit is below 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; nothing: none is in sight
+  bool without_limit = false;                               // the speed goes on changing, by no less from cycle to cycle
   std::string verdict;                                      // why steady, or why not, in words
 };
 

@@ -172,6 +172,14 @@ void write(Writer& w, const MachineView::Linkage& linkage) {
   w.key("fixed");
   w.list(linkage.fixed, [&](int joint) { w.value(static_cast<double>(joint)); });
   w.field("output", static_cast<double>(linkage.output));
+  w.key("gaps");
+  w.list(linkage.gaps, [&](const MachineView::Linkage::Gap& gap) {
+    w.object([&] {
+      w.field("joint", gap.joint);
+      w.field("size", gap.size);
+    });
+  });
+  w.field("bendEnlargement", linkage.bend_enlargement);
 }
 
 void write(Writer& w, const MachineView& machine) {
@@ -214,6 +222,8 @@ void write(Writer& w, const MachineView& machine) {
       w.field("twistOut", motion.twist_out, 4);
       w.field("torque", motion.torque, 4);
       w.field("force", motion.force, 4);
+      w.field("bend", motion.bend, 4);
+      w.field("shift", motion.shift, 4);
     });
   });
 }

@@ -495,6 +495,7 @@
     const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
     const width = Math.max(420, ...partsOf.map(lengthOf));
     if (width > 1050) stage.classList.add('alone');
+    else if (width < 620) stage.classList.add('short');
     const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * rows.length}`, class: 'line', role: 'img'}, stage);
     draw('title', {}, svg, 'Shaft line');
     const updates = [], stations = [];
@@ -652,8 +653,10 @@
     const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
     const w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - Math.min(...ys);
     const scale = 380 / Math.max(w, h), padding = 18;
-    const top = 36;  // above all, the scale bar
-    const W = Math.max(w * scale + 2 * padding, 250), H = h * scale + padding + top;
+    const bends = front.bend && front.bend[which] || [], bent = bends.length > 0;
+    const firstShift = 2 * m.linkages.slice(0, which).reduce((sum, l) => sum + l.gaps.length, 0);
+    const top = g.gaps.length ? 104 : 36;  // above all, the scale bar and the gaps
+    const W = Math.max(w * scale + 2 * padding, 250, 124 * g.gaps.length), H = h * scale + padding + top;
     const X = (u, v) => (u * c - v * s - (Math.max(...xs) + Math.min(...xs)) / 2) * scale + W / 2;
     const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + top;
     const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
@@ -682,6 +685,20 @@
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
     draw('text', {x: 10, y: 30, class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
 
+    if (bent) draw('text', {x: 10, y: H - 8, class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
+    const gaps = g.gaps.map((gap, k) => {
+      const x = W - 62 - 124 * k, y = 42, wide = 12, R = 36;
+      draw('circle', {cx: x, cy: y, r: R, class: 'dial'}, svg);
+      draw('text', {x, y: y + R + 16, class: 'soft', 'text-anchor': 'middle'}, svg, `${gap.joint}, gap ${+(gap.size * 1000).toPrecision(3)} mm`);
+      const journal = draw('circle', {r: R - wide, class: 'body'}, svg), centre = draw('circle', {r: 2.5, class: 'tie-end'}, svg);
+      const shifts = [0, 1].map(axis => front.shift[firstShift + 2 * k + axis]);
+      return at => {
+        const [u, v] = shifts.map(list => at(list) / gap.size * wide);
+        for (const shape of [journal, centre]) place(shape, {cx: x + u * c - v * s, cy: y - (u * s + v * c)});
+      };
+    });
+
     // A rectangle about a joint, along the direction of another or of the stroke.
     const block = (p, along, length, width) => {
       const [a, b] = along, points = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([i, j]) => [p[0] + i * length * a - j * width * b, p[1] + i * length * b + j * width * a]);
@@ -691,6 +708,11 @@
       crank: {class: 'front', 'stroke-width': 7, 'stroke-linecap': 'round'}, link: {stroke: 'var(--metal-edge)', 'stroke-width': 9, 'stroke-linecap': 'round', 'stroke-linejoin': 'round'},
       slot: {stroke: 'var(--metal-edge)', 'stroke-width': 4, 'stroke-dasharray': '2 3'}, slider: {class: 'body'}, block: {class: 'body'},
     };
+    // Half a sine wave between two joints, its middle moved across.
+    function bentLine(a, b, bend) {
+      const d = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1, across = [-(b[1] - a[1]) / d, (b[0] - a[0]) / d];
+      return Array.from({length: 17}, (_, i) => [0, 1].map(k => a[k] + i / 16 * (b[k] - a[k]) + bend * Math.sin(Math.PI * i / 16) * across[k]));
+    }
     function linkage(parent, ghost) {
       const ghostly = {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '6 4'};
       if (!ghost) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]) * scale, class: 'dial'}, parent);
@@ -699,11 +721,11 @@
         return {link, filled, shape: draw(filled ? 'polygon' : 'polyline', {fill: 'none', ...(ghost ? ghostly : styles[link.shape])}, parent)};
       });
       const joints = ghost ? [] : g.x.map(() => draw('circle', {r: 4.5, class: 'dial'}, parent));
-      return angle => {
+      return (angle, bend) => {
         const points = g.x.map((_, k) => jointAt(k, angle));
         for (const {link, filled, shape} of parts) {
           const [first, second] = link.joints.map(k => points[k]);
-          if (!filled) place(shape, {points: link.joints.map(k => at2(...points[k])).join(' ')});
+          if (!filled) place(shape, {points: (bend && link.shape === 'link' ? bentLine(first, second, bend) : link.joints.map(k => points[k])).map(q => at2(...q)).join(' ')});
           else if (link.shape === 'slider') place(shape, {points: block(first, [1, 0], body * 0.58, body * 0.58)});
           else {
             const d = Math.hypot(first[0] - second[0], first[1] - second[1]) || 1;
@@ -721,7 +743,8 @@
     const onLeft = X(g.x[end][0], g.y[end][0]) > 0.6 * W;  // the figure stands where the arrow does not
     const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
     return (at, loads) => {
-      const points = main(g.ratio * at(front.angle));
+      const points = main(g.ratio * at(front.angle), bent ? g.bendEnlargement * at(bends) : 0);
+      gaps.forEach(show => show(at));
       ghosts.forEach((ghost, i) => shadows[i](g.ratio * at(ghost.angle)));
       const force = at(own), shown = loads && Math.abs(force) > 1e-4 * largest;
       group.setAttribute('visibility', shown ? 'visible' : 'hidden');

@@ -17,6 +17,8 @@
 namespace kurbel {
 namespace {
 
+constexpr double stands_within_the_cycle = 2;  // of a fluctuation: ω_min ≤ 0 from there on
+
 void add_rows(Comparison& c) {
   for (const Figure& f : c.b.figures) {
     if (!is_told(f, c.b)) continue;
@@ -110,6 +112,7 @@ void conclude(Comparison& c) {
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == QuantityKind::delta;
+    if (row.what == QuantityKind::cycle_fluctuation && row.b >= stands_within_the_cycle) continue;
     if (!row.ratio || !(repeats || row.what == QuantityKind::cycle_fluctuation)) continue;
     const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
     c.conclusion += (c.conclusion.empty() ? "" : "; ") +

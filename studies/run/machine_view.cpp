@@ -1,4 +1,6 @@
 // machine_view.cpp — frames of the moving machine from the traces of one or two runs.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,6 +21,7 @@ constexpr std::size_t most_parts = 60;
 constexpr int places_of_turn = 240;  // straight between them: 1e-4 of the crank's radius
 constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
+constexpr double shown_bend = 0.12;  // of the rod's length
 
 // Straight between the points; x ascends.
 double value_at(const Trace& trace, double x) {
@@ -105,7 +108,10 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, 
                                .y = {},
                                .links = {},
                                .fixed = drawing.fixed,
-                               .output = drawing.output};
+                               .output = drawing.output,
+                               .gaps = {}};
+  for (const JointClearance& c : mechanism.clearances)
+    if (c.joint != JointClearance::Joint::guide) linkage.gaps.push_back({c.name(), c.contact.gap});
   for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
   for (int i = 0; i <= places_of_turn * mechanism.reduced->cycle().turns(); ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
@@ -139,7 +145,9 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
                              .twist_in = {},
                              .twist_out = {},
                              .torque = {},
-                             .force = {}};
+                             .force = {},
+                             .bend = {},
+                             .shift = {}};
   bool any_twist = false;
   for (const MachineView::Part& part : view.parts) {
     if (part.kind == "gap") {
@@ -159,8 +167,32 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
     for (const char* load : {"force.", "load_torque."})
       if (const Trace* trace = traces.find(load + linkage.name)) motion.force.back() = sampled(trace, view.time);
   }
+  for (const MachineView::Linkage& linkage : view.linkages) {
+    motion.bend.push_back(sampled(traces.find("rod_deflection." + linkage.name), view.time));
+    for (const MachineView::Linkage::Gap& gap : linkage.gaps)
+      for (const char* axis : {"x", "y"}) {
+        std::string joint = gap.joint;
+        std::replace(joint.begin(), joint.end(), ' ', '_');
+        motion.shift.push_back(
+            sampled(traces.find(fmt::format("{}_shift_{}.{}", joint, axis, linkage.name)), view.time));
+      }
+  }
   if (!any_twist || model.elastic.empty()) motion.twist_in.clear(), motion.twist_out.clear();
   return motion;
+}
+
+// The largest deflection is drawn as a tenth of the rod.
+void enlarge_bends(MachineView& view, const Model& model) {
+  for (std::size_t k = 0; k < view.linkages.size(); ++k) {
+    MachineView::Linkage& linkage = view.linkages[k];
+    double largest = 0, length = 0;
+    for (const MachineView::Motion& motion : view.motions)
+      for (const double bend : motion.bend[k]) largest = std::max(largest, std::abs(bend));
+    for (const Network::ShaftElement& e : model.network.elements)
+      if (const auto* element = mechanism_of(e); element && element->mechanism().name == linkage.name)
+        if (const auto* data = element->mechanism().data.as<SliderCrankData>()) length = data->rod_length;
+    if (largest > 0) linkage.bend_enlargement = round_down(std::max(1.0, shown_bend * length / largest));
+  }
 }
 
 }  // namespace
@@ -195,6 +227,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
     for (const auto* side : {&motion.twist_in, &motion.twist_out})
       for (const auto& twists : *side)
         for (const double twist : twists) largest = std::max(largest, std::abs(twist));
+  enlarge_bends(view, model);
   view.enlargement = largest > 0 ? round_down(std::max(1.0, shown_twist / largest)) : 1;
   return view;
 }

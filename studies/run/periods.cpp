@@ -99,7 +99,8 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   if (approach.remaining) periods.remaining = *approach.remaining;
   periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
   const double change = 100 * approach.last_change / scale;
-  if (!approach.remaining || *approach.remaining > nowhere * scale)
+  periods.without_limit = !approach.remaining || *approach.remaining > nowhere * scale;
+  if (periods.without_limit)
     periods.verdict =
         fmt::format("the {} speed changes by {:+.2g} % a {}, and that does not shrink", speed, change, unit);
   else
@@ -115,7 +116,7 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
   const std::optional<double> entry = speed.last_outside(low, high);
   if (!entry) return;
   if (d.last && *entry > d.last->begin) {
-    periods.steady = false;
+    periods.steady = periods.without_limit = false;
     periods.verdict = fmt::format("after the last whole cycle the speed leaves its range, at {:.6g} s", *entry);
     return;
   }

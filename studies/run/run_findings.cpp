@@ -162,11 +162,12 @@ Brief brief_of(const Result& r) {
 }  // namespace
 
 std::vector<KeyFigure> key_figures_of(const Result& r) {
+  constexpr std::size_t most = 5;
   std::vector<KeyFigure> figures;
-  if (const Figure* peak = largest_peak(r)) figures.push_back(key_of(*peak, at_time(*peak), speed_unit_of(r)));
-  using enum QuantityKind;
-  for (const QuantityKind what : {delta, cycle_fluctuation, mid_speed, peak_force, run_up_time})
-    if (const Figure* figure = first_of(r, what)) figures.push_back(key_of(*figure, "", speed_unit_of(r)));
+  for (const std::size_t i : chosen_figures(r, most)) {
+    const Figure& f = r.figures[i];
+    figures.push_back(key_of(f, f.what == QuantityKind::peak_torque ? at_time(f) : "", speed_unit_of(r)));
+  }
   figures.push_back({"coordinates",
                      static_cast<double>(r.coordinates),
                      "",

@@ -117,12 +117,13 @@ Plot energy_plot(const Result& r) {
   return plot;
 }
 
-// Speed over time with its periods marked, in place of all events.
+// Speed over time with its periods marked, in place of all events; nothing where there are no periods.
 std::optional<Plot> tachogram(const Results& results, const std::string& channel) {
   const Result& r = *results.back();
   std::optional<Plot> plot = over_time(results, channel, "", "speed");
   if (!plot) return {};
   const Periods& p = r.periods;
+  if (!p.steady && !p.run_up_end && !p.run_down_begin && !p.standstill) return {};
   const SpeedUnit speed = speed_unit_of(r);
   plot->marks.clear();
   const auto mark = [&](const std::optional<double>& t, const char* words) {
@@ -279,9 +280,11 @@ std::vector<Plot> motion_plots(const Results& results) {
   };
   const Result& front = *results.back();
   const std::string link = link_of(front);
-  add(tachogram(results, "speed." + link));
+  std::optional<Plot> periods = tachogram(results, "speed." + link);
+  const bool is_told = periods.has_value();
+  add(std::move(periods));
   for (const char* end : {"", ".out"})
-    add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
+    if (!is_told || *end) add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
   add(over_angle(results, "speed." + link, fmt::format("Speed of {} over its angle", link), "speed"));
   const std::vector<std::string> joints = couplings(front);
   for (std::size_t i = 0; i < joints.size() && i < most_torque_plots; ++i) {

@@ -91,7 +91,9 @@ std::string figures_in_words(const Result& r) {
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   if (const Figure* delta = first_of(r, QuantityKind::delta))
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
-  if (const Figure* cycle = first_of(r, QuantityKind::cycle_fluctuation))
+  constexpr double stands_within_the_cycle = 2;
+  if (const Figure* cycle = first_of(r, QuantityKind::cycle_fluctuation);
+      cycle && cycle->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)
