@@ -260,19 +260,31 @@ class Search {
     return outcome.complete;
   }
 
-  // The same event again and again after the same time, with the whole state: so many of its kind may lie between, of a
-  // sequence as many as it has steps.
+  std::size_t commands_in_a_round() const {
+    std::size_t count = 0;
+    for (const SequenceStep& step : m_.scene.sequence.steps) count += step.set.size();
+    return std::max<std::size_t>(1, count);
+  }
+
+  // The same event again and again after the same time, with the whole state: so many of its kind may lie between. Of a
+  // sequence the same command of the same step.
   bool find_own_period() {
+    constexpr std::size_t most_between = 8;
     constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
-    const std::size_t most_between = sequence ? std::max<std::size_t>(8, m_.scene.sequence.steps.size()) : 8;
     std::vector<double> times;  // of the last event of its kind, latest first
-    const auto wanted = [&](const Event& e) { return !sequence || e.kind == EventKind::command; };
-    const auto last = std::find_if(events_.rbegin(), events_.rend(), wanted);
-    for (auto e = last; e != events_.rend(); ++e)
-      if (e->component == last->component && e->what == last->what) times.push_back(e->t);
+    if (sequence) {
+      const std::size_t round = commands_in_a_round();
+      std::size_t commands = 0;
+      for (auto e = events_.rbegin(); e != events_.rend(); ++e)
+        if (e->kind == EventKind::command && commands++ % round == 0) times.push_back(e->t);
+    } else {
+      const Event& last = events_.back();
+      for (auto e = events_.rbegin(); e != events_.rend(); ++e)
+        if (e->component == last.component && e->what == last.what) times.push_back(e->t);
+    }
     for (std::size_t k = 1; k <= most_between && 2 * k < times.size(); ++k) {
       const double period = times[0] - times[k], before = times[k] - times[2 * k];
       const double change = std::abs(period - before);
