@@ -16,10 +16,11 @@ Location Compilation::place_of_line() const {
 
 namespace {
 
-// All mechanisms are back in place, each at its own ratio; where none of a few turns does it, the link's own cycle.
+// All mechanisms are back in place, each at its own ratio; where none of a few turns does it, the link's own cycle. An
+// engine, a load over an angle or a joint at an angle make a cycle without any mechanism.
 void find_cycle(Model& m) {
-  if (m.cycle == 0) return;
-  if (const auto [angle, periodic] = cycle_of(m); periodic) m.cycle = angle;
+  const CyclePeriod cycle = cycle_of(m);
+  if (cycle.periodic && (m.cycle > 0 || cycle.of_a_law)) m.cycle = cycle.angle;
 }
 
 }  // namespace

@@ -39,13 +39,15 @@ CommonPeriod common_period(const std::vector<double>& periods) {
 CyclePeriod cycle_of(const Model& m) {
   std::vector<double> period = {turn};
   for (const Network::ShaftElement& e : m.network.elements)
-    if (e.element->is.uses_angle) period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
+    if (e.element->is.uses_angle && e.element->angle_period > 0)
+      period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) period.push_back(turn / m.scale_ratio[at(joint.a)]);
   }
-  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true};
-  return {m.cycle > 0 ? m.cycle : turn, false};
+  const bool of_a_law = period.size() > 1;
+  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true, of_a_law};
+  return {m.cycle > 0 ? m.cycle : turn, false, of_a_law};
 }
 
 }  // namespace kurbel

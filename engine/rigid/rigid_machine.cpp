@@ -70,9 +70,9 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
     : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
     if (e.element->cycle > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
-  const auto [cycle, periodic] = cycle_of(*model_);
-  cycle_ = cycle;
-  periodic_ = periodic;
+  const CyclePeriod cycle = cycle_of(*model_);
+  cycle_ = cycle.angle;
+  periodic_ = cycle.periodic;
   set_modes(0, 1);
   // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed.
   const double whole = equations_.shaft_balance(0, 0, state_).inertia;
