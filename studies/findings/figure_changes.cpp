@@ -11,6 +11,24 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a rated quantity
 
+// What matters of a speed or a work is how it compares with the machine's own: a shaft that trembles at the end at a
+// hundredth of its speed, or a loss of a thousandth of what is driven, tells little however much it changes of itself.
+bool is_judged_by_the_machine(QuantityKind what) {
+  using enum QuantityKind;
+  switch (what) {
+    case max_speed:
+    case min_speed:
+    case steady_speed:
+    case mid_speed:
+    case mean_speed:
+    case final_speed:
+    case work:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 bool is_telling(const Figure& figure) {
@@ -57,7 +75,8 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
     const bool magnitude = is_peak(figure.what);
     const double difference =
         magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
-    const double size = std::max({std::abs(figure.value), nothing, 1e-300});
+    const double usual = is_judged_by_the_machine(figure.what) ? figure.scale : 0;
+    const double size = std::max({std::abs(figure.value), usual, nothing, 1e-300});
     changes.push_back({figure.name, figure.unit, figure.value, same->value, difference / size,
                        std::abs(figure.value) <= nothing, (error_of(figure, full) + error_of(*same, other)) / size});
   }

@@ -9,8 +9,9 @@
 namespace kurbel {
 
 // How far a figure is from that of the full model, over the full model's value of it: 0.01 is one per cent of the
-// figure itself, be it a δ of 0.002 or a torque far below the rated one. Only a figure that the full model does not
-// tell from zero is judged by its floor instead. A figure that is zero in both models is left out.
+// figure itself, be it a δ of 0.002 or a torque far below the rated one. Speeds and works are judged by the machine's own
+// (rated speed, energy turned over) where those are greater. Only a figure that the full model does not tell from zero is
+// judged by its floor instead. A figure that is zero in both models is left out.
 //
 // The change is what the models differ by; the error is what the two runs leave open of it, and no part of it.
 struct FigureChange {
