@@ -9,6 +9,7 @@
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
+#include "studies/modes/kept_speeds.h"
 #include "studies/modes/modes_plots.h"
 
 namespace kurbel::modes {
@@ -129,6 +130,10 @@ std::vector<Band> bands_of(const ModesStudy& m) {
     else
       touching->from = std::min(touching->from, from), touching->to = std::max(touching->to, to);
   }
+  for (const SpeedStretch& s : stretches(m.sweep))
+    if (!s.kept)
+      bands.push_back({m.speed_unit.of(m.sweep[s.begin].speed), m.speed_unit.of(m.sweep[s.end - 1].speed), "not kept",
+                       Role::rigid});
   const double speed = m.speed_unit.of(std::abs(m.drive.at.speed));
   if (speed > 0)
     bands.push_back(

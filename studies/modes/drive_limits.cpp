@@ -9,6 +9,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/limits/limits_findings.h"
+#include "studies/modes/kept_speeds.h"
 
 namespace kurbel {
 namespace {
@@ -24,7 +25,7 @@ std::vector<Passing> passing_of(const ModesStudy& found) {
   std::vector<Passing> passing(found.limited.size());
   for (const SpeedResponse& s : found.sweep)
     for (std::size_t j = 0; j < passing.size(); ++j) {
-      if (s.speed > std::abs(found.drive.at.speed) * (1 + 1e-9)) continue;
+      if (!s.kept || s.speed > std::abs(found.drive.at.speed) * (1 + 1e-9)) continue;
       const double most = load_of(s.joints[j]).largest().value;
       if (std::abs(most) > std::abs(passing[j].torque)) passing[j] = {most, s.speed};
     }
@@ -81,9 +82,15 @@ void find_barred_ranges(const Model& model, double factor, const std::function<S
                         ModesStudy& found) {
   found.limited = limited_joints(model);
   find_severity(factor, found);
-  std::vector<SpeedLoads> sweep;
-  for (const SpeedResponse& s : found.sweep) sweep.push_back({s.speed, loads_of(s)});
-  found.barred = barred_ranges(found.limited, sweep, factor, [&at](double speed) { return loads_of(at(speed)); });
+  for (const SpeedStretch& stretch : stretches(found.sweep)) {
+    if (!stretch.kept) continue;
+    std::vector<SpeedLoads> sweep;
+    for (std::size_t i = stretch.begin; i < stretch.end; ++i)
+      sweep.push_back({found.sweep[i].speed, loads_of(found.sweep[i])});
+    const auto loads = [&at](double speed) { return loads_of(at(speed)); };
+    for (BarredRange& range : barred_ranges(found.limited, sweep, factor, loads))
+      found.barred.push_back(std::move(range));
+  }
 }
 
 void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& regime, bool at_regime, const Watch& watch,

@@ -14,6 +14,7 @@
 #include "engine/numerics/roots.h"
 #include "studies/history/torque_history.h"
 #include "studies/modes/drive_limits.h"
+#include "studies/modes/kept_speeds.h"
 #include "studies/modes/mode_list.h"
 #include "studies/modes/spot_checks.h"
 
@@ -325,6 +326,7 @@ class Study {
     // What swings at frequencies of its own bears loads at every speed, too.
     if (found_.joint_names.empty() || (x.by_order.empty() && x.by_frequency.empty() && !limited)) return;
     const std::vector<double> speeds = sweep_speeds();
+    found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_swing < std::abs(found_.drive.at.speed);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
         found_.complete = false;
@@ -335,10 +337,13 @@ class Study {
       if (speeds[i] == 0) continue;
       const double fraction = static_cast<double>(i) / static_cast<double>(speeds.size());
       options_.watch.at("forced response", 0.2 + 0.6 * fraction);
-      found_.sweep.push_back(respond(drive_at(speeds[i]), x));
+      const LinearDrive drive = drive_at(speeds[i]);
+      found_.sweep.push_back(respond(drive, x));
       found_.sweep.back().speed = speeds[i];
+      judge_kept_speeds(found_, drive, found_.sweep.back());
     }
     fill_critical_amplitudes();
+    leave_out_what_is_not_kept(found_);
   }
 
   // From the sweep, which has a point at every critical speed unless it was thinned.

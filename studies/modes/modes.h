@@ -129,6 +129,7 @@ struct ModesStudy {
   double cycle_order = 1;              // of its first harmonic
   std::string regime;                  // what the scene's own start leads to, in words
   std::vector<Rattle> rattles;
+  bool keeps_its_speed = true;        // nothing grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range
   std::vector<LimitedJoint> limited;  // per joint: what it may bear
   std::vector<BarredRange> barred;

@@ -50,8 +50,10 @@ std::string conclusion_of(const ModesStudy& m) {
   if (is_forced(m)) {
     const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
     const std::size_t j = joint_with_largest_swing(said);
-    text += fmt::format("; at {} {} swings by {} about {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                        m.joint_names[j], torque_text(said.joints[j].peak), torque_text(said.joints[j].mean));
+    text +=
+        fmt::format("; at {} {} swings by {} about {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
+                    m.joint_names[j], torque_text(said.joints[j].peak),
+                    torque_text(std::abs(said.joints[j].mean) > 1e-6 * said.joints[j].peak ? said.joints[j].mean : 0));
     const double linear = m.here.joints[j].peak, really = said.joints[j].peak;
     if (m.cycle && std::abs(linear - really) > 0.1 * really)
       text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / really - 1));
@@ -290,7 +292,9 @@ std::string shapes_csv(const ModesStudy& m) {
 }
 
 std::string response_csv(const ModesStudy& m) {
-  auto csv = csv_of(m.sweep).column("speed [rad/s]", &SpeedResponse::speed);
+  auto csv = csv_of(m.sweep).column("speed [rad/s]", &SpeedResponse::speed).column("kept", [](const SpeedResponse& s) {
+    return s.kept ? 1.0 : 0.0;
+  });
   for (std::size_t j = 0; j < m.joint_names.size(); ++j)
     csv.column(
            fmt::format("mean {} [N*m]", m.joint_names[j]), [j](const SpeedResponse& s) { return s.joints[j].mean; }, 9)

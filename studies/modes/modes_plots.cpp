@@ -97,7 +97,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   std::vector<const SpeedResponse*> finite;
   double largest = 0;
   for (const SpeedResponse& s : m.sweep) {
-    if (!std::isfinite(s.joints[j].peak)) continue;
+    if (!s.kept || !std::isfinite(s.joints[j].peak)) continue;
     finite.push_back(&s);
     largest = std::max(largest, s.joints[j].peak);
   }

@@ -28,6 +28,7 @@ struct Candidate {
 std::vector<Candidate> uses_of(const ModesStudy& found, double factor) {
   std::vector<Candidate> uses;
   for (const SpeedResponse& s : found.sweep) {
+    if (!s.kept) continue;
     Candidate most{.speed = s.speed};
     for (std::size_t j = 0; j < s.joints.size() && j < found.limited.size(); ++j) {
       const double use = share_of_bearable(found.limited[j], load_of(s.joints[j]), factor);

@@ -126,7 +126,11 @@ FrequencyResponse::Motion FrequencyResponse::motion(double omega, const Forcing&
 }
 
 std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omega, const Forcing& f) {
-  const Motion x = motion(omega, f);
+  return swings(omega, f, motion(omega, f));
+}
+
+std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omega, const Forcing& f,
+                                                                     const Motion& x) const {
   const Eigen::VectorXcd twist = drive_.twists * x.q + f.twist;
   Eigen::VectorXcd torque = f.joint_torque + Complex(0, omega) * (drive_.joint_by_speed * x.q);
   if (x.own.size() > 0) torque += drive_.joint_by_own * x.own;
@@ -196,6 +200,18 @@ void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, dou
   joint.dominant_omega = omega;
 }
 
+// The reduction link's speed by the coordinates' speeds: a row; empty where it may not move.
+Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
+  const Model& m = *drive.model;
+  const int link = m.shaft_of_node[static_cast<std::size_t>(m.reduction_node)];
+  const auto found = std::find(drive.shaft.begin(), drive.shaft.end(), link);
+  if (found == drive.shaft.end()) return {};
+  const auto row = static_cast<Index>(found - drive.shaft.begin());
+  const double ratio = drive.ratio[static_cast<std::size_t>(row)];
+  Eigen::VectorXcd link_row = Eigen::VectorXd(drive.motion.row(row).transpose()).cast<Complex>();
+  return ratio != 0 ? Eigen::VectorXcd(link_row / ratio) : link_row;
+}
+
 }  // namespace
 
 SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) {
@@ -206,17 +222,25 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   const std::vector<OrderSource>& by_order = excitations.at_speed(drive.at.speed);
   result.joints.resize(drive.joints.size());
   result.orders.assign(drive.joints.size(), std::vector<Complex>(excitations.harmonics + 1));
+  const Eigen::VectorXcd link = row_of_link(drive);
+  std::vector<Complex> speeds(excitations.harmonics + 1);
   for (std::size_t r = 1; r <= excitations.harmonics && !by_order.empty() && speed > 0; ++r) {
     if (!excitations.is_looked_at(r)) continue;
     Forcing forcing = Forcing::none(drive);
     for (const OrderSource& source : by_order) forcing.add(source.kind, source.index, source.at(r, drive.at.speed));
     const double omega = excitations.order(r) * speed;
-    const auto swings = response.swings(omega, forcing);
+    const FrequencyResponse::Motion motion = response.motion(omega, forcing);
+    if (link.size() > 0) speeds[r] = Complex(0, omega) * link.conjugate().dot(motion.q);
+    const auto swings = response.swings(omega, forcing, motion);
     for (std::size_t j = 0; j < swings.size(); ++j) {
       result.orders[j][r] = swings[j].torque;
       count(result.joints[j], swings[j], dissipated(drive, j, swings[j], omega), omega, r);
     }
   }
+  if (const Extremes swing = extremes_of_sum(speeds); std::isfinite(swing.greatest))
+    result.speed_swing = std::max(swing.greatest, -swing.least);
+  else
+    result.speed_swing = HUGE_VAL;
   std::vector<double> beside(drive.joints.size(), 0.0);
   // What swings at one frequency keeps its phases.
   std::vector<FrequencySource> sources = excitations.by_frequency;

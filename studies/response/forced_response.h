@@ -27,7 +27,9 @@ struct JointResponse {
 };
 
 struct SpeedResponse {
-  double speed = 0;  // of the reduction link [rad/s]
+  double speed = 0;        // of the reduction link [rad/s]
+  double speed_swing = 0;  // of the link by all orders, its greatest departure from the mean [rad/s]
+  bool kept = true;        // the machine stays at that speed; false: what is said here is of no motion that lasts
   std::vector<JointResponse> joints;
   std::vector<std::vector<Complex>> orders;  // per joint and harmonic: τ_r [N·m]
 };
@@ -54,6 +56,7 @@ class FrequencyResponse {
     Complex torque, twist;  // [N·m], [rad]
   };
   std::vector<JointSwing> swings(double omega, const Forcing& forcing);
+  std::vector<JointSwing> swings(double omega, const Forcing& forcing, const Motion& motion) const;
   // Under torques on the coordinates alone.
   Eigen::VectorXcd motion(double omega, const Eigen::VectorXcd& torque);
   std::vector<Complex> torques(double omega, const Eigen::VectorXcd& torque);
