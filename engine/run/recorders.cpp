@@ -132,7 +132,8 @@ void ExtremeRecorder::step(StepView& view) {
   }
   if (channels_.empty()) return;
   for (Found& found : found_)
-    if (found.any && found.row_time != found.time && found.time >= t0) take_row(found, view.snapshot(found.time));
+    if (found.any && (found.row.empty() || found.row_time != found.time) && found.time >= t0)
+      take_row(found, view.snapshot(found.time));
 }
 
 // A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far

@@ -69,7 +69,7 @@ class ExtremeRecorder final : public Observer {
     bool any = false;
     double merit_then = 0;  // at that time: what is a little larger later on is the same peak
     std::vector<double> row = {};
-    double row_time = HUGE_VAL;  // that `row` was taken at
+    double row_time = 0;  // that `row` was taken at; without a row: never
     void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time); }
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}

@@ -21,7 +21,10 @@ TEST(ManyEvents, ClutchesBrakesAndGapsRunWithoutChatter) {
   EXPECT_LE(r.statistics.stepper.restarts, 2 * r.statistics.events);
   EXPECT_LT(r.energy.relative, 1e-7);
   // Nothing was regularised: all that is said is what holds still at the end.
-  for (const std::string& note : r.notes) EXPECT_NE(note.find("is held at the end by"), std::string::npos) << note;
+  for (const std::string& note : r.notes)
+    EXPECT_TRUE(note.find("is held at the end by") != std::string::npos ||
+                note.starts_with("the rows of trajectory.csv"))
+        << note;
   // No contact goes there and back at one instant.
   std::map<std::string, const Event*> last;
   for (const Event& e : r.events) {

@@ -406,7 +406,12 @@ inline void expect_same_run(const Result& first, const Result& second, TwinMap m
   expect_same_figures(first.figures, second.figures, map, allowed);
   expect_same_events(first, second, map, allowed);
   expect_same_energy(first.energy, second.energy, allowed);
-  EXPECT_EQ(first.notes.size(), second.notes.size())
+  // Of rows that are too coarse a peak that two of them enclose decides.
+  const auto count = [](const Result& r) {
+    return std::count_if(r.notes.begin(), r.notes.end(),
+                         [](const std::string& note) { return !note.starts_with("the rows of trajectory.csv"); });
+  };
+  EXPECT_EQ(count(first), count(second))
       << fmt::format("{}\nand\n{}", fmt::join(first.notes, "\n"), fmt::join(second.notes, "\n"));
   EXPECT_EQ(first.cycles.size(), second.cycles.size());
   EXPECT_EQ(first.periods.steady, second.periods.steady);
