@@ -9,7 +9,8 @@ int main() {
   kurbel::add_mechanism("Scotch yoke", "a slot across the stroke, carried along by the crank pin",
                         {{"radius", "m", {}, "r"}, {"crank_inertia", "kg*m2", {}, "J"}, {"yoke_mass", "kg", {}, "m"}},
                         [](const kurbel::Parameters& p) {
-                          return [r = p["radius"], j = p["crank_inertia"], m = p["yoke_mass"]](const kurbel::Taylor& phi) {
+                          return [r = p["radius"], j = p["crank_inertia"],
+                                  m = p["yoke_mass"]](const kurbel::Taylor& phi) {
                             const kurbel::Taylor x = r * cos(phi);
                             return kurbel::LinkagePosition{{{"crank", 0, j, 0, 0, phi}, {"yoke", m, 0, x, 0, 0}}, x};
                           };
@@ -29,7 +30,7 @@ run   = { start = { speed = "10 rad/s" }, until = "1 s" }
     worst = std::max(worst, std::abs(speed[i] / (10 * std::sqrt(j / (j + m * r * r * s * s))) - 1));
   }
   const double slowest = run.figures()["min_speed.yoke"].value, expected = 10 * std::sqrt(j / (j + m * r * r));
-  std::printf("%s\nslowest %.9g rad/s of %.9g; off by at most %.1e on the way\n", run.study().conclusion().c_str(), slowest,
-              expected, worst);
+  std::printf("%s\nslowest %.9g rad/s of %.9g; off by at most %.1e on the way\n", run.study().conclusion().c_str(),
+              slowest, expected, worst);
   return run.complete() && worst < 1e-6 && std::abs(slowest / expected - 1) < 1e-6 ? 0 : 1;
 }

@@ -36,8 +36,7 @@ struct MotionParts {
     options.checkpoint = &here;
     options.to_go_on = true;
     const RunOutcome outcome = integrate(equations, options, {});
-    if (outcome.complete)
-      here = outcome.checkpoint;
+    if (outcome.complete) here = outcome.checkpoint;
     stand();
     if (!outcome.complete) throw std::runtime_error(outcome.diagnosis);
   }
@@ -90,8 +89,8 @@ void Motion::go_to(double time) {
 }
 
 SavedState Motion::state() const {
-  return SavedState(std::make_shared<const SavedParts>(
-      SavedParts{parts_->here, text_of(parts_->here, parts_->equations)}));
+  return SavedState(
+      std::make_shared<const SavedParts>(SavedParts{parts_->here, text_of(parts_->here, parts_->equations)}));
 }
 
 void Motion::restore(const SavedState& state) {

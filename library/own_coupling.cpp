@@ -1,6 +1,6 @@
 // own_coupling.cpp — a coupling whose law its user wrote: an element like any other. Also what own elements share.
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <fmt/format.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <cmath>
 #include <map>
@@ -28,8 +28,7 @@ class OwnCoupling {
     if (rest.value != 0)
       throw std::invalid_argument(fmt::format("its torque untwisted and at rest is {:g} N·m; must be 0", rest.value));
     if (!(rest.by_twist > 0))
-      throw std::invalid_argument(
-          fmt::format("its stiffness at rest is {:g} N·m/rad; must be > 0", rest.by_twist));
+      throw std::invalid_argument(fmt::format("its stiffness at rest is {:g} N·m/rad; must be > 0", rest.by_twist));
   }
 
   template <class T>
@@ -92,11 +91,8 @@ std::vector<Key> keys_of_parameters(const std::string& kind, const std::vector<P
     UnitError error;
     if (!p.unit.empty() && !parse_quantity("1 " + p.unit, error))
       throw std::invalid_argument(fmt::format("kind {}: key {}: {}", in_quotes(kind), p.name, error.text));
-    keys.push_back({.name = p.name,
-                    .unit = p.unit,
-                    .fallback = p.fallback,
-                    .doc = p.doc,
-                    .required = p.fallback.empty()});
+    keys.push_back(
+        {.name = p.name, .unit = p.unit, .fallback = p.fallback, .doc = p.doc, .required = p.fallback.empty()});
   }
   keys.insert(keys.end(), others.begin(), others.end());
   return keys;

@@ -31,9 +31,7 @@ class OwnBodies final : public MechanismBodies {
     }
     return static_cast<double>(energy);
   }
-  double potential_energy(double phi) override {
-    return static_cast<double>(closed_form(data_, phi).potential_energy);
-  }
+  double potential_energy(double phi) override { return static_cast<double>(closed_form(data_, phi).potential_energy); }
   std::vector<double> turn_ratios(double phi) override {
     std::vector<double> ratios;
     for (const Link& link : data_.motion(Taylor::variable(phi)).links)
@@ -129,9 +127,7 @@ LinkageDrawing drawing_of(const OwnMechanismData& data) {
           .output = output};
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data) {
-  return std::make_unique<OwnBodies>(data);
-}
+std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data) { return std::make_unique<OwnBodies>(data); }
 
 // Joints are not known: two places stand for them, by which a cycle is seen to close.
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi) {

@@ -199,16 +199,15 @@ struct NamedStudy {
   StudyOutput (*ask)(Asked&);
 };
 constexpr NamedStudy named_studies[] = {
-    {"compare", compared},   {"steady", steady_cycle},      {"modes", natural_modes},
-    {"forces", forces_in_joints}, {"size", sized},          {"reduce", reduced},
-    {"gears", gear_pairs},   {"effects", effects_by_one},   {"advise", advised},
-    {"accuracy", accuracy_bought}, {"uncertainty", uncertain}};
+    {"compare", compared}, {"steady", steady_cycle},      {"modes", natural_modes},  {"forces", forces_in_joints},
+    {"size", sized},       {"reduce", reduced},           {"gears", gear_pairs},     {"effects", effects_by_one},
+    {"advise", advised},   {"accuracy", accuracy_bought}, {"uncertainty", uncertain}};
 
 const NamedStudy& named_study(const std::string& name) {
   for (const NamedStudy& study : named_studies)
     if (study.name == name) return study;
-  throw std::invalid_argument(fmt::format("no study {}; there are {}{}", in_quotes(name),
-                                          listed(study_names(), "and"), suggestion(name, study_names())));
+  throw std::invalid_argument(fmt::format("no study {}; there are {}{}", in_quotes(name), listed(study_names(), "and"),
+                                          suggestion(name, study_names())));
 }
 
 }  // namespace

@@ -9,3 +9,6 @@ add_test(NAME Installed.PkgConfig COMMAND ${PROJECT_SOURCE_DIR}/tests/installed/
 add_test(NAME Installed.Program COMMAND ${PROJECT_SOURCE_DIR}/tests/installed/program ${PREFIX})
 set_tests_properties(Installed.FindPackage Installed.PkgConfig Installed.Program PROPERTIES
   FIXTURES_REQUIRED installed TIMEOUT 600)
+# Its packages, unpacked into a folder: what they hold, and that it runs.
+add_test(NAME Installed.Debian COMMAND ${PROJECT_SOURCE_DIR}/scripts/deb ${PROJECT_BINARY_DIR})
+set_tests_properties(Installed.Debian PROPERTIES TIMEOUT 300)

@@ -123,9 +123,8 @@ void bind_run(py::module_& m) {
       .def_readonly("t", &Happening::t, "[s]")
       .def_readonly("component", &Happening::component)
       .def_readonly("what", &Happening::what)
-      .def("__repr__", [](const Happening& h) {
-        return "<" + std::to_string(h.t) + " s: " + h.component + ": " + h.what + ">";
-      });
+      .def("__repr__",
+           [](const Happening& h) { return "<" + std::to_string(h.t) + " s: " + h.component + ": " + h.what + ">"; });
   py::class_<Run>(m, "RunOutput")
       .def_property_readonly("complete", &Run::complete)
       .def_property_readonly("diagnosis", &Run::diagnosis)

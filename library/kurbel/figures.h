@@ -12,7 +12,7 @@ namespace kurbel {
 
 // A figure. In SI: speeds in rad/s.
 struct FigureValue {
-  std::string name;             // "peak_torque.main_coupling"; what it means: kurbel explain
+  std::string name;  // "peak_torque.main_coupling"; what it means: kurbel explain
   double value = 0;
   std::string unit;             // "N*m"; empty: a plain number
   std::optional<double> error;  // measured by further runs; empty: not measured

@@ -36,13 +36,13 @@ class Run {
  public:
   explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}
   bool complete() const;
-  std::string diagnosis() const;                   // of one that broke off: when, where, why, what to try
+  std::string diagnosis() const;  // of one that broke off: when, where, why, what to try
   const FigureValues& figures() const;
-  const Trajectory& trajectory() const;            // empty of a multibody run
-  std::vector<Happening> happenings() const;       // in their order
-  double measured_accuracy() const;                // largest error over its scale
-  double processor_seconds() const;                // of all runs, those for the errors included
-  const Study& study() const;                      // conclusion, page, JSON, tables
+  const Trajectory& trajectory() const;       // empty of a multibody run
+  std::vector<Happening> happenings() const;  // in their order
+  double measured_accuracy() const;           // largest error over its scale
+  double processor_seconds() const;           // of all runs, those for the errors included
+  const Study& study() const;                 // conclusion, page, JSON, tables
 
  private:
   std::shared_ptr<const RunParts> parts_;

@@ -46,12 +46,12 @@ class Machine {
 
   std::string title() const;
   std::string file() const;
-  std::string text() const;                      // with its settings put in
-  std::string effects() const;                   // that it names: "elasticity: main_coupling"; "none"
-  std::vector<std::string> components() const;   // along its lines, then by name
-  std::string explain() const;                   // what is merged, the coordinates and their inertias
-  double until() const;                          // end of its run [s]
-  double accuracy() const;                       // asked of every figure, over its scale
+  std::string text() const;                     // with its settings put in
+  std::string effects() const;                  // that it names: "elasticity: main_coupling"; "none"
+  std::vector<std::string> components() const;  // along its lines, then by name
+  std::string explain() const;                  // what is merged, the coordinates and their inertias
+  double until() const;                         // end of its run [s]
+  double accuracy() const;                      // asked of every figure, over its scale
 
   const MachineParts& parts() const { return *parts_; }  // for kurbel itself
 

@@ -22,9 +22,9 @@ struct MotionParts;
 class SavedState {
  public:
   explicit SavedState(std::shared_ptr<const SavedParts> parts) : parts_(std::move(parts)) {}
-  double time() const;                      // [s]
-  const std::vector<double>& y() const;     // in the order of Motion::state_names(): angles, twists, speeds, own states
-  std::string text() const;                 // JSON, exact
+  double time() const;                   // [s]
+  const std::vector<double>& y() const;  // in the order of Motion::state_names(): angles, twists, speeds, own states
+  std::string text() const;              // JSON, exact
   friend bool operator==(const SavedState& a, const SavedState& b);
   const SavedParts& parts() const { return *parts_; }  // for kurbel itself
 
@@ -49,13 +49,13 @@ class Motion {
   void go_to(double time);
 
   SavedState state() const;
-  void restore(const SavedState& state);                // of this machine, or of one with the same states
-  SavedState state_from(const std::string& text) const; // std::invalid_argument for the text of another machine
+  void restore(const SavedState& state);                 // of this machine, or of one with the same states
+  SavedState state_from(const std::string& text) const;  // std::invalid_argument for the text of another machine
 
-  std::vector<std::string> names() const;               // of all that can be looked at: "torque.main_coupling"
+  std::vector<std::string> names() const;  // of all that can be looked at: "torque.main_coupling"
   std::vector<std::string> units() const;
-  double operator[](const std::string& name) const;     // now; std::out_of_range with the nearest names
-  std::vector<double> values() const;                   // of all names
+  double operator[](const std::string& name) const;  // now; std::out_of_range with the nearest names
+  std::vector<double> values() const;                // of all names
   std::vector<std::string> state_names() const;
 
  private:

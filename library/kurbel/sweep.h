@@ -28,9 +28,9 @@ std::vector<std::vector<double>> rows_of(const Variation& variation);
 std::vector<std::vector<std::pair<std::string, std::string>>> settings_of(const Variation& variation);
 
 struct SweepChoices {
-  std::string into;                       // the file; gone on with where it holds the same sweep
-  int jobs = 0;                           // threads; 0: one for each core
-  std::string shard = "1/1";              // only rows of this shard
+  std::string into;           // the file; gone on with where it holds the same sweep
+  int jobs = 0;               // threads; 0: one for each core
+  std::string shard = "1/1";  // only rows of this shard
   Watcher watcher = {};
 };
 
