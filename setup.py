@@ -28,4 +28,8 @@ class Binary(Distribution):
         return True
 
 
-setup(packages=[], cmdclass={"build_py": Build}, distclass=Binary)
+# What setuptools leaves behind goes into the build's folder, too.
+left = os.path.join(here, "build", "pip")
+os.makedirs(left, exist_ok=True)
+setup(packages=[], cmdclass={"build_py": Build}, distclass=Binary,
+      options={"egg_info": {"egg_base": left}, "build": {"build_base": left}})

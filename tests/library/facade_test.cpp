@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -75,6 +76,26 @@ TEST(Facade, AColumnOutlivesItsRun) {
   }
   ASSERT_GT(torque.size(), 900u);
   for (std::size_t i = 0; i < torque.size(); i += 7) ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
+}
+
+// 100 runs before, so that pools and tables are filled.
+TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
+  const auto resident = [] {  // [MB]
+    long pages = 0, all = 0;
+    std::ifstream("/proc/self/statm") >> all >> pages;
+    return static_cast<double>(pages) * 4096e-6;
+  };
+  const auto cycle = [] {
+    const Machine machine =
+        Machine::from_text(two_masses, "two.toml", {{"run.until", "20 ms"}, {"run.samples", "100"}});
+    const Run run = kurbel::run(machine, {.errors = false, .plots = false});
+    EXPECT_EQ(run.trajectory().rows(), 101u);
+    EXPECT_FALSE(run.study().json().empty());
+  };
+  for (int i = 0; i < 100; ++i) cycle();
+  const double before = resident();
+  for (int i = 0; i < 1000; ++i) cycle();
+  EXPECT_LT(resident() - before, 2);
 }
 
 TEST(Facade, AMotionGoesBackAndOnToTheLastBit) {
