@@ -39,10 +39,12 @@ std::string masses_of(const Section& s) {
 // Positions are sums of lengths, so that each loses what the longest is rounded by.
 constexpr double longest = 1e9;  // of the crank
 
-// The crank is the first length of every kind. False, with messages, where another one lies too far from it.
+// The crank is the first length of every kind that has any. False, with messages, where another one lies too far from it.
 bool lengths_fit(const Section& s, Messages& messages) {
   const auto is_length = [](const Key& key) { return key.unit == "m"; };
-  const Key& crank = *std::find_if(s.kind->keys.begin(), s.kind->keys.end(), is_length);
+  const auto first = std::find_if(s.kind->keys.begin(), s.kind->keys.end(), is_length);
+  if (first == s.kind->keys.end()) return true;
+  const Key& crank = *first;
   bool fit = true;
   for (const Key& key : s.kind->keys) {
     if (!is_length(key) || !s.has(key.name) || std::abs(s.number(key.name)) <= longest * s.number(crank.name)) continue;

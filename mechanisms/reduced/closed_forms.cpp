@@ -4,13 +4,34 @@
 #include <cmath>
 
 #include "mechanisms/loops/loops.h"
+#include "mechanisms/reduced/links_summed.h"
 #include "mechanisms/reduced/mechanism_data.h"
 
 namespace kurbel {
 namespace {
 
-// Over the links by theory 2.1 and theory 2.2.
-ClosedForm sum_of(const PlanarLinkage& linkage) {
+using Body = PlanarLinkage::Body;
+
+Body pivoted(const char* name, const LinkBody& link, const Path& bearing, const Direction& direction) {
+  const long double central = link.inertia - static_cast<long double>(link.mass) * link.com * link.com;
+  return {name, link.mass, central > 0 ? central : 0, bearing + along(direction, Taylor(link.com)), direction};
+}
+Body floating(const char* name, const LinkBody& link, const Path& joint, const Direction& direction) {
+  return {name, link.mass, link.inertia, joint + along(direction, Taylor(link.com)), direction};
+}
+// What slides along x in the frame: its weight and its load stand in its pin.
+void add_slider(PlanarLinkage& to, const char* name, double mass, const char* pin, const Path& at) {
+  const int link = to.body_count - 1;
+  to.add(Body{name, mass, 0, at, Direction::constant(0)});
+  to.join({pin, link, link + 1, at});
+  to.join({"guide", PlanarLinkage::frame, link + 1, at, true, Direction::constant(0)});
+  to.load_at = at;
+  to.output[0] = at.x.value(), to.output[1] = at.x.slope(), to.output[2] = at.x.curvature();
+}
+
+}  // namespace
+
+ClosedForm closed_form_of(const PlanarLinkage& linkage) {
   const long double elevation = linkage.elevation, gravity = linkage.gravity;
   const Path up = {Taylor(std::sin(elevation)), Taylor(std::cos(elevation))};
   Taylor inertia, moment;  // moment: of mass over height
@@ -35,27 +56,6 @@ ClosedForm sum_of(const PlanarLinkage& linkage) {
           scale,
           gravity * moment.value()};
 }
-
-using Body = PlanarLinkage::Body;
-
-Body pivoted(const char* name, const LinkBody& link, const Path& bearing, const Direction& direction) {
-  const long double central = link.inertia - static_cast<long double>(link.mass) * link.com * link.com;
-  return {name, link.mass, central > 0 ? central : 0, bearing + along(direction, Taylor(link.com)), direction};
-}
-Body floating(const char* name, const LinkBody& link, const Path& joint, const Direction& direction) {
-  return {name, link.mass, link.inertia, joint + along(direction, Taylor(link.com)), direction};
-}
-// What slides along x in the frame: its weight and its load stand in its pin.
-void add_slider(PlanarLinkage& to, const char* name, double mass, const char* pin, const Path& at) {
-  const int link = to.body_count - 1;
-  to.add(Body{name, mass, 0, at, Direction::constant(0)});
-  to.join({pin, link, link + 1, at});
-  to.join({"guide", PlanarLinkage::frame, link + 1, at, true, Direction::constant(0)});
-  to.load_at = at;
-  to.output[0] = at.x.value(), to.output[1] = at.x.slope(), to.output[2] = at.x.curvature();
-}
-
-}  // namespace
 
 ClosedForm closed_form(const SliderCrankData& d, long double phi) {
   const SliderCrankGeometry geometry(d);
@@ -173,10 +173,10 @@ PlanarLinkage linkage_of(const SlottedLeverData& m, long double phi) {
   return l;
 }
 
-ClosedForm closed_form(const FourBarData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
-ClosedForm closed_form(const QuickReturnData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
-ClosedForm closed_form(const KnucklePressData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
-ClosedForm closed_form(const SlottedLeverData& data, long double phi) { return sum_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const FourBarData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const QuickReturnData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const KnucklePressData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
+ClosedForm closed_form(const SlottedLeverData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
 
 ReducedSample closed_sample(const MechanismData& data, double phi) {
   const ClosedForm f = data.closed_form(phi);

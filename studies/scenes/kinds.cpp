@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "drivetrain/kinds.h"
@@ -12,6 +14,7 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
+#include "studies/scenes/add_kind.h"
 
 namespace kurbel {
 namespace {
@@ -164,13 +167,40 @@ std::string keys_of(const std::string& name) {
   return text;
 }
 
-const std::vector<Kind>& all_kinds() {
-  static const std::vector<Kind> kinds = [] {
+namespace {
+
+// Sections point into the list that they were read by, so that earlier lists stay.
+struct KnownKinds {
+  std::mutex mutex;
+  std::deque<std::vector<Kind>> lists;
+};
+
+KnownKinds& known_kinds() {
+  static KnownKinds known;
+  if (const std::scoped_lock lock(known.mutex); known.lists.empty()) {
     std::vector<Kind> list = drivetrain_kinds();
     for (Kind& kind : mechanism_kinds()) list.push_back(std::move(kind));
-    return list;
-  }();
-  return kinds;
+    known.lists.push_back(std::move(list));
+  }
+  return known;
+}
+
+}  // namespace
+
+const std::vector<Kind>& all_kinds() {
+  KnownKinds& known = known_kinds();
+  const std::scoped_lock lock(known.mutex);
+  return known.lists.back();
+}
+
+void add_kind(Kind kind) {
+  KnownKinds& known = known_kinds();
+  const std::scoped_lock lock(known.mutex);
+  std::vector<Kind> list = known.lists.back();
+  for (const Kind& there : list)
+    if (there.name == kind.name) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind.name)));
+  list.push_back(std::move(kind));
+  known.lists.push_back(std::move(list));
 }
 
 namespace {

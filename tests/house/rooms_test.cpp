@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "app"};
+const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "library", "app"};
 
 constexpr std::size_t most_files = 20;
 // Families of elements may be more.

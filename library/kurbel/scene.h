@@ -1,0 +1,63 @@
+// scene.h — a machine as its scene describes it, read and found to be sound.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace kurbel {
+
+// Where in a user's text something is wrong, and what.
+struct Fault {
+  std::string file;
+  int line = 0, column = 0;  // from 1; 0: the file as a whole
+  std::string text;          // what · got · allowed · next step
+};
+
+// A scene that cannot be read or makes no machine. what() has a line "file:line:col: text" for each fault.
+class BadScene : public std::invalid_argument {
+ public:
+  BadScene(const std::string& what, std::vector<Fault> faults)
+      : std::invalid_argument(what), faults_(std::move(faults)) {}
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+// Values put beside a scene: {"main_coupling.stiffness", "1 MN*m/rad"}, as kurbel's --set does.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+struct MachineParts;
+
+// A value: copies share what is read, and nothing of it ever changes. May be used by several threads at once.
+class Machine {
+ public:
+  // Both throw BadScene with all faults at once; a file that cannot be opened is std::invalid_argument. Data files of a
+  // scene are looked for beside it (of a text: beside `file`, which need not exist), nowhere else.
+  static Machine from_file(const std::string& path, const Settings& settings = {});
+  static Machine from_text(const std::string& text, const std::string& file = "scene.toml",
+                           const Settings& settings = {});
+
+  // The same with further settings put in. Throws BadScene.
+  Machine with(const Settings& settings) const;
+
+  std::string title() const;
+  std::string file() const;
+  std::string text() const;                     // with its settings put in
+  std::string effects() const;                  // that it names: "elasticity: main_coupling"; "none"
+  std::vector<std::string> components() const;  // along its lines, then by name
+  std::string explain() const;                  // what is merged, the coordinates and their inertias
+  double until() const;                         // end of its run [s]
+  double accuracy() const;                      // asked of every figure, over its scale
+
+  const MachineParts& parts() const { return *parts_; }  // for kurbel itself
+
+ private:
+  explicit Machine(std::shared_ptr<const MachineParts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const MachineParts> parts_;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,64 @@
+// sweep.h — many variants: of a machine, or of whatever a function of the caller's computes. Rows are kept in a file
+// (SQLite) as they come, so that an interrupted sweep goes on where it was.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <kurbel/studies.h>
+
+namespace kurbel {
+
+class Machine;
+
+// What is varied, as kurbel sweep is told: "main_coupling.stiffness=500..1500 kN*m/rad", "flywheel.inertia=200,400 kg*m2".
+struct Variation {
+  std::vector<std::string> vary;
+  std::string design = "grid";  // "grid:21x3", "sobol:4096", "lhs:500", "random:500", "saltelli:1024"
+  std::uint64_t seed = 1;
+};
+
+// The values of all rows, in the units of `vary`; row i is a function of i, design and seed alone. Throws
+// std::invalid_argument in words.
+std::vector<std::vector<double>> rows_of(const Variation& variation);
+// The same as settings of a scene.
+std::vector<std::vector<std::pair<std::string, std::string>>> settings_of(const Variation& variation);
+
+struct SweepChoices {
+  std::string into;           // the file; gone on with where it holds the same sweep
+  int jobs = 0;               // threads; 0: one for each core
+  std::string shard = "1/1";  // only rows of this shard
+  Watcher watcher = {};
+};
+
+struct SweepColumn {
+  std::string name, unit;
+};
+struct SweepLine {
+  std::size_t row = 0;
+  std::string state;                           // "done", "unconfirmed", "failed"
+  std::string diagnosis;                       // of a failed one
+  std::vector<double> parameters;              // in the units of `vary`
+  std::vector<std::optional<double>> figures;  // in the order of the columns, SI
+};
+struct SweepRows {
+  std::vector<SweepColumn> columns;
+  std::vector<SweepLine> lines;  // by row
+  std::size_t computed = 0;      // now, and not before
+  bool complete = false;         // all of the shard are there
+};
+
+// Of a row with these parameters; throws for one that fails, which says why. Called by several threads at once.
+using RowFunction = std::function<std::vector<double>(const std::vector<double>& parameters)>;
+// `question` names what the function computes: a file holds one question's rows alone.
+SweepRows sweep(const Variation& variation, const std::string& question, const std::vector<SweepColumn>& columns,
+                const RowFunction& function, const SweepChoices& choices);
+
+// Figures of a machine: of "run", "steady", "modes" or "size". `figures`: whole names, or a quantity ("delta"); empty: all.
+SweepRows sweep(const Machine& machine, const Variation& variation, const std::vector<std::string>& figures,
+                const SweepChoices& choices, const std::string& of = "run");
+
+}  // namespace kurbel

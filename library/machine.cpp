@@ -1,0 +1,106 @@
+// machine.cpp — scenes from files and texts into machines that are sound.
+#include <kurbel/figures.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/model/model.h"
+#include "engine/reading/read_scene.h"
+#include "engine/scene/document.h"
+#include "engine/scene/units.h"
+#include "library/machine_parts.h"
+#include "studies/scenes/kinds.h"
+
+namespace kurbel {
+namespace {
+
+std::vector<std::string> as_lines(const Settings& settings) {
+  std::vector<std::string> lines;
+  for (const auto& [path, value] : settings) lines.push_back(path + "=" + value);
+  return lines;
+}
+
+std::shared_ptr<const MachineParts> read(const std::string& text, const std::string& file,
+                                         const std::vector<std::string>& settings) {
+  auto parts = std::make_shared<MachineParts>(MachineParts{text, file, settings, {}, {}});
+  try {
+    const auto settled = std::make_shared<const SettledText>(text, file, settings);
+    parts->placed = [settled](const SceneError& error) { return settled->placed(error); };
+    parts->scene = parse_scene(*settled, all_kinds());
+  } catch (const SceneError& error) {
+    throw bad_scene(error);
+  }
+  return parts;
+}
+
+}  // namespace
+
+BadScene bad_scene(const SceneError& error) {
+  std::vector<Fault> faults;
+  for (const Message& m : error.messages) faults.push_back({m.file, m.at.line, m.at.column, m.text});
+  return BadScene(error.what(), std::move(faults));
+}
+
+Watch watch_of(const Watcher& watcher) { return {.interrupted = watcher.interrupted, .progress = watcher.progress}; }
+
+void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names) {
+  throw std::out_of_range(fmt::format("{} has no {}{}", what, in_quotes(name), suggestion(name, names)));
+}
+
+Machine Machine::from_file(const std::string& path, const Settings& settings) {
+  return Machine(read(read_text_file(path, max_scene_bytes), path, as_lines(settings)));
+}
+
+Machine Machine::from_text(const std::string& text, const std::string& file, const Settings& settings) {
+  return Machine(read(text, file, as_lines(settings)));
+}
+
+Machine Machine::with(const Settings& settings) const {
+  std::vector<std::string> all = parts_->settings;
+  // The later one of a path holds.
+  for (const std::string& line : as_lines(settings)) {
+    const std::string path = line.substr(0, line.find('=') + 1);
+    std::erase_if(all, [&](const std::string& there) { return there.starts_with(path); });
+    all.push_back(line);
+  }
+  return Machine(read(parts_->text, parts_->file, all));
+}
+
+std::string Machine::title() const { return parts_->scene.title; }
+std::string Machine::file() const { return parts_->file; }
+std::string Machine::text() const { return parts_->scene.text; }
+std::string Machine::effects() const { return parts_->scene.effects.describe(); }
+double Machine::until() const { return parts_->scene.run.until; }
+double Machine::accuracy() const { return parts_->scene.run.accuracy; }
+
+std::vector<std::string> Machine::components() const {
+  std::vector<std::string> names;
+  for (const Section& section : parts_->scene.components) names.push_back(section.name);
+  return names;
+}
+
+std::string Machine::explain() const {
+  return asked_of(*parts_, [&] { return compile(parts_->scene, parts_->scene.effects)->explain(); });
+}
+
+const FigureValue* FigureValues::find(const std::string& name) const {
+  const auto found = std::find_if(all_.begin(), all_.end(), [&](const FigureValue& v) { return v.name == name; });
+  return found == all_.end() ? nullptr : &*found;
+}
+
+const FigureValue& FigureValues::operator[](const std::string& name) const {
+  if (const FigureValue* const found = find(name)) return *found;
+  std::vector<std::string> names;
+  for (const FigureValue& v : all_) names.push_back(v.name);
+  refuse_name("the result", name, names);
+}
+
+TimeSeries Trajectory::operator[](const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) refuse_name("the trajectory", name, names_);
+  return {kept_, values_->data() + (found - names_.begin()), rows(), names_.size()};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,21 @@
+// option_values.h — values of options as they are written: "60 rpm", "step 2".
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/analysis/moment.h"
+#include "engine/scene/keys.h"
+
+namespace kurbel {
+
+// A quantity in SI from an option; the example shows its unit: quantity_of("--until", "3 s", "a time > 0", "3 s",
+// positive). Throws std::invalid_argument in words.
+double quantity_of(const std::string& option, const std::string& text, const std::string& what,
+                   const std::string& example, const Domain& domain);
+
+// --at: after "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
+// std::invalid_argument for anything else.
+Moment moment_of(const std::string& at, std::optional<double>& speed);
+
+}  // namespace kurbel

@@ -1,0 +1,30 @@
+// own_mechanism.h — a mechanism whose motion its user wrote, as data like those of kurbel's own. Stands before
+// mechanism_data.h, which asks for these functions by name.
+#pragma once
+
+#include <kurbel/elements.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanisms/reduced/closed_forms.h"
+
+namespace kurbel {
+
+struct OwnMechanismData {
+  std::string kind;
+  double number = 0;           // of the kind, in the order of their coming: with the values it tells one from another
+  std::vector<double> values;  // of its parameters
+  MechanismMotion motion;
+  double gravity = 0;    // [m/s²]
+  double elevation = 0;  // of +x above the horizontal [rad]
+};
+
+std::vector<double> values_of(const OwnMechanismData& data);
+LinkageDrawing drawing_of(const OwnMechanismData& data);
+std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data);
+PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi);
+ClosedForm closed_form(const OwnMechanismData& data, long double phi);
+
+}  // namespace kurbel

@@ -1,0 +1,85 @@
+// run.cpp — a run with what it recorded, handed out.
+#include <kurbel/run.h>
+
+#include <stdexcept>
+
+#include "library/machine_parts.h"
+#include "studies/run/run_findings.h"
+#include "studies/run/simulate.h"
+
+namespace kurbel {
+
+struct RunParts {
+  std::shared_ptr<const Result> result;
+  Study study;
+  FigureValues figures;
+  Trajectory trajectory;
+};
+
+namespace {
+
+FigureValues figures_of(const Result& result) {
+  std::vector<FigureValue> all;
+  for (const Figure& f : result.figures)
+    if (is_told(f, result)) all.push_back({f.name, f.value, f.unit, f.error, f.at});
+  return FigureValues(std::move(all));
+}
+
+Trajectory trajectory_of(const Result& result) {
+  if (!result.trajectory) return {};
+  std::vector<std::string> names, units;
+  for (const Channel& channel : result.trajectory->channels()) {
+    names.push_back(channel.name.text);
+    units.push_back(channel.unit);
+  }
+  return {result.trajectory, &result.trajectory->time(), &result.trajectory->values(), std::move(names),
+          std::move(units)};
+}
+
+SimulateOptions options_of(const RunChoices& choices, const Scene& scene) {
+  SimulateOptions options;
+  options.measure_error = choices.errors;
+  options.traces = choices.plots;
+  if (choices.method) check_method(*choices.method, scene.run.model);
+  options.method = choices.method;
+  if (choices.accuracy && !(*choices.accuracy >= 1e-12 && *choices.accuracy <= 0.1))
+    throw std::invalid_argument("accuracy must be 1e-12 … 0.1");
+  options.accuracy = choices.accuracy;
+  if (choices.until && !(*choices.until > 0 && *choices.until < 1e30))
+    throw std::invalid_argument("until must be a time > 0 [s]");
+  options.until = choices.until;
+  options.watch = watch_of(choices.watcher);
+  return options;
+}
+
+}  // namespace
+
+Run run(const Machine& machine, const RunChoices& choices) {
+  return asked_of(machine.parts(), [&] {
+    const Scene& scene = machine.parts().scene;
+    const Effects effects = choices.effects ? parse_effects(*choices.effects, scene) : scene.effects;
+    const auto model = compile(scene, effects);
+    const auto result = std::make_shared<const Result>(
+        simulate(model, is_elastic(*model) ? "elastic" : "rigid", options_of(choices, scene)));
+    StudyOutput output = output_of(*result);
+    output.study = result;
+    return Run(std::make_shared<const RunParts>(
+        RunParts{result, study_of(std::move(output)), figures_of(*result), trajectory_of(*result)}));
+  });
+}
+
+bool Run::complete() const { return parts_->result->complete; }
+std::string Run::diagnosis() const { return parts_->result->diagnosis; }
+const FigureValues& Run::figures() const { return parts_->figures; }
+const Trajectory& Run::trajectory() const { return parts_->trajectory; }
+double Run::measured_accuracy() const { return parts_->result->measured_accuracy; }
+double Run::processor_seconds() const { return parts_->result->cpu_total; }
+const Study& Run::study() const { return parts_->study; }
+
+std::vector<Happening> Run::happenings() const {
+  std::vector<Happening> all;
+  for (const Event& e : parts_->result->events) all.push_back({e.t, e.component, e.what});
+  return all;
+}
+
+}  // namespace kurbel

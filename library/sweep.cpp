@@ -1,0 +1,152 @@
+// sweep.cpp — rows of machines and of functions of the caller's, by one and the same sweep.
+#include <kurbel/scene.h>
+#include <kurbel/sweep.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <thread>
+
+#include "engine/numerics/deadline.h"
+#include "library/machine_parts.h"
+#include "studies/sweep/machine.h"
+#include "studies/sweep/sweep.h"
+
+namespace kurbel {
+namespace {
+
+Design design_of(const Variation& variation) {
+  std::vector<SweptParameter> parameters;
+  for (const std::string& text : variation.vary) parameters.push_back(parse_parameter(text));
+  if (parameters.empty())
+    throw std::invalid_argument("nothing is varied; give e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\"");
+  return Design(variation.design, std::move(parameters), variation.seed);
+}
+
+void read_shard(const std::string& text, SweepJob& job) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
+  const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
+  if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
+      job.shard < 1 || job.shard > job.shards)
+    throw std::invalid_argument(fmt::format("shard {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", in_quotes(text)));
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += text + "\n";
+  return all;
+}
+
+SweepIdentity identity_of(const Variation& variation, const Design& design, std::vector<SweptFigure> figures,
+                          std::map<std::string, std::string> meta, const std::string& shard) {
+  std::vector<std::string> names;
+  for (const SweptFigure& figure : figures) names.push_back(figure.name);
+  meta.insert({{"version", "kurbel 0.1.0"},
+               {"design", design.text()},
+               {"seed", std::to_string(variation.seed)},
+               {"varied", joined(variation.vary)},
+               {"figures", joined(names)}});
+  return {.meta = std::move(meta),
+          .shard = shard,
+          .parameters = design.parameters(),
+          .figures = std::move(figures),
+          .rows = design.rows()};
+}
+
+SweepRows rows_in(const SweepStore& store) {
+  SweepRows all;
+  for (const SweptFigure& figure : store.identity().figures) all.columns.push_back({figure.name, figure.unit});
+  for (const SweepRow& row : store.read()) {
+    SweepLine line{row.row, name_of(row.state), row.diagnosis, row.parameters, {}};
+    line.figures.resize(all.columns.size());
+    for (const RowFigure& figure : row.figures) line.figures[figure.figure] = figure.value;
+    all.lines.push_back(std::move(line));
+  }
+  return all;
+}
+
+SweepRows computed(const Design& design, const SweepIdentity& identity, const SweepChoices& choices,
+                   const std::function<Evaluator()>& evaluator) {
+  if (choices.into.empty()) throw std::invalid_argument("a sweep needs a file that it fills: into");
+  SweepJob job{.design = &design, .jobs = choices.jobs, .evaluator = evaluator, .watch = watch_of(choices.watcher)};
+  if (job.jobs <= 0) job.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  read_shard(choices.shard, job);
+  SweepStore store(choices.into, identity);
+  const SweepEnd end = run_sweep(job, store);
+  SweepRows rows = rows_in(store);
+  rows.computed = end.computed;
+  rows.complete = end.complete();
+  return rows;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> rows_of(const Variation& variation) {
+  const Design design = design_of(variation);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < design.rows(); ++i) rows.push_back(design.row(i));
+  return rows;
+}
+
+std::vector<Settings> settings_of(const Variation& variation) {
+  const Design design = design_of(variation);
+  std::vector<Settings> all;
+  for (std::size_t i = 0; i < design.rows(); ++i) {
+    const std::vector<double> values = design.row(i);
+    Settings settings;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      settings.emplace_back(design.parameters()[k].path, design.parameters()[k].text_of(values[k]));
+    all.push_back(std::move(settings));
+  }
+  return all;
+}
+
+SweepRows sweep(const Variation& variation, const std::string& question, const std::vector<SweepColumn>& columns,
+                const RowFunction& function, const SweepChoices& choices) {
+  const Design design = design_of(variation);
+  std::vector<SweptFigure> figures;
+  for (const SweepColumn& column : columns) figures.push_back({column.name, column.unit});
+  const SweepIdentity identity = identity_of(variation, design, figures, {{"of", question}}, choices.shard);
+  const Evaluator evaluator = [&](SweepRow& row) {
+    try {
+      const std::vector<double> values = function(row.parameters);
+      if (values.size() != columns.size())
+        throw std::runtime_error(fmt::format("{} values for {} columns", values.size(), columns.size()));
+      for (std::size_t k = 0; k < values.size(); ++k) row.figures.push_back({k, values[k]});
+    } catch (const std::exception& why) {
+      row.figures.clear();
+      row.state = RowState::failed;
+      row.diagnosis = why.what();
+    }
+    return !(choices.watcher.interrupted && choices.watcher.interrupted->load());
+  };
+  return computed(design, identity, choices, [&] { return evaluator; });
+}
+
+SweepRows sweep(const Machine& machine, const Variation& variation, const std::vector<std::string>& figures,
+                const SweepChoices& choices, const std::string& of) {
+  return asked_of(machine.parts(), [&] {
+    const MachineParts& parts = machine.parts();
+    const Design design = design_of(variation);
+    MachineQuestion question;
+    question.text = parts.text, question.file = parts.file, question.settings = parts.settings;
+    question.of = study_named(of), question.interrupted = choices.watcher.interrupted;
+    const VariedScene varied(question, design.parameters());
+    const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
+    const SweepIdentity identity = identity_of(variation, design, wanted,
+                                               {{"title", parts.scene.title},
+                                                {"scene file", parts.file},
+                                                {"scene text", parts.scene.text},
+                                                {"settings", joined(parts.settings)},
+                                                {"of", of},
+                                                {"errors", "measure"}},
+                                               choices.shard);
+    return computed(design, identity, choices, [&] { return machine_evaluator(question, varied, wanted); });
+  });
+}
+
+}  // namespace kurbel

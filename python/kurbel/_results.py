@@ -1,0 +1,121 @@
+"""What studies and runs hand out."""
+
+import json
+
+
+class Study:
+    """What a study found: conclusion, summary, page, tables."""
+
+    def __init__(self, output):
+        self._output = output
+
+    @property
+    def conclusion(self):
+        """In one line."""
+        return self._output.conclusion
+
+    @property
+    def text(self):
+        """As the command prints it."""
+        return self._output.text
+
+    @property
+    def summary(self):
+        """summary.json as a dict (docs/summary.schema.json)."""
+        return json.loads(self._output.json)
+
+    @property
+    def html(self):
+        """The page, whole in itself."""
+        return self._output.html
+
+    @property
+    def complete(self):
+        return self._output.complete
+
+    @property
+    def diagnosis(self):
+        """Why it is not complete, in words."""
+        return self._output.diagnosis
+
+    @property
+    def tables(self):
+        """CSV files by their names."""
+        return dict(self._output.tables)
+
+    def write(self, folder):
+        """summary.json, report.html and the tables into a folder, whole or not there."""
+        self._output.write(str(folder))
+
+    def _repr_html_(self):
+        import html
+        return (f'<iframe style="width:100%;height:42em;border:0" sandbox="allow-scripts" '
+                f'srcdoc="{html.escape(self.html, quote=True)}"></iframe>')
+
+    def __repr__(self):
+        return f"<{type(self).__name__}: {self.conclusion}>"
+
+
+class Trajectory:
+    """Quantities over equidistant times, by their names. Arrays lie in the run's memory and keep it."""
+
+    def __init__(self, output):
+        self._output = output
+        self.units = dict(zip(output.names, output.units))
+
+    @property
+    def time(self):
+        """[s]"""
+        return self._output.time
+
+    def __getitem__(self, name):
+        return self._output.series(name)
+
+    def __iter__(self):
+        return iter(self.units)
+
+    def __len__(self):
+        return len(self.units)
+
+    def __contains__(self, name):
+        return name in self.units
+
+    def keys(self):
+        return self.units.keys()
+
+    def to_pandas(self):
+        """A DataFrame over time [s]; attrs["units"] tells the units."""
+        import pandas
+        frame = pandas.DataFrame({name: self[name] for name in self}, index=pandas.Index(self.time, name="time"),
+                                 copy=False)
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+
+class Run(Study):
+    """One simulation: figures with errors, what was recorded, events."""
+
+    def __init__(self, output):
+        super().__init__(output.study)
+        self._run = output
+        self.figures = output.figures
+        self.trajectory = Trajectory(output)
+
+    @property
+    def events(self):
+        return self._run.events
+
+    @property
+    def measured_accuracy(self):
+        """Largest error of a figure over its scale."""
+        return self._run.measured_accuracy
+
+    @property
+    def processor_seconds(self):
+        return self._run.processor_seconds
+
+    def to_pandas(self):
+        """Figures: value, error, unit, at."""
+        import pandas
+        rows = [(f.name, f.value, f.error, f.unit, f.at) for f in self.figures.values()]
+        return pandas.DataFrame(rows, columns=["figure", "value", "error", "unit", "at"]).set_index("figure")

@@ -1,0 +1,61 @@
+"""Scenes from whatever describes them: files, texts, dicts."""
+
+import os
+
+from ._kurbel import Machine
+
+
+def _quoted(text):
+    out = ['"']
+    for c in text:
+        if c in '"\\':
+            out.append("\\" + c)
+        elif c < " " or c == "\x7f":
+            out.append(f"\\u{ord(c):04x}")
+        else:
+            out.append(c)
+    return "".join(out) + '"'
+
+
+def _value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(v) for v in value) + "]"
+    if hasattr(value, "tolist"):  # numpy's numbers and arrays
+        return _value(value.tolist())
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise TypeError(f"a scene holds no {type(value).__name__}: {value!r}; give texts, numbers, lists and dicts")
+
+
+def _key(key):
+    if not isinstance(key, str):
+        raise TypeError(f"keys of a scene are texts, not {key!r}")
+    plain = key and all(c.isascii() and (c.isalnum() or c in "_-") for c in key)
+    return key if plain else _quoted(key)
+
+
+def text_of(scene):
+    """A dict as the text of a scene, a key a line."""
+    return "".join(f"{_key(key)} = {_value(value)}\n" for key, value in scene.items())
+
+
+def settings_of(set):
+    return [(path, value if isinstance(value, str) else _value(value)) for path, value in (set or {}).items()]
+
+
+def machine(scene, *, set=None):
+    """A machine from a file's path, a text with a line end in it, a dict, or a machine. Raises SceneError."""
+    settings = settings_of(set)
+    if isinstance(scene, Machine):
+        return scene.with_settings(settings) if settings else scene
+    if isinstance(scene, dict):
+        return Machine.from_text(text_of(scene), "dict", settings)
+    if isinstance(scene, str) and "\n" in scene:
+        return Machine.from_text(scene, "text", settings)
+    return Machine.from_file(os.fspath(scene), settings)

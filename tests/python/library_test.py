@@ -1,0 +1,234 @@
+"""The installed Python package: what it hands out is what the program says, arrays lie in the run's memory."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+
+import kurbel
+
+SCENES = os.environ["KURBEL_SCENES"]
+PRESS = os.path.join(SCENES, "crank_press.toml")
+
+TWO_MASSES = {
+    "title": "Step torque on two masses",
+    "line": ["rotor", "coupling", "fan"],
+    "rotor": {"kind": "inertia", "inertia": "0.2 kg*m2"},
+    "motor": {"kind": "torque source", "torque": "50 N*m", "on": "rotor"},
+    "coupling": {"kind": "coupling", "stiffness": "4 kN*m/rad", "damping": "0 N*m*s/rad"},
+    "fan": {"kind": "inertia", "inertia": "1.5 kg*m2"},
+    "effects": {"elasticity": True},
+    "run": {"until": "0.3 s"},
+}
+STEP = 2 * 50 * 1.5 / 1.7  # a step on two undamped masses transmits twice what it would rigidly [N*m]
+
+
+class Runs(unittest.TestCase):
+    def test_a_step_rings_to_twice_the_rigid_torque(self):
+        run = kurbel.run(TWO_MASSES)
+        peak = run.figures["peak_torque.coupling"]
+        self.assertTrue(run.complete)
+        self.assertEqual(peak.unit, "N*m")
+        self.assertLess(abs(peak.value - STEP), 2 * peak.error)
+        # It swings about its mean by (1 - cos wt): at every instant.
+        w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
+        expected = STEP / 2 * (1 - numpy.cos(w * run.trajectory.time))
+        self.assertLess(numpy.abs(run.trajectory["torque.coupling"] - expected).max(), 1e-4 * STEP)
+
+    def test_settings_are_those_of_the_command(self):
+        run = kurbel.run(TWO_MASSES, set={"motor.torque": "25 N*m"}, errors=False)
+        self.assertAlmostEqual(run.figures["peak_torque.coupling"].value, STEP / 2, delta=1e-4 * STEP)
+        self.assertIsNone(run.figures["peak_torque.coupling"].error)
+
+    def test_text_dict_and_file_are_one_machine(self):
+        text = kurbel.machine(TWO_MASSES).text
+        figures = kurbel.run(TWO_MASSES, errors=False).figures["peak_torque.coupling"]
+        self.assertEqual(kurbel.run(text, errors=False).figures["peak_torque.coupling"].value, figures.value)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "two.toml")
+            with open(file, "w") as out:
+                out.write(text)
+            self.assertEqual(kurbel.run(file, errors=False).figures["peak_torque.coupling"].value, figures.value)
+
+    def test_the_page_and_the_summary_are_whole(self):
+        run = kurbel.run(TWO_MASSES, errors=False)
+        self.assertIn("</html>", run.html)
+        self.assertEqual(run.summary["conclusion"], run.conclusion)
+        self.assertIn("srcdoc=", run._repr_html_())
+        self.assertEqual([row.split(",")[0] for row in run.tables["trajectory.csv"].splitlines()[:1]], ["time [s]"])
+
+
+class Memory(unittest.TestCase):
+    def test_columns_share_the_runs_memory_and_outlive_it(self):
+        run = kurbel.run(TWO_MASSES, errors=False)
+        torque, again = run.trajectory["torque.coupling"], run.trajectory["torque.coupling"]
+        self.assertTrue(numpy.shares_memory(torque, again))
+        self.assertFalse(torque.flags.writeable)
+        before = torque.copy()
+        del run, again
+        other = [kurbel.run(TWO_MASSES, errors=False) for _ in range(3)]
+        self.assertTrue((torque == before).all())
+        del other
+
+    def test_csv_and_numpy_are_the_same_numbers(self):
+        run = kurbel.run(TWO_MASSES, errors=False)
+        rows = run.tables["trajectory.csv"].splitlines()
+        column = [name.split(" ")[0] for name in rows[0].split(",")].index("torque.coupling")
+        csv = numpy.array([float(row.split(",")[column]) for row in rows[1:]])
+        self.assertTrue(numpy.allclose(csv, run.trajectory["torque.coupling"], rtol=1e-9, atol=1e-9 * STEP))
+
+    def test_pandas_takes_figures_and_trajectory(self):
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            self.skipTest("no pandas")
+        run = kurbel.run(TWO_MASSES, errors=False)
+        frame = run.trajectory.to_pandas()
+        self.assertEqual(frame.attrs["units"]["torque.coupling"], "N*m")
+        self.assertEqual(frame["torque.coupling"].max(), run.trajectory["torque.coupling"].max())
+        self.assertEqual(run.to_pandas().loc["peak_torque.coupling", "unit"], "N*m")
+
+    def test_a_thousand_loads_runs_and_frees_leak_nothing(self):
+        def resident():
+            with open("/proc/self/statm") as statm:
+                return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+        scene = dict(TWO_MASSES, run={"until": "0.02 s", "samples": 100})
+        for _ in range(200):
+            kurbel.run(scene, errors=False, plots=False).trajectory["torque.coupling"]
+        before = resident()
+        for _ in range(1000):
+            kurbel.run(scene, errors=False, plots=False).trajectory["torque.coupling"]
+        self.assertLess(resident() - before, 2)  # MB
+
+
+class Faults(unittest.TestCase):
+    def test_a_fault_of_a_scene_is_a_value_error_with_its_place(self):
+        with self.assertRaises(kurbel.SceneError) as raised:
+            kurbel.machine('title = "x"\nline = ["a"]\na = { kind = "inertia", inertia = "-1 kg*m2" }\n')
+        self.assertIsInstance(raised.exception, ValueError)
+        file, line, column, text = raised.exception.places[0]
+        self.assertEqual((file, line), ("text", 3))
+        self.assertGreater(column, 1)
+        self.assertIn("inertia", text)
+
+    def test_names_that_are_none_are_refused_with_those_that_are(self):
+        run = kurbel.run(TWO_MASSES, errors=False)
+        with self.assertRaisesRegex(KeyError, "torque.coupling"):
+            run.trajectory["torque.couplin"]
+        with self.assertRaisesRegex(ValueError, "mid_speed"):
+            kurbel.steady(TWO_MASSES, mid_sped="60 rpm")
+        with self.assertRaisesRegex(ValueError, "steady"):
+            kurbel.study("stedy", TWO_MASSES)
+        with self.assertRaises(TypeError):
+            kurbel.machine({"title": object()})
+
+    def test_a_run_that_breaks_off_says_why_and_raises_nothing(self):
+        run = kurbel.run(PRESS, set={"run.budget": "10 ms"}, until=1e4, errors=False)
+        self.assertFalse(run.complete)
+        self.assertIn("budget", run.diagnosis)
+
+
+class Studies(unittest.TestCase):
+    def test_every_study_is_a_function(self):
+        for name in kurbel.study_names():
+            self.assertTrue(callable(getattr(kurbel, name)))
+            self.assertIn("Options:", getattr(kurbel, name).__doc__)
+
+    def test_natural_frequency_of_two_masses(self):
+        summary = kurbel.modes(TWO_MASSES).summary
+        w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
+        self.assertIn(f"{w / 2 / math.pi:.4g}"[:4], json.dumps(summary))
+
+    def test_comparison_and_its_files(self):
+        study = kurbel.compare(TWO_MASSES, no_error=True)
+        with tempfile.TemporaryDirectory() as folder:
+            study.write(os.path.join(folder, "out"))
+            self.assertTrue(os.path.exists(os.path.join(folder, "out", "report.html")))
+
+
+class Motions(unittest.TestCase):
+    def test_a_state_is_gone_back_to_and_on_from_as_text(self):
+        motion = kurbel.motion(TWO_MASSES)
+        motion.go_to(0.1)
+        kept = motion.state
+        motion.go_to(0.2)
+        end = motion.state
+        other = kurbel.motion(TWO_MASSES)
+        other.restore(other.state_from(kept.text))
+        self.assertEqual(other.time, 0.1)
+        other.go_to(0.2)
+        self.assertTrue(other.state == end)
+        self.assertEqual(other["torque.coupling"], motion["torque.coupling"])
+        w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
+        self.assertAlmostEqual(motion["torque.coupling"], STEP / 2 * (1 - math.cos(0.2 * w)), delta=1e-5 * STEP)
+
+
+class Threads(unittest.TestCase):
+    def test_python_runs_on_while_a_machine_is_computed(self):
+        ticks = []
+        done = threading.Event()
+        worker = threading.Thread(target=lambda: (kurbel.run(PRESS, plots=False), done.set()))
+        worker.start()
+        while not done.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.002)
+        worker.join()
+        self.assertGreater(len(ticks), 5)
+
+    def test_two_runs_overlap(self):
+        spans = []
+
+        def compute():
+            begin = time.monotonic()
+            kurbel.run(PRESS, plots=False)
+            spans.append((begin, time.monotonic()))
+        threads = [threading.Thread(target=compute) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertLess(max(begin for begin, _ in spans), min(end for _, end in spans))
+
+    def test_ctrl_c_ends_a_run(self):
+        program = ("import kurbel, sys\nprint('on', flush=True)\n"
+                   f"try:\n  kurbel.run({PRESS!r}, until=1e5)\n"
+                   "except KeyboardInterrupt:\n  print('ended')\n")
+        child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+        child.stdout.readline()
+        time.sleep(0.5)
+        child.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        self.assertEqual(child.communicate(timeout=60)[0], "ended\n")
+        self.assertLess(time.monotonic() - begin, 20)
+
+
+class Sweeps(unittest.TestCase):
+    vary = ["coupling.stiffness=2..10 kN*m/rad", "motor.torque=20,50 N*m"]
+
+    def check(self, rows):
+        self.assertEqual(len(rows), 6)
+        self.assertEqual(rows.failures, {})
+        peaks = rows["peak_torque.coupling"]
+        for (stiffness, torque), peak in zip(rows.parameters, peaks):
+            self.assertAlmostEqual(peak / (2 * torque * 1.5 / 1.7), 1, delta=1e-5)
+
+    def test_here_and_in_processes_the_rows_are_the_same(self):
+        from concurrent.futures import ProcessPoolExecutor
+        here = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], errors=False)
+        self.check(here)
+        with ProcessPoolExecutor(2) as pool:
+            there = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], errors=False,
+                                 executor=pool)
+        self.assertEqual(here.figures, there.figures)
+
+
+if __name__ == "__main__":
+    unittest.main()
