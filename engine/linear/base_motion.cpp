@@ -15,6 +15,29 @@
 namespace kurbel {
 namespace {
 
+// From one speed to another the laws of speed go on to the pieces that hold there: what has not changed its sign keeps
+// its piece, such as a coupling whose twist is the same.
+void follow_pieces(Equations& equations, double t, const std::vector<double>& from, const std::vector<double>& to) {
+  constexpr int most_pieces = 1000;
+  const auto whole = [&](std::vector<double> y) { return y.resize(equations.size(), 0.0), y; };
+  const std::vector<double> there = whole(from), here = whole(to);
+  std::vector<int>& piece = equations.changing_modes().piece;
+  for (const auto& pool : equations.model().pools) {
+    const auto count = static_cast<std::size_t>(pool->guard_count());
+    if (count == 0 || pool->guards_are_of_angle()) continue;
+    std::vector<double> before(count), now(count);
+    pool->guards(equations.instant(t, there), before.data());
+    for (int i = 0; i < most_pieces; ++i) {
+      pool->guards(equations.instant(t, here), now.data());
+      std::size_t passed = 0;
+      while (passed < count && !(before[passed] > 0 && now[passed] < 0)) ++passed;
+      if (passed == count) break;
+      pool->fire(equations.instant(t, here), static_cast<int>(passed), piece.data());
+    }
+  }
+}
+
+
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double geared_within = 1e-6;        // of the link's speed: an angle that turns with the link
 constexpr double golden = 0.618033988749895;  // spreads times over the angles
@@ -96,7 +119,9 @@ void BaseMotion::take_modes() {
     begin_time_ = point_.regime->state.t;
     const double scale = point_.regime->speed != 0 ? speed / point_.regime->speed : 1;
     for (std::size_t i = m_.angle_count(); i < m_.state_count(); ++i) begin_[i] = point_.regime->mean[i];
+    const std::vector<double> there = begin_;
     for (std::size_t s = 0; s < m_.free_shafts; ++s) begin_[equations_.speed_index(static_cast<int>(s))] *= scale;
+    if (scale != 1) follow_pieces(equations_, begin_time_, there, begin_);
   } else {
     begin_ = equations_.modes_from_scratch(0, positions_.front().angle, speed);
     for (std::size_t i = 0; i < m_.angles.size(); ++i)

@@ -4,12 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
+#include "engine/analysis/periodicity.h"
 #include "studies/cycle/classical.h"
 #include "studies/reduce/reduce.h"
 #include "studies/size/size.h"
+#include "studies/steady/steady.h"
 #include "tests/published/published.h"
 
 namespace kurbel {
@@ -205,6 +209,52 @@ TEST(RegimeCycle, ClassicalBasisSaysWhatItLeavesOut) {
                        [&](const std::string& note) { return note.find(words) != std::string::npos; });
   };
   EXPECT_TRUE(said("classical: gear losses"));
+}
+
+// Four cylinders without a mechanism, rigid: what run tells of its last cycle is what steady finds by Newton's method. Mean
+// speed by the governor: 1500 1/min where nothing is left to regulate.
+TEST(RegimeCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
+  Scene scene = test::scene_file("docs/tasks/genset.toml");
+  scene.effects = without_elasticity(scene.effects);
+  scene.run.until = 20;
+  const Result r = test::run(scene);
+  SteadyOptions options;
+  options.start_search = false;
+  const SteadyStudy study = steady(scene, {scene.effects}, options);
+  ASSERT_TRUE(r.complete && !study.cycles.empty() && study.cycles.front().found);
+  const auto& found = study.cycles.front().figures;
+  for (const std::string name : {"mean_speed.damper", "delta.damper"}) {
+    const auto figure = std::find_if(found.begin(), found.end(), [&](const Figure& f) { return f.name == name; });
+    ASSERT_NE(figure, found.end()) << name;
+    ASSERT_NE(r.find(name), nullptr) << name;
+    EXPECT_NEAR(r.find(name)->value, figure->value, *r.find(name)->error + *figure->error + 1e-7 * figure->value)
+        << name;
+  }
+  EXPECT_TRUE(r.periods.steady);
+}
+
+// A machine has a cycle where, and only where, some law of it depends on an angle.
+TEST(RegimeCycle, IsThatOfTheLawsOverAnAngleInEveryScene) {
+  int with = 0, without = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_path("scenes"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = read_scene(entry.path().string(), all_kinds());
+    const auto model = compile(scene, scene.effects);
+    Periodicity period;
+    try {
+      period = periodicity_of(*model);
+    } catch (const std::invalid_argument&) {
+      continue;  // what never meets
+    }
+    EXPECT_EQ(model->cycle > 0, period.angle_matters) << scene.file;
+    if (period.angle_matters && model->cycle > 0) {
+      const double rounds = model->cycle / period.angle;
+      EXPECT_NEAR(rounds, std::round(rounds), 1e-8) << scene.file << ": whole rounds of the laws";
+    }
+    ++(period.angle_matters ? with : without);
+  }
+  EXPECT_GT(with, 15);
+  EXPECT_GT(without, 5);
 }
 
 }  // namespace

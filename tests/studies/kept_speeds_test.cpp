@@ -1,0 +1,110 @@
+// kept_speeds_test.cpp — speeds at which a machine can stay, by closed forms; what cannot be kept bars nothing.
+#include "studies/modes/kept_speeds.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/index.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel::test {
+namespace {
+
+// An induction motor, synchronous at 100 rad/s, that breaks down at a slip of 0.2; behind it an elastic shaft.
+const std::string driven =
+    "line = [\"motor\", \"shaft\", \"wheel\"]\nmotor = { kind = \"induction motor\", breakdown_torque = \"90 N*m\", "
+    "breakdown_slip = 0.2, synchronous_speed = \"100 rad/s\", inertia = \"0.3 kg*m2\" }\n"
+    "shaft = { kind = \"shaft\", stiffness = \"5 kN*m/rad\", damping = \"1 N*m*s/rad\" }\n"
+    "wheel = { kind = \"load\", damping = \"LOAD\", inertia = \"1.2 kg*m2\" }\n[effects]\nelasticity = true\n";
+
+bool grows_at(double speed, const std::string& load) {
+  std::string text = driven;
+  text.replace(text.find("LOAD"), 4, load);
+  const Scene scene = scene_from(text);
+  LinearisationPoint point;
+  point.speed = speed;
+  return grows(linearise(compile(scene, scene.effects), point));
+}
+
+// Kloss: M = 2 M_b/(s/s_b + s_b/s). The whole machine grows where dM/dω exceeds the load's slope.
+double slope(double speed) {
+  const double s = 1 - speed / 100, h = 1e-6;
+  const auto torque = [](double slip) { return 180 / (slip / 0.2 + 0.2 / slip); };
+  return -(torque(s + h) - torque(s - h)) / (2 * h) / 100;
+}
+
+TEST(KeptSpeeds, AMotorBeyondItsBreakdownIsNotKept) {
+  EXPECT_FALSE(grows_at(85, "0.01 N*m*s/rad"));  // slip 0.15
+  EXPECT_TRUE(grows_at(75, "0.01 N*m*s/rad"));   // slip 0.25
+  EXPECT_GT(slope(75), 0.01);
+  EXPECT_LT(slope(85), 0);
+}
+
+TEST(KeptSpeeds, ALoadThatRisesFasterHoldsIt) {
+  const double rises = slope(60);
+  ASSERT_GT(rises, 0.1);
+  EXPECT_TRUE(grows_at(60, fmt::format("{} N*m*s/rad", 0.98 * rises)));
+  EXPECT_FALSE(grows_at(60, fmt::format("{} N*m*s/rad", 1.02 * rises)));
+}
+
+TEST(KeptSpeeds, StretchesAreWhole) {
+  std::vector<SpeedResponse> sweep(6);
+  sweep[1].kept = sweep[2].kept = sweep[5].kept = false;
+  const auto list = stretches(sweep);
+  ASSERT_EQ(list.size(), 4U);
+  EXPECT_EQ(list[1].begin, 1U);
+  EXPECT_EQ(list[1].end, 3U);
+  EXPECT_FALSE(list[1].kept);
+  EXPECT_TRUE(list[2].kept);
+  EXPECT_EQ(list[3].end, 6U);
+}
+
+// A rigid shaft pair under M cos φ on a wheel J: the speed swings by M/(J ω), at low speeds by more than itself.
+TEST(KeptSpeeds, SwingOfTheSpeedIsThatOfTheClosedForm) {
+  const Scene scene = scene_from(
+      "line = [\"motor\", \"shaft\", \"wheel\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"0.001 N*m\", "
+      "no_load_speed = \"100 rad/s\", inertia = \"0.5 kg*m2\" }\nshaft = { kind = \"shaft\", stiffness = \"1e9 "
+      "N*m/rad\", "
+      "damping = \"1 N*m*s/rad\" }\nwheel = { kind = \"torque source\", inertia = \"1.5 kg*m2\", table = { over = "
+      "\"angle\", formula = \"A*cos(angle)\", with = { A = \"40 N*m\" }, range = [\"0 rad\", \"6.283185307179586 "
+      "rad\"], "
+      "period = \"6.283185307179586 rad\" } }\n[effects]\nelasticity = true\n[run]\nstart = { speed = \"50 rad/s\" "
+      "}\n");
+  ModesOptions options;
+  options.speed = 50;
+  const ModesStudy study = find_modes(scene, scene.effects, options);
+  ASSERT_FALSE(study.sweep.empty());
+  for (const SpeedResponse& s : study.sweep) {
+    const double swing = 40 / (2.0 * s.speed);
+    EXPECT_NEAR(s.speed_swing, swing, 1e-3 * swing) << s.speed;
+    EXPECT_EQ(s.kept, s.speed_swing < s.speed) << s.speed;
+  }
+  EXPECT_TRUE(std::any_of(study.sweep.begin(), study.sweep.end(), [](const auto& s) { return !s.kept; }));
+}
+
+// Mains-fed compressor at 979 rpm: its motor breaks down below some 900 rpm. Nothing below is critical or barred, where
+// the linear response says thousands of times what the coupling bears.
+TEST(KeptSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
+  const Scene scene = scene_file("docs/tasks/two_cylinder_compressor.toml");
+  const ModesStudy study = find_modes(scene, scene.effects, {});
+  const auto is_kept = [&](double speed) {
+    const auto nearest = std::min_element(study.sweep.begin(), study.sweep.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.speed - speed) < std::abs(b.speed - speed);
+    });
+    return nearest->kept;
+  };
+  EXPECT_TRUE(study.keeps_its_speed);
+  EXPECT_FALSE(is_kept(75));
+  EXPECT_TRUE(is_kept(std::abs(study.drive.at.speed)));
+  for (const CriticalSpeed& c : study.critical) EXPECT_TRUE(is_kept(c.speed)) << c.speed;
+  for (const BarredRange& range : study.barred) EXPECT_TRUE(is_kept(range.from) && is_kept(range.to)) << range.from;
+  EXPECT_TRUE(std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+    return note.find("the machine does not stay by itself") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace kurbel::test
