@@ -31,5 +31,5 @@ class Binary(Distribution):
 # What setuptools leaves behind goes into the build's folder, too.
 left = os.path.join(here, "build", "pip")
 os.makedirs(left, exist_ok=True)
-setup(packages=[], cmdclass={"build_py": Build}, distclass=Binary,
+setup(packages=["kurbel"], package_dir={"kurbel": "python/kurbel"}, cmdclass={"build_py": Build}, distclass=Binary,
       options={"egg_info": {"egg_base": left}, "build": {"build_base": left}})
