@@ -64,15 +64,14 @@ TEST(KeptSpeeds, StretchesAreWhole) {
 
 // A rigid shaft pair under M cos φ on a wheel J: the speed swings by M/(J ω), at low speeds by more than itself.
 TEST(KeptSpeeds, SwingOfTheSpeedIsThatOfTheClosedForm) {
-  const Scene scene = scene_from(
-      "line = [\"motor\", \"shaft\", \"wheel\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"0.001 N*m\", "
-      "no_load_speed = \"100 rad/s\", inertia = \"0.5 kg*m2\" }\nshaft = { kind = \"shaft\", stiffness = \"1e9 "
-      "N*m/rad\", "
-      "damping = \"1 N*m*s/rad\" }\nwheel = { kind = \"torque source\", inertia = \"1.5 kg*m2\", table = { over = "
-      "\"angle\", formula = \"A*cos(angle)\", with = { A = \"40 N*m\" }, range = [\"0 rad\", \"6.283185307179586 "
-      "rad\"], "
-      "period = \"6.283185307179586 rad\" } }\n[effects]\nelasticity = true\n[run]\nstart = { speed = \"50 rad/s\" "
-      "}\n");
+  const Scene scene = scene_from(R"~(
+line    = ["motor", "shaft", "wheel"]
+motor   = { kind = "dc shunt motor", stall_torque = "0.001 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+shaft   = { kind = "shaft", stiffness = "1e9 N*m/rad", damping = "1 N*m*s/rad" }
+wheel   = { kind = "torque source", inertia = "1.5 kg*m2", table = { over = "angle", formula = "A*cos(angle)", with = { A = "40 N*m" }, period = "6.283185307179586 rad" } }
+effects = { elasticity = true }
+run     = { start = { speed = "50 rad/s" } }
+)~");
   ModesOptions options;
   options.speed = 50;
   const ModesStudy study = find_modes(scene, scene.effects, options);
