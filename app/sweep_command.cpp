@@ -16,6 +16,7 @@
 #include "studies/difference/difference.h"
 #include "studies/files/whole_file.h"
 #include "studies/sweep/machine.h"
+#include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
@@ -117,7 +118,7 @@ SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Des
   std::vector<std::string> varied, names;
   for (const SweptParameter& p : design.parameters()) varied.push_back(p.given);
   for (const SweptFigure& f : id.figures) names.push_back(f.name);
-  id.meta = {{"version", "kurbel 0.1.0"},
+  id.meta = {{"version", program_version()},
              {"title", scene.title},
              {"scene file", a.study.scene},
              {"scene text", scene.text},

@@ -4,7 +4,8 @@
 namespace kurbel {
 namespace {
 
-constexpr std::string_view of_both = "run, compare, effects, advise, accuracy, steady", of_steady = "steady";
+constexpr std::string_view of_both = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty",
+                           of_steady = "steady, sweep, uncertainty";
 
 std::vector<KindEntry> speeds() {
   using enum QuantityKind;
@@ -36,7 +37,7 @@ std::vector<KindEntry> speeds() {
         .formula = "ω_mid = ½ (ω_max + ω_min)",
         .is_not = "the mean over time, which is mean_speed",
         .theory = "2.6",
-        .verbs = "run, compare, effects, advise, accuracy, steady, size"}},
+        .verbs = "run, compare, effects, advise, accuracy, steady, size, sweep, uncertainty"}},
       {mean_speed,
        {.words = "mean speed over time",
         .unit = "rad/s",
@@ -45,7 +46,7 @@ std::vector<KindEntry> speeds() {
         .formula = "ω_mean = Φ/T = 2π n/T for n turns in the time T",
         .is_not = "(ω_max + ω_min)/2, which is mid_speed; in a press the two may differ by 5 % and more",
         .theory = "2.7",
-        .verbs = "run, compare, effects, advise, accuracy, steady, forces"}},
+        .verbs = "run, compare, effects, advise, accuracy, steady, forces, sweep, uncertainty"}},
   };
 }
 
@@ -68,7 +69,7 @@ std::vector<KindEntry> fluctuations() {
         .formula = "(ω_max − ω_min)/ω_mid",
         .is_not = "δ: run-up and drift are part of it, and another length of the run gives another value",
         .theory = "2.6",
-        .verbs = "run, compare, effects, advise, accuracy"}},
+        .verbs = "run, compare, effects, advise, accuracy, sweep, uncertainty"}},
       {cycle_time,
        {.words = "time of a cycle",
         .unit = "s",

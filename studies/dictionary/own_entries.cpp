@@ -45,13 +45,13 @@ Definition of_run(std::string_view name, std::string_view words, std::string_vie
           .formula = formula,
           .is_not = is_not,
           .theory = "1.3",
-          .verbs = "run, compare, effects, advise, accuracy"};
+          .verbs = "run, compare, effects, advise, accuracy, sweep, uncertainty"};
 }
 
 Definition of_both(std::string_view name, std::string_view words, std::string_view unit, std::string_view of,
                    std::string_view is, std::string_view is_not, std::string_view formula) {
   Definition d = of_run(name, words, unit, of, is, is_not, formula);
-  d.verbs = "run, compare, effects, advise, accuracy, steady";
+  d.verbs = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty";
   return d;
 }
 

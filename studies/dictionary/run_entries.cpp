@@ -4,7 +4,7 @@
 namespace kurbel {
 namespace {
 
-constexpr std::string_view of_runs = "run, compare, effects, advise, accuracy";
+constexpr std::string_view of_runs = "run, compare, effects, advise, accuracy, sweep, uncertainty";
 constexpr std::string_view of_files = "run, compare";  // trajectory.csv
 
 std::vector<KindEntry> channels_of_shafts() {

@@ -23,7 +23,7 @@ std::vector<Definition> of_steady() {
        .formula = "M_rms/M_n",
        .is_not = "an efficiency",
        .theory = "4",
-       .verbs = "run, compare, effects, advise, accuracy, steady"},
+       .verbs = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty"},
       {.name = "breakdown_use",
        .words = "use of a motor's breakdown torque",
        .of = "MOTOR",
@@ -41,7 +41,7 @@ std::vector<Definition> of_steady() {
        .formula = "M_d(ω) = M_c(ω), dM_d/dω < dM_c/dω",
        .is_not = "the mid or mean speed of the motion, whose speed is not constant",
        .theory = "4.15",
-       .verbs = "steady, size, reduce"},
+       .verbs = "steady, size, reduce, sweep, uncertainty"},
       {.name = "margin",
        .words = "margin of the drive",
        .is = "greatest mean torque that the drive can give over what it needs at the operating speed",
@@ -66,7 +66,7 @@ std::vector<Definition> of_steady() {
 }
 
 std::vector<Definition> of_size() {
-  constexpr std::string_view verb = "size";
+  constexpr std::string_view verb = "size, sweep, uncertainty";
   return {
       {.name = "flywheel",
        .words = "inertia of the flywheel",
@@ -159,7 +159,16 @@ std::vector<Definition> of_modes() {
        .formula = "K v = ω_n² M v",
        .is_not = "the damped frequency ω_n √(1 − ζ²)",
        .theory = "12.2",
-       .verbs = verb},
+       .verbs = "modes, sweep, uncertainty"},
+      {.name = "damping_ratio",
+       .words = "damping ratio of a mode",
+       .of = "MODE",
+       .is = "share of critical damping with which a mode dies out, by its eigenvalue at the operating point: what is "
+             "left after a cycle is exp(−2πζ/√(1 − ζ²)); told of modes that swing",
+       .formula = "ζ = −Re λ/|λ|",
+       .is_not = "the damping ratio that a coupling is given, which is of that coupling alone",
+       .theory = "12.3",
+       .verbs = "modes, sweep, uncertainty"},
       {.name = "largest_swing",
        .words = "largest swing at that speed",
        .unit = "N*m",

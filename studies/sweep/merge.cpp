@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 
 #include "studies/sweep/store.h"
 
@@ -46,6 +50,25 @@ std::vector<SweepRow> rows_of_all(const std::vector<std::string>& files, SweepId
   return all;
 }
 
+// What a killed merge left beside `into`, of a process that is no more; one still at work keeps its file.
+void clean_up(const std::filesystem::path& into) {
+  const std::string begins = into.filename().string() + ".part-";
+  const std::filesystem::path folder = into.has_parent_path() ? into.parent_path() : ".";
+  std::error_code gone;
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, gone)) {
+    const std::string name = entry.path().filename().string();
+    pid_t process = 0;
+    if (!name.starts_with(begins)) continue;
+    const char* const end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + begins.size(), end, process);
+    const std::string_view tail(read.ptr, end);
+    if (read.ec != std::errc{} || process <= 0 || (tail != "" && !tail.starts_with("-"))) continue;
+    if (process == getpid() || (kill(process, 0) != 0 && errno == ESRCH)) left.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : left) std::filesystem::remove(file, gone);
+}
+
 }  // namespace
 
 std::size_t merge_sweeps(const std::vector<std::string>& files, const std::filesystem::path& into) {
@@ -55,7 +78,8 @@ std::size_t merge_sweeps(const std::vector<std::string>& files, const std::files
   SweepIdentity identity;
   const std::vector<SweepRow> rows = rows_of_all(files, identity);
   identity.shard = "1/1";
-  // Put in place in one step; what a killed merge leaves is written anew by the next one.
+  // Put in place in one step; what a killed merge leaves is removed by the next one.
+  clean_up(into);
   const std::filesystem::path beside = into.string() + fmt::format(".part-{}", getpid());
   try {
     SweepStore(beside, identity).write(rows);

@@ -28,6 +28,21 @@ std::string in_words(const Index& i) { return fmt::format("{:.3f} ({:.3f} … {:
 
 // --- limits ---
 
+// By a seed: as published (seed 0) its points are chosen, not drawn.
+bool is_shifted_sobol(const SweepStudyResult& s) {
+  return meta_of(s.identity, "design").starts_with("sobol") && meta_of(s.identity, "seed") != "0";
+}
+
+// What the interval of a share is where points lie more evenly than random ones.
+std::vector<std::string> notes_on_limits(const SweepStudyResult& s) {
+  const std::string design = meta_of(s.identity, "design");
+  if (s.limits.empty() || !(is_shifted_sobol(s) || design.starts_with("lhs"))) return {};
+  return {
+      fmt::format("The share that holds is given the interval of {} random points (Clopper and Pearson, 95 %). The "
+                  "points of {} lie more evenly, so that as a rule the share is known better than that",
+                  s.rows.size(), design)};
+}
+
 struct LimitCount {
   std::string limit;
   std::size_t holds = 0, undecided = 0, beyond = 0, unknown = 0;
@@ -47,7 +62,7 @@ LimitCount count_of(const FigureLimit& limit, const SweepStudyResult& s) {
   }
   // Who is undecided may hold or not: the interval covers both. Of points that were chosen, none is told.
   const std::string design = meta_of(s.identity, "design");
-  const bool drawn = design.starts_with("random") || design.starts_with("lhs") || design.starts_with("sobol");
+  const bool drawn = design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(s);
   c.interval = {std::nan(""), std::nan("")};
   if (drawn)
     c.interval = {clopper_pearson(c.holds, c.decided()).low, clopper_pearson(c.holds + c.undecided, c.decided()).high};
@@ -347,6 +362,7 @@ Findings findings_of(const SweepStudyResult& s) {
   const Chapter limits = f.chapter("Limits"), influence = f.chapter("What moves the figures"),
                 curves = f.chapter("Response"), worst = f.chapter("Machines"), all = f.chapter("The sweep");
   if (!s.limits.empty()) f.say(limits, limit_table(s));
+  f.note(limits, notes_on_limits(s));
   f.draw(limits, [&s] { return limit_maps(s); });
   f.say(influence, influence_table(s));
   f.draw(influence, [&s] { return influence_plots(s); });

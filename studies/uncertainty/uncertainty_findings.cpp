@@ -57,6 +57,7 @@ Rows share_table(const UncertaintyStudy& s) {
       .column("parameter", "tolerance", &ShareRow::parameter)
       .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3})
       .column("deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, {.digits = 3})
+      .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; })
       .column("noise", "open by errors", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
       .column("without", "figure's without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
       .column("unit", "unit", &ShareRow::unit, as_unit);

@@ -161,6 +161,14 @@ TEST_F(SweepCommand, ShardsOfASlurmArrayMergedAreOneSweep) {
   EXPECT_FALSE(fs::exists(folder_ / "no.db"));
 }
 
+// A short form of what scripts/sweep-kills does with 200 kills.
+TEST_F(SweepCommand, KillsAtRandomMomentsLoseNothingThatWasCommitted) {
+  const Said said = shell(fmt::format("'{}/scripts/sweep-kills' --kills 12 --rows 300 --program '{}'",
+                                      KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE));
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_NE(said.text.find("nothing committed was lost"), std::string::npos) << said.text;
+}
+
 TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
   const std::string design = varied + "--design sobol:200000 ";
   const Said said = shell(

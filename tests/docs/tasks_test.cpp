@@ -74,7 +74,7 @@ TEST_P(Task, EveryCommandSaysWhatThePageSays) {
   fs::remove_all(here);
 }
 
-INSTANTIATE_TEST_SUITE_P(Worked, Task, ::testing::Values("press", "compressor", "genset", "flywheel"),
+INSTANTIATE_TEST_SUITE_P(Worked, Task, ::testing::Values("press", "compressor", "genset", "flywheel", "tolerances"),
                          [](const auto& info) { return info.param; });
 
 // Each page is in the list of pages, and each scene in a page.
