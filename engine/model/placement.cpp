@@ -104,31 +104,57 @@ bool can_be_set(const Network::ShaftElement& e) {
                      [&](const auto& account) { return account.first.starts_with(e.component + ".load"); });
 }
 
+// What a sequence may tell a component.
+struct Commandable {
+  bool any = false, reversible = true;
+  bool switched = false;  // something of it is merely on or off
+};
+
+Commandable commandable(const Network& net, const std::string& component) {
+  Commandable is;
+  for (const Network::ShaftElement& e : net.elements)
+    if (e.component == component && can_be_set(e)) {
+      is.any = true, is.reversible = is.reversible && e.element->is.reversible;
+      is.switched = is.switched || !e.element->is.commanded;
+    }
+  for (const Network::Joint& joint : net.joints)
+    if (joint.component == component && joint.element && joint.element->is.commanded)
+      is.any = true, is.reversible = false;
+  return is;
+}
+
+// Why this step would do nothing to the component, or something else than it says; empty: it does what it says.
+std::string fault_of(const SequenceStep& step, const std::string& component, const Commandable& is) {
+  if (!is.any)
+    return fmt::format(
+        "\"{}\" has nothing that can be set; name a motor, a load, a mechanism with loads, a clutch or "
+        "a brake",
+        component);
+  if (is.switched && !step.law.empty())
+    return fmt::format("\"{}\" is on or off and can follow no law; give its torque over time in its own table",
+                       component);
+  if (step.to < 0 && !is.reversible)
+    return fmt::format("\"{}\" cannot be reversed, to = {:g}; must be ≥ 0 (only electric motors without a starter can)",
+                       component, step.to);
+  if (is.switched && step.to != 0 && step.to != 1)
+    return fmt::format(
+        "\"{}\" is on or off, to = {:g}; must be 0 or 1 (clutches, brakes and electric motors without a "
+        "starter can be set in part)",
+        component, step.to);
+  if (is.switched && step.over > 0)
+    return fmt::format(
+        "\"{}\" is on or off and goes through no ramp, over = {:g} s; leave \"over\" out, or give its "
+        "torque over time in its own table",
+        component, step.over);
+  return {};
+}
+
 // What a component does not understand it must not be told.
 void check_sequence(Compilation& c) {
   for (const SequenceStep& step : c.model.scene.sequence.steps)
     for (const std::string& component : step.set) {
-      bool any = false, reversible = true, switched = false;
-      for (const Network::ShaftElement& e : c.net().elements)
-        if (e.component == component && can_be_set(e)) {
-          any = true, reversible = reversible && e.element->is.reversible;
-          switched = switched || !e.element->is.commanded;
-        }
-      for (const Network::Joint& joint : c.net().joints)
-        if (joint.component == component && joint.element && joint.element->is.commanded)
-          any = true, reversible = false;
-      if (!any)
-        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" has nothing that can be set; name a motor, a load, a "
-                                            "mechanism with loads, a clutch or a brake",
-                                            component));
-      else if (switched && !step.law.empty())
-        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" is on or off and can follow no law; give its torque "
-                                            "over time in its own table",
-                                            component));
-      else if (step.to < 0 && !reversible)
-        c.messages.add(step.at, fmt::format("[sequence]: \"{}\" cannot be reversed, to = {:g}; must be ≥ 0 (only "
-                                            "electric motors without a starter can)",
-                                            component, step.to));
+      const std::string fault = fault_of(step, component, commandable(c.net(), component));
+      if (!fault.empty()) c.messages.add(step.at, "[sequence]: " + fault);
     }
 }
 

@@ -272,9 +272,9 @@ std::string keys_in_markdown() {
       "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "
       "of = "
       "\"press\", set = \"brake\" }]`. `set` names the components: clutches, brakes and motors take any value of `to`, "
-      "everything else is on above one half; of a mechanism its loads are, while its links move on (valves held open "
-      "at "
-      "a start; a press that strikes every third time: three steps at one angle, to = 1, 0, 0, and `repeat`). With "
+      "everything else (motors on a starter, too) is on or off, at once; of a mechanism its loads are, while its links "
+      "move on (valves held open at a start; a press that strikes every third time: three steps at one angle, to = 1, "
+      "0, 0, and `repeat`). With "
       "`law` in place of `to` and `over` a command follows a table or a "
       "formula of the time since its step.\n\n";
   text += rows(sequence_step_keys());
