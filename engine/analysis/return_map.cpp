@@ -272,7 +272,8 @@ ReturnMap::Image ReturnMap::approach_from(State state) {
 }
 
 Eigen::VectorXd ReturnMap::along_the_motion(const Eigen::VectorXd& z) {
-  if (!own_period_) return Eigen::VectorXd::Zero(z.size());
+  const bool clocked = shared_->scene.sequence.repeat || periodicity_of(*shared_).by_time;
+  if (!own_period_ || clocked) return Eigen::VectorXd::Zero(z.size());
   const std::vector<double> y = place(equations_, z);
   std::vector<double> rate(equations_.size());
   equations_.flow(start_time(), y, rate);

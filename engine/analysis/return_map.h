@@ -87,7 +87,7 @@ class ReturnMap {
   double time_limit() const { return time_limit_; }
   const ReturnMapOptions& options() const { return options_; }
   // The direction, scaled, in which z moves with time alone: along it a machine with a period of its own is at home
-  // everywhere. Zero for any other.
+  // everywhere. Zero for any other, and where commands or laws over time say when a round begins.
   Eigen::VectorXd along_the_motion(const Eigen::VectorXd& z);
   // Derivatives come from variational equations with their jumps; else from differences.
   bool variational() const { return variational_; }

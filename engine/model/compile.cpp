@@ -17,10 +17,14 @@ Location Compilation::place_of_line() const {
 namespace {
 
 // All mechanisms are back in place, each at its own ratio; where none of a few turns does it, the link's own cycle. An
-// engine, a load over an angle or a joint at an angle make a cycle without any mechanism.
+// engine, a load over an angle or a joint at an angle make a cycle without any mechanism: their common period, as the
+// steady study has it.
 void find_cycle(Model& m) {
   const CyclePeriod cycle = cycle_of(m);
-  if (cycle.periodic && (m.cycle > 0 || cycle.of_a_law)) m.cycle = cycle.angle;
+  if (m.cycle == 0)
+    m.cycle = cycle.of_laws;
+  else if (cycle.periodic)
+    m.cycle = cycle.angle;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ CommonPeriod common_period(const std::vector<double>& periods) {
 
 // The shortest multiple of a turn after which every element and joint that depends on an angle is back.
 CyclePeriod cycle_of(const Model& m) {
-  std::vector<double> period = {turn};
+  std::vector<double> period;
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->is.uses_angle && e.element->angle_period > 0)
       period.push_back(e.element->angle_period / m.scale_ratio[at(e.node)]);
@@ -45,9 +45,10 @@ CyclePeriod cycle_of(const Model& m) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) period.push_back(turn / m.scale_ratio[at(joint.a)]);
   }
-  const bool of_a_law = period.size() > 1;
-  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true, of_a_law};
-  return {m.cycle > 0 ? m.cycle : turn, false, of_a_law};
+  const double of_laws = period.empty() ? 0 : common_period(period).value;
+  period.insert(period.begin(), turn);
+  if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true, of_laws};
+  return {m.cycle > 0 ? m.cycle : turn, false, of_laws};
 }
 
 }  // namespace kurbel

@@ -19,7 +19,7 @@ CommonPeriod common_period(const std::vector<double>& periods);
 struct CyclePeriod {
   double angle = 0;  // [rad]
   bool periodic = true;
-  bool of_a_law = false;  // something depends on an angle; else it is a turn for want of another
+  double of_laws = 0;  // common period of all that depends on an angle, be it no whole turn [rad]; 0: nothing does
 };
 CyclePeriod cycle_of(const Model& model);
 

@@ -249,7 +249,7 @@ std::string trajectory_csv(const Result& r) {
 }
 
 std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
-  constexpr double tolerable = 0.05;
+  constexpr double tolerable = 0.05, alike = 1e-6;
   const std::size_t columns = t.channels().size();
   std::size_t worst = 0;
   double missed = 0;
@@ -257,7 +257,7 @@ std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
     double held = 0, reached = 0;
     for (std::size_t row = 0; row < t.time().size(); ++row) held = std::max(held, std::abs(t.value(row, k)));
     for (const TrajectoryRecorder::Row& peak : t.peaks()) reached = std::max(reached, std::abs(peak.values[k]));
-    if (reached > 0 && 1 - held / reached > missed) worst = k, missed = 1 - held / reached;
+    if (reached > 0 && 1 - held / reached > missed + alike) worst = k, missed = 1 - held / reached;
   }
   if (!(missed > tolerable) || t.time().size() < 2) return {};
   const double enough = std::max(std::pow(10, std::ceil(std::log10(2.0 * static_cast<double>(steps)))),

@@ -144,6 +144,21 @@ TEST_F(Streams, SignalInTheFirstMillisecondsEndsWith130) {
   EXPECT_GT(held, 10);
 }
 
+// timeout(1) signals its child and the child's group: two signals within microseconds are one, and what was computed is
+// told. A second one later ends at once.
+TEST_F(Streams, TwoSignalsAtOnceAreOne) {
+  for (int n = 0; n < 8; ++n) {
+    const pid_t child = start({"run", "wheel.toml", "--until", "1000000 s", "--no-files"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    kill(child, SIGINT);
+    std::this_thread::sleep_for(std::chrono::microseconds(40 * n));
+    kill(child, SIGINT);
+    const Ended r = wait(child);
+    EXPECT_EQ(r.code, 130) << n;
+    EXPECT_NE(r.err.find("interrupted"), std::string::npos) << r.err;
+  }
+}
+
 // Every option of every command that takes a value, as --help lists them.
 TEST_F(Streams, NoOptionTakesAnEmptyValue) {
   const std::string help = kurbel({"--help"}).out;
