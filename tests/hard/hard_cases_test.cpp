@@ -21,7 +21,9 @@ double accuracy_for(std::size_t which_case, std::size_t which_method, const std:
 class HardCases : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(HardCases, EndRight) {
-  const HardCase& hard_case = all_cases()[GetParam()];
+  // Budgets are the bench's. Here an answer must be right however slow the machine is.
+  HardCase hard_case = all_cases()[GetParam()];
+  hard_case.budget *= 2;
   for (std::size_t m = 0; m < all_methods().size(); ++m) {
     const std::string& method = all_methods()[m];
     if (hard_case.heavy && method != "auto") continue;
