@@ -98,6 +98,12 @@ std::string frame_of(const Plot& plot) {
       text += fmt::format("{}{} {}", i ? ", " : "", quoted(plot.x.names[i]), i + 1);
     text += ")\n";
   }
+  if (!plot.y.names.empty()) {
+    text += "set ytics (";
+    for (std::size_t i = 0; i < plot.y.names.size(); ++i)
+      text += fmt::format("{}{} {}", i ? ", " : "", quoted(plot.y.names[i]), i + 1);
+    text += ")\n";
+  }
   for (const Band& band : plot.bands) {
     if (band.from < band.to)
       text += fmt::format(

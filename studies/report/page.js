@@ -132,7 +132,7 @@
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
       margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
-      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: axis(plot.y), dragmode: narrow() ? false : 'zoom',
+      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: {...axis(plot.y), ...(plot.y.names ? {tickvals: plot.y.names.map((_, i) => i + 1), ticktext: plot.y.names} : {})}, dragmode: narrow() ? false : 'zoom',
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
     if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];

@@ -367,6 +367,7 @@ Findings findings_of(const SweepStudyResult& s) {
   f.say(influence, influence_table(s));
   f.draw(influence, [&s] { return influence_plots(s); });
   f.draw(curves, [&s] { return response_plots(s); });
+  f.draw(curves, [&s] { return scatter_matrix(s); });
   f.say(worst, worst_table(s));
   f.say(worst, failure_table(s));
   f.say(all, figure_table(s));

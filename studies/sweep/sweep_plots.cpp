@@ -29,26 +29,6 @@ std::vector<const SweepRow*> shown(const SweepStudyResult& s) {
   return rows;
 }
 
-// Figures that a limit is on come first.
-std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
-  std::vector<std::size_t> list;
-  for (const FigureLimit& l : s.limits)
-    if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
-  for (const FigureInfluence& f : s.influences)
-    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
-  if (list.size() > most_figures) list.resize(most_figures);
-  return list;
-}
-
-// Parameters by their influence on a figure; as they were given where none is known.
-std::vector<std::size_t> parameters_for(const SweepStudyResult& s, std::size_t figure) {
-  std::vector<std::size_t> list;
-  for (const Influence& i : s.influences[figure].ranked) list.push_back(i.parameter);
-  for (std::size_t k = 0; k < s.identity.parameters.size(); ++k)
-    if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
-  return list;
-}
-
 // Of one parameter: the curve with the band of its errors.
 void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
                double factor) {
@@ -114,6 +94,40 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
   return plot;
 }
 
+// Colours where variants stand in rows and columns, each cell the mean over all other parameters; else none.
+std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b) {
+  const auto values_of = [&](std::size_t parameter) {
+    std::vector<double> values;
+    for (const SweepRow& r : s.rows) values.push_back(r.parameters[parameter]);
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  };
+  const SweptFigure& f = s.identity.figures[figure];
+  ColourMap map{.name = f.name, .unit = "", .x = values_of(a), .y = values_of(b), .z = {}};
+  if (map.x.size() < 2 || map.y.size() < 2 || map.x.size() * map.y.size() > s.rows.size()) return std::nullopt;
+  std::vector<std::vector<double>> sums(map.y.size(), std::vector<double>(map.x.size(), 0)), counts = sums;
+  double largest = 0;
+  for (const SweepRow& r : s.rows) {
+    const double v = value_in(r, figure);
+    if (!std::isfinite(v)) continue;
+    const auto place = [](const std::vector<double>& in, double value) {
+      return static_cast<std::size_t>(std::lower_bound(in.begin(), in.end(), value) - in.begin());
+    };
+    const std::size_t i = place(map.y, r.parameters[b]), k = place(map.x, r.parameters[a]);
+    sums[i][k] += v, ++counts[i][k];
+    largest = std::max(largest, std::abs(v));
+  }
+  const ReadableUnit unit = readable_unit(largest, f.unit);
+  map.unit = unit.unit;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    map.z.emplace_back(map.x.size(), std::nan(""));
+    for (std::size_t k = 0; k < map.x.size(); ++k)
+      if (counts[i][k] > 0) map.z[i][k] = unit.factor * sums[i][k] / counts[i][k];
+  }
+  return map;
+}
+
 Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b) {
   const SweptFigure& f = s.identity.figures[figure];
   Plot plot{
@@ -132,12 +146,14 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
   };
   const auto limit =
       std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
+  plot.map = cells_of(s, figure, a, b);
+  if (plot.map && s.identity.parameters.size() > 2) plot.note = "Colours: mean over all other parameters.";
   if (limit != s.limits.end()) {
     plot.title += fmt::format(": where {}", limit->given);
     add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
     add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });
     add("beyond", Role::vermillion, [&](const SweepRow& r) { return side_of(*limit, r) == Side::beyond; });
-  } else {
+  } else if (!plot.map) {
     std::vector<double> values;
     for (const SweepRow& r : s.rows)
       if (const double v = value_in(r, figure); std::isfinite(v)) values.push_back(v);
@@ -157,6 +173,24 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
 }
 
 }  // namespace
+
+std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
+  std::vector<std::size_t> list;
+  for (const FigureLimit& l : s.limits)
+    if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
+  for (const FigureInfluence& f : s.influences)
+    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
+  if (list.size() > most_figures) list.resize(most_figures);
+  return list;
+}
+
+std::vector<std::size_t> parameters_for(const SweepStudyResult& s, std::size_t figure) {
+  std::vector<std::size_t> list;
+  for (const Influence& i : s.influences[figure].ranked) list.push_back(i.parameter);
+  for (std::size_t k = 0; k < s.identity.parameters.size(); ++k)
+    if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
+  return list;
+}
 
 std::vector<Plot> response_plots(const SweepStudyResult& s) {
   std::vector<Plot> plots;

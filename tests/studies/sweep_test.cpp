@@ -17,6 +17,7 @@
 #include "studies/sweep/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
+#include "studies/sweep/sweep_plots.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -180,6 +181,29 @@ TEST(SweepIndices, OfFirstOrderFollowFromAnyDesign) {
     EXPECT_NEAR(of_parameter(s.influences[0], 1).first.value, 0.4424, within) << design;
     EXPECT_NEAR(of_parameter(s.influences[0], 2).first.value, 0, 0.01) << design;
   }
+}
+
+// --- pictures ---
+
+// Of k parameters and a figure: n (n − 1)/2 tiles, each with all rows; a grid's cells are its values.
+TEST(SweepPictures, AScatterMatrixHasEveryPairAndAGridsMapItsValues) {
+  const File file("pictures");
+  const SweepStudyResult s = swept(Design("grid:6x5", ranges({"a.x=0..10", "b.x=0..8"}), 1), file,
+                                   [](const std::vector<double>& x) { return 3 * x[0] + x[1]; });
+  const std::vector<Plot> matrix = scatter_matrix(s);
+  ASSERT_EQ(matrix.size(), 1u);
+  ASSERT_EQ(matrix[0].series.size(), 1u);
+  EXPECT_EQ(matrix[0].series[0].x.size(), 3u * 30u);
+  EXPECT_EQ(matrix[0].x.names, (std::vector<std::string>{"a.x", "b.x"}));
+  EXPECT_EQ(matrix[0].y.names, (std::vector<std::string>{"y", "b.x"}));
+  const std::vector<Plot> maps = limit_maps(s);
+  ASSERT_EQ(maps.size(), 1u);
+  ASSERT_TRUE(maps[0].map.has_value());
+  const ColourMap& map = *maps[0].map;
+  ASSERT_EQ(map.x.size(), 6u);
+  ASSERT_EQ(map.y.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(map.z[i][k], 3 * map.x[k] + map.y[i], 1e-12);
 }
 
 // --- machines ---
