@@ -1,4 +1,4 @@
-// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, evenly taken.
+// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, drawn by chance.
 #include "studies/sweep/sweep_plots.h"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/scene/units.h"
+#include "studies/findings/thin.h"
 
 namespace kurbel {
 namespace {
@@ -22,12 +23,7 @@ std::string label_of(const SweepStudyResult& s, const SweepRow& r) {
   return label;
 }
 
-std::vector<const SweepRow*> shown(const SweepStudyResult& s) {
-  std::vector<const SweepRow*> rows;
-  const std::size_t step = std::max<std::size_t>(1, (s.rows.size() + most_points - 1) / most_points);
-  for (std::size_t i = 0; i < s.rows.size(); i += step) rows.push_back(&s.rows[i]);
-  return rows;
-}
+std::vector<const SweepRow*> shown(const SweepStudyResult& s) { return some_rows(s, most_points); }
 
 // Of one parameter: the curve with the band of its errors.
 void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
@@ -95,7 +91,8 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
 }
 
 // Colours where variants stand in rows and columns, each cell the mean over all other parameters; else none.
-std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b) {
+std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b,
+                                  const ReadableUnit& unit) {
   const auto values_of = [&](std::size_t parameter) {
     std::vector<double> values;
     for (const SweepRow& r : s.rows) values.push_back(r.parameters[parameter]);
@@ -104,10 +101,9 @@ std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure,
     return values;
   };
   const SweptFigure& f = s.identity.figures[figure];
-  ColourMap map{.name = f.name, .unit = "", .x = values_of(a), .y = values_of(b), .z = {}};
+  ColourMap map{.name = f.name, .unit = unit.unit, .x = values_of(a), .y = values_of(b), .z = {}};
   if (map.x.size() < 2 || map.y.size() < 2 || map.x.size() * map.y.size() > s.rows.size()) return std::nullopt;
   std::vector<std::vector<double>> sums(map.y.size(), std::vector<double>(map.x.size(), 0)), counts = sums;
-  double largest = 0;
   for (const SweepRow& r : s.rows) {
     const double v = value_in(r, figure);
     if (!std::isfinite(v)) continue;
@@ -116,10 +112,7 @@ std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure,
     };
     const std::size_t i = place(map.y, r.parameters[b]), k = place(map.x, r.parameters[a]);
     sums[i][k] += v, ++counts[i][k];
-    largest = std::max(largest, std::abs(v));
   }
-  const ReadableUnit unit = readable_unit(largest, f.unit);
-  map.unit = unit.unit;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     map.z.emplace_back(map.x.size(), std::nan(""));
     for (std::size_t k = 0; k < map.x.size(); ++k)
@@ -135,22 +128,27 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
       .x = axis_of(s.identity.parameters[a]),
       .y = axis_of(s.identity.parameters[b]),
       .series = {}};
+  double largest = 0;
+  for (const SweepRow& r : s.rows)
+    if (const double v = value_in(r, figure); std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  const ReadableUnit unit = readable_unit(largest, f.unit);
   const auto add = [&](std::string name, Role role, const auto& belongs) {
     Series series{.name = std::move(name), .role = role, .x = {}, .y = {}, .points = true, .line = false};
     for (const SweepRow* r : shown(s))
       if (belongs(*r)) {
         series.x.push_back(r->parameters[a]), series.y.push_back(r->parameters[b]);
-        series.labels.push_back(fmt::format("{}; {} {}", label_of(s, *r), value_in(*r, figure), pretty_unit(f.unit)));
+        series.labels.push_back(
+            fmt::format("{}; {:.6g} {}", label_of(s, *r), unit.factor * value_in(*r, figure), unit.unit));
       }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
   const auto limit =
       std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
-  plot.map = cells_of(s, figure, a, b);
+  plot.map = cells_of(s, figure, a, b, unit);
   if (plot.map && s.identity.parameters.size() > 2) plot.note = "Colours: mean over all other parameters.";
   if (limit != s.limits.end()) {
     plot.title += fmt::format(": where {}", limit->given);
-    add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
+    if (!plot.map) add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
     add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });
     add("beyond", Role::vermillion, [&](const SweepRow& r) { return side_of(*limit, r) == Side::beyond; });
   } else if (!plot.map) {
@@ -162,7 +160,8 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
     const Role roles[] = {Role::purple, Role::elastic, Role::sky, Role::green, Role::orange};
     for (std::size_t fifth = 0; fifth < 5; ++fifth) {
       const double low = values[fifth * (values.size() - 1) / 5], high = values[(fifth + 1) * (values.size() - 1) / 5];
-      add(fmt::format("{:.4g} … {:.4g} {}", low, high, pretty_unit(f.unit)), roles[fifth], [&](const SweepRow& r) {
+      const std::string name = fmt::format("{:.4g} … {:.4g} {}", unit.factor * low, unit.factor * high, unit.unit);
+      add(name, roles[fifth], [&](const SweepRow& r) {
         const double v = value_in(r, figure);
         return (fifth == 0 ? v >= low : v > low) && v <= high;
       });
@@ -173,6 +172,12 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
 }
 
 }  // namespace
+
+std::vector<const SweepRow*> some_rows(const SweepStudyResult& s, std::size_t most) {
+  std::vector<const SweepRow*> rows;
+  for (const std::size_t i : drawn_by_chance(s.rows.size(), most)) rows.push_back(&s.rows[i]);
+  return rows;
+}
 
 std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
   std::vector<std::size_t> list;

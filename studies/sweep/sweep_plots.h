@@ -17,6 +17,8 @@ std::vector<Plot> influence_plots(const SweepStudyResult& study);
 // Parameters and figures against one another in pairs, coloured by the limits; one picture, or none of too few.
 std::vector<Plot> scatter_matrix(const SweepStudyResult& study);
 
+// Of many rows so many, drawn by chance.
+std::vector<const SweepRow*> some_rows(const SweepStudyResult& study, std::size_t most);
 // What is drawn, at most four: figures that a limit is on come first.
 std::vector<std::size_t> figures_drawn(const SweepStudyResult& study);
 // Parameters by their influence on a figure; as they were given where none is known.

@@ -194,8 +194,9 @@ TEST(SweepPictures, AScatterMatrixHasEveryPairAndAGridsMapItsValues) {
   ASSERT_EQ(matrix.size(), 1u);
   ASSERT_EQ(matrix[0].series.size(), 1u);
   EXPECT_EQ(matrix[0].series[0].x.size(), 3u * 30u);
-  EXPECT_EQ(matrix[0].x.names, (std::vector<std::string>{"a.x", "b.x"}));
-  EXPECT_EQ(matrix[0].y.names, (std::vector<std::string>{"y", "b.x"}));
+  EXPECT_EQ(matrix[0].x.names, (std::vector<std::string>{"a.x\n0 … 10", "b.x\n0 … 8"}));
+  EXPECT_EQ(matrix[0].y.names, (std::vector<std::string>{"y\n0 … 38", "b.x\n0 … 8"}));
+  EXPECT_EQ(matrix[0].series[0].labels.back(), "row 29: b.x 8, y 38");
   const std::vector<Plot> maps = limit_maps(s);
   ASSERT_EQ(maps.size(), 1u);
   ASSERT_TRUE(maps[0].map.has_value());
