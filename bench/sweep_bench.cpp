@@ -150,30 +150,32 @@ void rates_of_sweeps(BenchBook& book, const std::string& program) {
       {"crank, its geometry swept", crank(), {"crank.radius=15..25 mm", "crank.rod=90..120 mm"}, 300}};
   Table table{.title = "Sweeps, errors measured: medians of five",
               .columns = {"machine", "rows", "bare runs, ms a row", "sweep, ms a row", "overhead",
-                          "two jobs over two processes", "sweep over a shell loop"},
+                          "two jobs over two processes", "one job over a shell loop", "two jobs over it"},
               .rows = {}};
   for (const SweptMachine& machine : machines) {
     const Campaign c(machine);
-    std::vector<double> bare, swept, ratio, clock;
+    std::vector<double> bare, swept, ratio, clock, by_two;
     for (int repeat = 0; repeat < 5; ++repeat) {
       bare.push_back(processor_of([&] { c.bare(); }));
       swept.push_back(processor_of([&] { clock.push_back(clock_of([&] { c.sweep(folder / "one.db", 1); })); }));
       const double processes = clock_of([&] { two_processes(c, folder); });
-      ratio.push_back(processes / clock_of([&] { c.sweep(folder / "two.db", 2); }));
+      by_two.push_back(clock_of([&] { c.sweep(folder / "two.db", 2); }));
+      ratio.push_back(processes / by_two.back());
     }
     const double rows = static_cast<double>(machine.rows), overhead = median(swept) / median(bare) - 1;
-    const double loop = shell_loop(c, program, folder, 40) * rows / median(clock);
+    const double loop = shell_loop(c, program, folder, 40) * rows;
     table.rows.push_back({machine.name, fmt::format("{}", machine.rows),
                           fmt::format("{:.3g}", 1e3 * median(bare) / rows),
                           fmt::format("{:.3g}", 1e3 * median(swept) / rows), fmt::format("{:.1f} %", 100 * overhead),
-                          fmt::format("{:.0f} %", 100 * median(ratio)), fmt::format("{:.1f} ×", loop)});
+                          fmt::format("{:.0f} %", 100 * median(ratio)), fmt::format("{:.1f} ×", loop / median(clock)),
+                          fmt::format("{:.1f} ×", loop / median(by_two))});
     book.target(fmt::format("sweep of {}: processor time over bare runs", machine.name), "≤ 5 %",
                 fmt::format("{:.1f} %", 100 * overhead), overhead <= 0.05);
     book.target(fmt::format("sweep of {}: two jobs against two processes", machine.name), "≥ 95 %",
                 fmt::format("{:.0f} %", 100 * median(ratio)), median(ratio) >= 0.95);
     if (&machine == machines)
-      book.target("sweep of two masses against a shell loop over kurbel run", "≥ 20 ×", fmt::format("{:.1f} ×", loop),
-                  loop >= 20);
+      book.target("sweep of two masses, two jobs, against a shell loop over kurbel run", "≥ 20 ×",
+                  fmt::format("{:.1f} ×", loop / median(by_two)), loop / median(by_two) >= 20);
   }
   book.tables.push_back(std::move(table));
   fs::remove_all(folder);

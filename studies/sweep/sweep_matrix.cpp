@@ -109,7 +109,7 @@ std::vector<Plot> scatter_matrix(const SweepStudyResult& s) {
   for (Series& d : dots)
     if (!d.x.empty()) plot.series.push_back(std::move(d));
   for (Axis* axis : {&plot.x, &plot.y}) axis->least = 0.5, axis->greatest = static_cast<double>(n) - 0.5;
-  plot.note = fmt::format("Each tile from the least to the greatest value; {} of {} rows.", rows.size(), s.rows.size());
+  plot.note = fmt::format("Each tile from the least to the greatest value; {} of {} rows.", rows.size(), s.tally.rows);
   plot.wide = true;
   return {std::move(plot)};
 }

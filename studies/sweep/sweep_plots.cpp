@@ -86,7 +86,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
                              .x = {points.front().second, points.back().second},
                              .y = {unit.factor * l.value, unit.factor * l.value},
                              .dashed = true});
-  if (s.rows.size() > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.rows.size());
+  if (s.tally.rows > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.tally.rows);
   return plot;
 }
 

@@ -207,6 +207,28 @@ TEST(SweepPictures, AScatterMatrixHasEveryPairAndAGridsMapItsValues) {
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(map.z[i][k], 3 * map.x[k] + map.y[i], 1e-12);
 }
 
+// Of a great sweep some rows are held; what is counted is of all, and the table has all.
+TEST(SweepReport, CountsAndTablesAreOfAllRowsWhereFewAreHeld) {
+  const File file("held");
+  swept(Design("saltelli:100", ranges({"a.x=0..10", "b.x=0..8"}), 1), file,
+        [](const std::vector<double>& x) { return 3 * x[0] + x[1]; });
+  const SweepStore store(file.path());
+  const SweepStudyResult all = study_of(store, {"y <= 20"}), few = study_of(store, {"y <= 20"}, 120);
+  ASSERT_EQ(all.rows.size(), 400u);
+  ASSERT_EQ(few.rows.size(), 120u);
+  EXPECT_EQ(few.influences[0].rows, 30u);  // whole groups
+  double hold = 0, greatest = 0;
+  for (const SweepRow& r : all.rows) hold += value_in(r, 0) <= 20, greatest = std::max(greatest, value_in(r, 0));
+  for (const SweepStudyResult* s : {&all, &few}) {
+    EXPECT_EQ(s->tally.rows, 400u);
+    EXPECT_EQ(s->tally.limits.at(0).holds, hold);
+    EXPECT_EQ(s->tally.spreads.at(0).greatest, greatest);
+    ASSERT_EQ(s->tally.worst.at(0).size(), 3u);
+    EXPECT_EQ(value_in(s->tally.worst[0][0], 0), greatest);
+  }
+  EXPECT_EQ(findings_of(few).csv.at(0).text(), findings_of(all).csv.at(0).text());
+}
+
 // --- machines ---
 
 // Motor torque T on J₁, a spring, J₂: τ = T J₂/(J₁ + J₂) (1 − cos ωt), so that its peak is 2 T J₂/(J₁ + J₂).
@@ -327,7 +349,7 @@ TEST(SweepMachine, AVariantThatCannotRunIsARowWithItsDiagnosis) {
   EXPECT_EQ(s.rows[0].state, RowState::failed);
   EXPECT_NE(s.rows[0].diagnosis, "");
   EXPECT_EQ(s.rows[2].state, RowState::done);
-  EXPECT_EQ(s.count(RowState::failed), 1u);
+  EXPECT_EQ(s.tally.failed, 1u);
 }
 
 TEST(SweepMachine, FiguresAndLimitsAreChecked) {
