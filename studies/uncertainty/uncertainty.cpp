@@ -52,6 +52,7 @@ class UncertaintyWork {
       study_.figures.push_back(
           {.figure = figures_[k], .value = value_in(nominal, k), .numerical = error_in(nominal, k)});
     gradients();
+    say_what_is_noise();
     samples();
     if (options_.biases && question_.of == SweepStudy::run) biases();
     conclude();
@@ -146,18 +147,28 @@ class UncertaintyWork {
 
   // What the errors of the runs may make alone; gradients within it are told.
   void tell_noise(FigureUncertainty& figure) {
-    std::string within;
+    std::string names;
+    std::size_t within = 0;
     for (const ToleranceShare& s : figure.shares) {
       if (!s.noise) continue;
       figure.noise_floor = std::hypot(figure.noise_floor.value_or(0), *s.noise);
-      if (*s.noise > 0 && s.deviation <= *s.noise)
-        within += fmt::format("{}{}", within.empty() ? "" : ", ", swept_[s.parameter].path);
+      if (*s.noise > 0 && s.deviation <= *s.noise) names += (within++ ? ", " : "") + swept_[s.parameter].path;
     }
-    if (!within.empty())
-      study_.notes.push_back(fmt::format(
-          "{}: what {} makes lies below the noise floor, the errors of the runs on both sides; it may be nothing "
-          "(a smaller accuracy in [run] lowers the floor)",
-          figure.figure.name, within));
+    if (within > 0)
+      below_noise_.push_back(figure.figure.name +
+                             (within < figure.shares.size() ? fmt::format(" (by {})", names) : std::string()));
+  }
+
+  void say_what_is_noise() {
+    if (below_noise_.empty()) return;
+    constexpr std::size_t most_named = 4;
+    std::string list;
+    for (std::size_t i = 0; i < below_noise_.size() && i < most_named; ++i) list += (i ? ", " : "") + below_noise_[i];
+    if (below_noise_.size() > most_named) list += fmt::format(" and {} more", below_noise_.size() - most_named);
+    study_.notes.push_back(
+        fmt::format("what lies below the noise floor, the errors of the runs on both sides, may be nothing: {} (a "
+                    "smaller accuracy in [run] lowers the floor)",
+                    list));
   }
 
   ToleranceShare share_of(std::size_t f, std::size_t p, const std::vector<SweepRow>& rows, double step) const {
@@ -271,7 +282,8 @@ class UncertaintyWork {
   std::optional<VariedScene> varied_;
   std::vector<SweptFigure> figures_;
   std::vector<FigureLimit> limits_;
-  std::vector<std::size_t> numbers_;  // of the figures that the machine as given has
+  std::vector<std::string> below_noise_;  // figures, and by which tolerances
+  std::vector<std::size_t> numbers_;      // of the figures that the machine as given has
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ Rows figure_table(const UncertaintyStudy& s) {
       .column("value", "as given", &FigureUncertainty::value)
       .column("numerical", "numerical error", &FigureUncertainty::numerical, {.digits = 1})
       .column("by_gradients", "deviation by gradients", &FigureUncertainty::by_gradients, {.digits = 3})
-      .column("noise_floor", "noise floor of that", &FigureUncertainty::noise_floor, {.digits = 1})
+      .column("noise_floor", "noise floor", &FigureUncertainty::noise_floor, {.digits = 1})
       .column("by_samples", "by samples", &FigureUncertainty::by_samples, {.digits = 3})
       .column("mean", "mean", &FigureUncertainty::mean)
       .column("low", "95 % from", &FigureUncertainty::low, {.digits = 5})
