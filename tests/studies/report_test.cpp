@@ -98,6 +98,8 @@ TEST(Thinning, ACloudsChoiceHasNoPatternOfItsOwn) {
   const auto [least, most] = std::minmax_element(in_column.begin(), in_column.end());
   EXPECT_GT(*least, 100 - 4 * std::sqrt(90.0));
   EXPECT_LT(*most, 100 + 4 * std::sqrt(90.0));
+  const auto in_first_half = std::lower_bound(kept.begin(), kept.end(), 50000u) - kept.begin();
+  EXPECT_NEAR(static_cast<double>(in_first_half), 5000, 4 * std::sqrt(10000 * 0.25 * 0.9));
   EXPECT_EQ(drawn_by_chance(5, 9).size(), 5u);
 }
 
