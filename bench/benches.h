@@ -71,6 +71,8 @@ void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
 void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
 void costs_of_modes();                    // growth of the eigenvalue problem
 void costs_of_steady_cycles();
+// What a sweep costs over bare runs, two threads over two processes, a shell loop over it; `program`: kurbel itself.
+void rates_of_sweeps(BenchBook& book, const std::string& program);
 // Every verb against the settled run of every scene whose name holds `only`: half 0 steady, reduce, size; half 1 modes,
 // forces, advise. Writes FOLDER/agreement.md or agreement_of_swings.md, too. Throws std::invalid_argument in words.
 void agreement_of_verbs(BenchBook& book, int half, const std::string& only, int jobs, const std::string& folder);

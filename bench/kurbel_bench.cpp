@@ -1,7 +1,7 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
 // whether the hard cases end right, whether all verbs agree, and whether stated errors cover the true ones.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|hard|agreement|agreement2|coverage|all [--out FOLDER]
+//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|sweep|hard|agreement|agreement2|coverage|all [--out FOLDER]
 //   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
 //   kurbel_bench agreement|agreement2 [--only NAME] [--jobs 2] [--out FOLDER]
 //   kurbel_bench coverage [--variants N] [--seed S] [--shard 1/8] [--jobs J] [--minutes M] [--budget SECONDS]
@@ -62,6 +62,10 @@ int main(int argc, char** argv) {
     costs_of_mechanisms();
     costs_of_steady_cycles();
   }
+  if (part == "sweep") {  // by itself: its times want a quiet machine
+    any = true;
+    rates_of_sweeps(book, (std::filesystem::absolute(argv[0]).parent_path() / "kurbel").string());
+  }
   if (wants("hard")) hard_cases(book, only, budget);
   if (part == "agreement" || part == "agreement2") {  // a minute or two of its own: not among all
     try {
@@ -85,7 +89,7 @@ int main(int argc, char** argv) {
   }
   if (!any) {
     std::fprintf(stderr,
-                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, hard, agreement, "
+                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, sweep, hard, agreement, "
                  "agreement2, coverage or all\n");
     return 2;
   }

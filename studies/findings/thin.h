@@ -11,4 +11,9 @@ namespace kurbel {
 // thinned again and again while it grows; where x does not ascend they hold equally many points.
 void thin_by_extremes(std::vector<double>& x, std::vector<double>& y, std::size_t limit);
 
+// Which of `count` points of a cloud stay where at most `limit` may: all, or so many drawn by chance, ascending, the same
+// at each call. Every second, third … point would be a pattern of its own: of a grid some columns alone, of Sobol's
+// sequence a part of the square.
+std::vector<std::size_t> drawn_by_chance(std::size_t count, std::size_t limit);
+
 }  // namespace kurbel

@@ -12,7 +12,6 @@
 #include "studies/files/spawn.h"
 #include "studies/files/staging.h"
 #include "studies/files/whole_file.h"
-#include "studies/findings/thin.h"
 #include "studies/report/render.h"
 
 namespace kurbel {
@@ -63,25 +62,45 @@ std::string label(const Axis& axis) {
   return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
 }
 
+// Cells end halfway between their places, as on the page.
+std::vector<double> edges_of(const std::vector<double>& at) {
+  const std::size_t n = at.size();
+  if (n < 2) return n ? std::vector<double>{at[0] - 0.5, at[0] + 0.5} : std::vector<double>{};
+  std::vector<double> edges = {1.5 * at[0] - 0.5 * at[1]};
+  for (std::size_t i = 1; i < n; ++i) edges.push_back((at[i - 1] + at[i]) / 2);
+  edges.push_back(1.5 * at[n - 1] - 0.5 * at[n - 2]);
+  return edges;
+}
+
 // One block per series, two blank lines between: gnuplot's "index".
 std::string data_of(const Plot& plot) {
   std::string text =
       fmt::format("# {}\n# {}, {}\n", printable(plot.title), printable(label(plot.x)), printable(label(plot.y)));
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    std::vector<double> x = plot.series[i].x, y = plot.series[i].y;
-    thin_by_extremes(x, y, points_per_series);
-    text += fmt::format("{}# {}\n", i ? "\n\n" : "", printable(plot.series[i].name));
-    for (std::size_t k = 0; k < x.size(); ++k) text += fmt::format("{:.9g} {:.9g}\n", x[k], y[k]);
+    const Series s = drawn(plot.series[i]);
+    text += fmt::format("{}# {}\n", i ? "\n\n" : "", printable(s.name));
+    for (std::size_t k = 0; k < s.x.size(); ++k) text += fmt::format("{:.9g} {:.9g}\n", s.x[k], s.y[k]);
   }
   if (!plot.map) return text;
-  // "x y z", one block a row of the map.
-  text += fmt::format("\n\n# {}\n", printable(plot.map->name));
-  for (std::size_t i = 0; i < plot.map->y.size(); ++i) {
-    for (std::size_t k = 0; k < plot.map->x.size(); ++k)
-      text += fmt::format("{:.7g} {:.7g} {:.6g}\n", plot.map->x[k], plot.map->y[i], plot.map->z[i][k]);
+  // "x y z", one block a row of the map, and where each cell begins and ends.
+  const ColourMap& map = *plot.map;
+  const std::vector<double> across = edges_of(map.x), up = edges_of(map.y);
+  text += fmt::format("\n\n# {}\n", printable(map.name));
+  for (std::size_t i = 0; i < map.y.size(); ++i) {
+    for (std::size_t k = 0; k < map.x.size(); ++k)
+      text += fmt::format("{:.7g} {:.7g} {:.6g} {:.7g} {:.7g} {:.7g} {:.7g}\n", map.x[k], map.y[i], map.z[i][k],
+                          across[k], across[k + 1], up[i], up[i + 1]);
     text += '\n';
   }
   return text;
+}
+
+// Of a name with more lines the first: the others say more of it where there is room.
+std::string places_of(const std::vector<std::string>& names) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}{} {}", i ? ", " : "", quoted(names[i].substr(0, names[i].find('\n'))), i + 1);
+  return text + ")\n";
 }
 
 // Ends, names of parts, bands, and what is written beside lines.
@@ -92,12 +111,8 @@ std::string frame_of(const Plot& plot) {
     return fmt::format("set {}range [{}:{}]\n", axis, end(of.least), end(of.greatest));
   };
   std::string text = range("x", plot.x) + range("y", plot.y);
-  if (!plot.x.names.empty()) {
-    text += "set xtics rotate by -35 (";
-    for (std::size_t i = 0; i < plot.x.names.size(); ++i)
-      text += fmt::format("{}{} {}", i ? ", " : "", quoted(plot.x.names[i]), i + 1);
-    text += ")\n";
-  }
+  if (!plot.x.names.empty()) text += "set xtics rotate by -35 " + places_of(plot.x.names);
+  if (!plot.y.names.empty()) text += "set ytics " + places_of(plot.y.names);
   for (const Band& band : plot.bands) {
     if (band.from < band.to)
       text += fmt::format(
@@ -138,6 +153,7 @@ std::string script_of(const Plot& plot, const std::string& name) {
   if (plot.x.logarithmic) text += "set logscale x\n";
   if (plot.y.logarithmic) text += "set logscale y\n";
   if (plot.equal_axes) text += "set size ratio -1\n";
+  if (plot.map) text += "set autoscale fix\n";  // as far as its cells reach
   if (plot.bars) text += "set style fill solid 0.7\nset boxwidth 0.8 relative\nset xtics 1\n";
   for (const EventMark& mark : marks_of(plot))
     text += fmt::format(
@@ -145,13 +161,14 @@ std::string script_of(const Plot& plot, const std::string& name) {
   text += frame_of(plot);
   text += "plot ";
   if (plot.map)
-    text += fmt::format("'{}.dat' index {} using 1:2:3 with image title {}, \\\n     ", name, plot.series.size(),
-                        quoted(fmt::format("{} [{}]", plot.map->name, plot.map->unit)));
+    text += fmt::format("'{}.dat' index {} using 1:2:4:5:6:7:3 with boxxyerror fs solid noborder lc palette title {}{}",
+                        name, plot.series.size(), quoted(fmt::format("{} [{}]", plot.map->name, plot.map->unit)),
+                        plot.series.empty() ? "" : ", \\\n     ");
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& s = plot.series[i];
     text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i,
                         plot.bars  ? "boxes"
-                        : !s.line  ? "points pt 7 ps 0.9"
+                        : !s.line  ? s.sizes.empty() ? "points pt 7 ps 0.9" : "points pt 7 ps 0.4"
                         : s.points ? "linespoints pt 7 ps 0.5"
                                    : "lines",
                         s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role),

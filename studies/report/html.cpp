@@ -72,18 +72,17 @@ void write(Writer& w, const Plot& plot) {
   w.key("y"), write(w, plot.y);
   w.key("series");
   w.list(plot.series, [&](const Series& series) {
-    std::vector<double> x = series.x, y = series.y;
-    thin_by_extremes(x, y, points_per_series);
+    const Series points = drawn(series);
     w.object([&] {
       w.field("name", series.name);
       w.field("role", name_of(series.role));
       w.field("dashed", series.dashed);
       w.field("points", series.points || !series.line);
       w.field("line", series.line);
-      w.field("x", x, 8);
-      w.field("y", y, 7);
-      if (series.labels.size() == x.size() && !x.empty()) w.field("labels", series.labels);
-      if (series.sizes.size() == x.size() && !x.empty()) w.field("sizes", series.sizes, 3);
+      w.field("x", points.x, 8);
+      w.field("y", points.y, 7);
+      if (!points.labels.empty()) w.field("labels", points.labels);
+      if (!points.sizes.empty()) w.field("sizes", points.sizes, 3);
       if (!series.text_at_start.empty()) w.field("textAtStart", series.text_at_start);
       if (!series.text_at_end.empty()) w.field("textAtEnd", series.text_at_end);
     });
@@ -339,6 +338,26 @@ std::string escaped(std::string_view text) {
 }
 
 }  // namespace
+
+Series drawn(const Series& series) {
+  Series s = series;
+  if (s.labels.size() != s.x.size()) s.labels.clear();
+  if (s.sizes.size() != s.x.size()) s.sizes.clear();
+  if (s.x.size() <= points_per_series) return s;
+  if (s.line) {
+    s.labels.clear(), s.sizes.clear();
+    thin_by_extremes(s.x, s.y, points_per_series);
+    return s;
+  }
+  const std::vector<std::size_t> kept = drawn_by_chance(s.x.size(), points_per_series);
+  const auto keep = [&kept](auto& list) {
+    if (list.empty()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) std::swap(list[i], list[kept[i]]);
+    list.resize(kept.size());
+  };
+  keep(s.x), keep(s.y), keep(s.labels), keep(s.sizes);
+  return s;
+}
 
 std::string json_string(const std::string& text) {
   std::string out = "\"";

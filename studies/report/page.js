@@ -37,8 +37,8 @@
     const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
     const traces = plot.map ? [mapTrace(plot)] : [];
     for (const s of plot.series) traces.push({
-      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: !saysItself(s) && !s.sizes,
-      marker: {color: colour(s.role), size: s.sizes ? s.sizes.map(size => 9 * size) : s.line ? 6 : 9, ...s.sizes ? {opacity: 0.75, line: {color: colour('page'), width: 1}} : {}},
+      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: !saysItself(s) && !(s.sizes && s.sizes.some(size => size !== s.sizes[0])),
+      marker: {color: colour(s.role), size: s.sizes ? s.sizes.map(size => 9 * size) : s.line ? 6 : 9, ...s.sizes ? {opacity: 0.75, line: {color: colour('card'), width: s.sizes[0] < 0.7 ? 0.4 : 1}} : {}},
       ...plot.bars ? {} : {
         mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
         line: {color: colour(s.role), width: saysItself(s) ? (s.role === 'rigid' || s.role === 'reference' ? 1 : 2.2) : s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
@@ -115,10 +115,13 @@
       };
     });
   }
+  // Names on an axis; of more lines the first alone where the page is narrow.
+  const placesOf = axis => ({tickvals: axis.names.map((_, i) => i + 1), ticktext: axis.names.map(name => plain(narrow() ? name.split('\n')[0] : name))});
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
-    if (plot.x.least !== undefined && plot.x.greatest !== undefined) return {range: [plot.x.least, plot.x.greatest]};
-    if (plot.x.names) return {tickvals: plot.x.names.map((_, i) => i + 1), ticktext: plot.x.names, tickangle: plot.x.names.join('').length > (narrow() ? 30 : 90) ? -35 : 0};
+    const given = plot.x.least !== undefined && plot.x.greatest !== undefined ? {range: [plot.x.least, plot.x.greatest]} : {};
+    if (plot.x.names) return {...given, ...placesOf(plot.x), tickangle: plot.x.names.map(name => name.split('\n')[0]).join('').length > (narrow() ? 30 : 90) ? -35 : 0};
+    if (given.range) return given;
     if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
     const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
@@ -132,7 +135,7 @@
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
       margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
-      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: axis(plot.y), dragmode: narrow() ? false : 'zoom',
+      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: {...axis(plot.y), ...(plot.y.names ? placesOf(plot.y) : {})}, dragmode: narrow() ? false : 'zoom',
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
     if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];
@@ -141,6 +144,7 @@
     if (plot.map) {
       const ys = edgesOf(plot.map.y);
       layout.images = [pictureOf(plot.map)];
+      layout.xaxis.showgrid = layout.yaxis.showgrid = false;  // its lines would look like edges of cells
       layout.yaxis.range = [ys[0], ys[ys.length - 1]];
     }
     Object.assign(layout, beside(plot, layout));
@@ -191,14 +195,14 @@
       m.y.forEach((y, i) => m.x.forEach((x, k) => { if (m.z[i][k] !== null) rows.push([x, y, m.z[i][k]].join(',')); }));
       return rows.join('\n') + '\n';
     }
-    const same = plot.series.every(s => s.x.length === plot.series[0].x.length && s.x.every((x, i) => x === plot.series[0].x[i]));
+    const same = plot.series.every(s => !s.labels && s.x.length === plot.series[0].x.length && s.x.every((x, i) => x === plot.series[0].x[i]));
     if (same) {
       const rows = [[withUnit(plot.x), ...plot.series.map(s => `${s.name}: ${withUnit(plot.y)}`)].map(quote).join(',')];
       plot.series[0].x.forEach((x, i) => rows.push([x, ...plot.series.map(s => s.y[i])].join(',')));
       return rows.join('\n') + '\n';
     }
-    const rows = [['series', withUnit(plot.x), withUnit(plot.y)].map(quote).join(',')];
-    for (const s of plot.series) s.x.forEach((x, i) => rows.push([quote(s.name), x, s.y[i]].join(',')));
+    const labelled = plot.series.some(s => s.labels), rows = [['series', withUnit(plot.x), withUnit(plot.y), ...labelled ? ['point'] : []].map(quote).join(',')];
+    for (const s of plot.series) s.x.forEach((x, i) => rows.push([quote(s.name), x, s.y[i], ...labelled ? [quote(s.labels ? s.labels[i] : '')] : []].join(',')));
     return rows.join('\n') + '\n';
   }
   function addPlot(plot, card) {

@@ -11,6 +11,10 @@ namespace kurbel {
 // Points of a series that a page holds; longer ones are thinned with their peaks kept.
 inline constexpr std::size_t points_per_series = 2400;
 
+// A series as it is drawn: of a longer curve what keeps its peaks, of a longer cloud of markers some, drawn by
+// chance, with what is said of them. What is left of a thinned curve has neither labels nor sizes.
+Series drawn(const Series& series);
+
 // Whose report it is: a logo as SVG and a name, above the title; empty: neither.
 struct Letterhead {
   std::string brand_svg = {}, author = {};

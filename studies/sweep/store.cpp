@@ -1,4 +1,4 @@
-// store.cpp — tables of a sweep, written in batches, read by row.
+// store.cpp — tables of a sweep, written in batches, read by row; shards become one file.
 #include "studies/sweep/store.h"
 
 #include <fmt/format.h>
@@ -6,7 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdint>
 #include <stdexcept>
+#include <string_view>
 
 namespace kurbel {
 namespace {
@@ -159,25 +165,136 @@ void SweepStore::write(const std::vector<SweepRow>& rows) {
   database_->run("COMMIT");
 }
 
-std::vector<SweepRow> SweepStore::read() const {
-  std::vector<SweepRow> rows;
-  Query runs(*database_, "SELECT row, state, seconds, diagnosis FROM runs ORDER BY row");
-  while (runs.step())
-    rows.push_back({.row = static_cast<std::size_t>(runs.integer(0)),
-                    .state = state_of(runs.text(1)),
-                    .seconds = runs.number(2),
-                    .diagnosis = runs.text(3)});
-  Query parameters(*database_, "SELECT row, value FROM parameters ORDER BY row, number");
-  Query figures(*database_, "SELECT row, number, value, error FROM figures ORDER BY row, number");
-  bool more_parameters = parameters.step(), more_figures = figures.step();
-  for (SweepRow& r : rows) {
-    for (; more_parameters && parameters.integer(0) == whole(r.row); more_parameters = parameters.step())
-      r.parameters.push_back(parameters.number(1));
-    for (; more_figures && figures.integer(0) == whole(r.row); more_figures = figures.step())
-      r.figures.push_back({static_cast<std::size_t>(figures.integer(1)), figures.number(2),
-                           figures.is_null(3) ? std::nullopt : std::optional(figures.number(3))});
+std::size_t SweepStore::count() const {
+  Query query(*database_, "SELECT count(*) FROM runs");
+  return query.step() ? static_cast<std::size_t>(query.integer(0)) : 0;
+}
+
+void SweepStore::each(const Visit& visit, std::size_t from, std::size_t to) const {
+  const auto within = [&](const char* what, const char* order) {
+    auto query = std::make_unique<Query>(*database_,
+                                         fmt::format("SELECT {} WHERE row >= ? AND row < ? ORDER BY {}", what, order));
+    query->bind(1, whole(from)).bind(2, whole(to));
+    return query;
+  };
+  const auto runs = within("row, state, seconds, diagnosis FROM runs", "row"),
+             parameters = within("row, value FROM parameters", "row, number"),
+             figures = within("row, number, value, error FROM figures", "row, number");
+  bool more_parameters = parameters->step(), more_figures = figures->step();
+  while (runs->step()) {
+    SweepRow r{.row = static_cast<std::size_t>(runs->integer(0)),
+               .state = state_of(runs->text(1)),
+               .seconds = runs->number(2),
+               .diagnosis = runs->text(3)};
+    for (; more_parameters && parameters->integer(0) == whole(r.row); more_parameters = parameters->step())
+      r.parameters.push_back(parameters->number(1));
+    for (; more_figures && figures->integer(0) == whole(r.row); more_figures = figures->step())
+      r.figures.push_back({static_cast<std::size_t>(figures->integer(1)), figures->number(2),
+                           figures->is_null(3) ? std::nullopt : std::optional(figures->number(3))});
+    visit(std::move(r));
   }
+}
+
+std::vector<SweepRow> SweepStore::read(std::size_t from, std::size_t to) const {
+  std::vector<SweepRow> rows;
+  each([&](SweepRow&& row) { rows.push_back(std::move(row)); }, from, to);
   return rows;
+}
+
+// --- merge: shards of one sweep become one file ---
+
+namespace {
+
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+// Times apart.
+bool same_result(const SweepRow& a, const SweepRow& b) {
+  const auto same_figure = [](const RowFigure& f, const RowFigure& g) {
+    return f.figure == g.figure && same(f.value, g.value) && f.error.has_value() == g.error.has_value() &&
+           (!f.error || same(*f.error, *g.error));
+  };
+  return a.state == b.state && a.diagnosis == b.diagnosis && a.parameters == b.parameters &&
+         std::equal(a.figures.begin(), a.figures.end(), b.figures.begin(), b.figures.end(), same_figure);
+}
+
+constexpr std::size_t rows_at_a_time = 100'000;
+
+// Of all files, which have to be of one sweep.
+SweepIdentity identity_of_all(const std::vector<std::string>& files) {
+  SweepIdentity identity;
+  for (const std::string& file : files) {
+    const SweepStore part(file);
+    if (identity.rows == 0) identity = part.identity();
+    if (const std::string differs = difference(part.identity(), identity); !differs.empty())
+      throw std::invalid_argument(fmt::format("{} and {} are of two sweeps: {}", files[0], file, differs));
+  }
+  return identity;
+}
+
+// Rows of all files from `from` on, below `to`; a row that stands in two of them has to be the same.
+std::vector<SweepRow> rows_of_all(const std::vector<std::string>& files, std::size_t from, std::size_t to) {
+  std::vector<SweepRow> all;
+  for (const std::string& file : files)
+    SweepStore(file).each([&](SweepRow&& row) { all.push_back(std::move(row)); }, from, to);
+  std::stable_sort(all.begin(), all.end(), [](const SweepRow& a, const SweepRow& b) { return a.row < b.row; });
+  const auto other = std::adjacent_find(all.begin(), all.end(), [](const SweepRow& a, const SweepRow& b) {
+    return a.row == b.row && !same_result(a, b);
+  });
+  if (other != all.end())
+    throw std::invalid_argument(
+        fmt::format("row {} has two different results in these files; compute it again", other->row));
+  all.erase(std::unique(all.begin(), all.end(), [](const SweepRow& a, const SweepRow& b) { return a.row == b.row; }),
+            all.end());
+  return all;
+}
+
+// What a killed merge left beside `into`, of a process that is no more; one still at work keeps its file.
+void clean_up(const std::filesystem::path& into) {
+  const std::string begins = into.filename().string() + ".part-";
+  const std::filesystem::path folder = into.has_parent_path() ? into.parent_path() : ".";
+  std::error_code gone;
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, gone)) {
+    const std::string name = entry.path().filename().string();
+    pid_t process = 0;
+    if (!name.starts_with(begins)) continue;
+    const char* const end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + begins.size(), end, process);
+    const std::string_view tail(read.ptr, end);
+    if (read.ec != std::errc{} || process <= 0 || (tail != "" && !tail.starts_with("-"))) continue;
+    if (process == getpid() || (kill(process, 0) != 0 && errno == ESRCH)) left.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : left) std::filesystem::remove(file, gone);
+}
+
+}  // namespace
+
+std::size_t merge_sweeps(const std::vector<std::string>& files, const std::filesystem::path& into) {
+  if (std::filesystem::exists(into))
+    throw std::invalid_argument(
+        fmt::format("--into {}: is there already; take another name, or remove it", into.string()));
+  SweepIdentity identity = identity_of_all(files);
+  identity.shard = "1/1";
+  // Put in place in one step; what a killed merge leaves is removed by the next one.
+  clean_up(into);
+  const std::filesystem::path beside = into.string() + fmt::format(".part-{}", getpid());
+  std::size_t merged = 0;
+  try {
+    {
+      SweepStore put_together(beside, identity);
+      for (std::size_t from = 0; from < identity.rows; from += rows_at_a_time) {
+        const std::vector<SweepRow> rows = rows_of_all(files, from, from + rows_at_a_time);
+        put_together.write(rows);
+        merged += rows.size();
+      }
+    }
+    std::filesystem::rename(beside, into);
+  } catch (...) {
+    std::error_code gone;
+    for (const char* tail : {"", "-wal", "-shm"}) std::filesystem::remove(beside.string() + tail, gone);
+    throw;
+  }
+  return merged;
 }
 
 }  // namespace kurbel

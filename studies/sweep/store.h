@@ -11,6 +11,7 @@
 // what it was told to flush, a power cut.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -65,7 +66,12 @@ class SweepStore {
   const SweepIdentity& identity() const { return identity_; }
   std::vector<bool> rows_there() const;           // by row
   void write(const std::vector<SweepRow>& rows);  // in one transaction: committed when it returns
-  std::vector<SweepRow> read() const;             // by row
+  std::size_t count() const;                      // of rows that are there
+  // Each row from `from` on, below `to`, in their order: one is held at a time.
+  using Visit = std::function<void(SweepRow&& row)>;
+  static constexpr std::size_t all = std::numeric_limits<std::size_t>::max() / 2;
+  void each(const Visit& visit, std::size_t from = 0, std::size_t to = all) const;
+  std::vector<SweepRow> read(std::size_t from = 0, std::size_t to = all) const;
   const std::filesystem::path& file() const { return database_->file(); }
 
  private:

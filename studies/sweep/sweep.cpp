@@ -36,20 +36,13 @@ std::string time_left(double seconds) {
 
 class Sweeping {
  public:
-  Sweeping(const SweepJob& job, SweepStore& store) : job_(job), store_(store) {
-    const std::vector<bool> there = store.rows_there();
-    for (std::size_t i = job.shard - 1; i < job.design->rows(); i += job.shards) {
-      ++end_.rows;
-      if (there[i])
-        ++end_.there;
-      else
-        waiting_.push_back(i);
-    }
+  Sweeping(const SweepJob& job, SweepStore& store) : job_(job), store_(store), there_(store.rows_there()) {
+    for (std::size_t i = job.shard - 1; i < job.design->rows(); i += job.shards) ++end_.rows, end_.there += there_[i];
   }
 
   SweepEnd run() {
-    const auto threads =
-        std::clamp<std::size_t>(static_cast<std::size_t>(job_.jobs), 1, std::max<std::size_t>(waiting_.size(), 1));
+    const auto threads = std::clamp<std::size_t>(static_cast<std::size_t>(job_.jobs), 1,
+                                                 std::max<std::size_t>(end_.rows - end_.there, 1));
     working_ = threads;
     std::vector<std::jthread> workers;
     for (std::size_t k = 0; k < threads; ++k) workers.emplace_back([this] { work(); });
@@ -69,8 +62,9 @@ class Sweeping {
   void work() {
     try {
       const Evaluator evaluate = job_.evaluator();
-      for (std::size_t k = next_++; k < waiting_.size() && !stop_ && !job_.watch.stopped(); k = next_++) {
-        SweepRow row{.row = waiting_[k]};
+      for (std::size_t k = next_++; k < end_.rows && !stop_ && !job_.watch.stopped(); k = next_++) {
+        SweepRow row{.row = job_.shard - 1 + k * job_.shards};
+        if (there_[row.row]) continue;
         row.parameters = job_.design->row(row.row);
         const double begin = thread_time();
         if (!evaluate(row)) break;
@@ -129,7 +123,7 @@ class Sweeping {
   SweepStore& store_;
   SweepEnd end_;
   Clock::time_point begin_ = Clock::now();
-  std::vector<std::size_t> waiting_;
+  const std::vector<bool> there_;  // a bit a row: a million rows are no burden
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;

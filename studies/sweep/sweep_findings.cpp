@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "engine/scene/keys.h"
 #include "studies/findings/figure_text.h"
+#include "studies/findings/thin.h"
 #include "studies/sweep/sweep_plots.h"
 
 namespace kurbel {
@@ -26,57 +26,27 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 
 std::string in_words(const Index& i) { return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high); }
 
-// --- limits ---
-
-// By a seed: as published (seed 0) its points are chosen, not drawn.
-bool is_shifted_sobol(const SweepStudyResult& s) {
-  return meta_of(s.identity, "design").starts_with("sobol") && meta_of(s.identity, "seed") != "0";
+// A count by thousands, "10,007": a headline rounds numbers, and a count is none to round.
+std::string counted(std::size_t count) {
+  std::string text = fmt::format("{}", count);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
 }
+
+// --- limits ---
 
 // What the interval of a share is where points lie more evenly than random ones.
 std::vector<std::string> notes_on_limits(const SweepStudyResult& s) {
   const std::string design = meta_of(s.identity, "design");
-  if (s.limits.empty() || !(is_shifted_sobol(s) || design.starts_with("lhs"))) return {};
+  if (s.limits.empty() || !(is_shifted_sobol(s.identity) || design.starts_with("lhs"))) return {};
   return {
       fmt::format("The share that holds is given the interval of {} random points (Clopper and Pearson, 95 %). The "
                   "points of {} lie more evenly, so that as a rule the share is known better than that",
-                  s.rows.size(), design)};
-}
-
-struct LimitCount {
-  std::string limit;
-  std::size_t holds = 0, undecided = 0, beyond = 0, unknown = 0;
-  Interval interval;
-  std::size_t decided() const { return holds + beyond + undecided; }
-};
-
-LimitCount count_of(const FigureLimit& limit, const SweepStudyResult& s) {
-  LimitCount c;
-  c.limit = limit.given;
-  for (const SweepRow& r : s.rows) {
-    const Side side = side_of(limit, r);
-    ++(side == Side::holds       ? c.holds
-       : side == Side::undecided ? c.undecided
-       : side == Side::beyond    ? c.beyond
-                                 : c.unknown);
-  }
-  // Who is undecided may hold or not: the interval covers both. Of points that were chosen, none is told.
-  const std::string design = meta_of(s.identity, "design");
-  const bool drawn = design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(s);
-  c.interval = {std::nan(""), std::nan("")};
-  if (drawn)
-    c.interval = {clopper_pearson(c.holds, c.decided()).low, clopper_pearson(c.holds + c.undecided, c.decided()).high};
-  return c;
-}
-
-std::vector<LimitCount> counts_of(const SweepStudyResult& s) {
-  std::vector<LimitCount> counts;
-  for (const FigureLimit& limit : s.limits) counts.push_back(count_of(limit, s));
-  return counts;
+                  s.tally.rows, design)};
 }
 
 Rows limit_table(const SweepStudyResult& s) {
-  return table_of("limits", "How many hold each limit", counts_of(s))
+  return table_of("limits", "How many hold each limit", s.tally.limits)
       .column("limit", "limit", &LimitCount::limit)
       .column("holds", "hold", &LimitCount::holds)
       .column("undecided", "within their error", &LimitCount::undecided)
@@ -128,35 +98,9 @@ Rows influence_table(const SweepStudyResult& s) {
 
 // --- figures ---
 
-struct Spread {
-  SweptFigure figure;
-  std::size_t rows = 0;
-  double least = 0, mean = 0, greatest = 0, deviation = 0;
-  std::optional<double> error = {};  // none was measured
-};
-
-Spread spread_of(const SweepStudyResult& s, std::size_t figure) {
-  Spread spread{.figure = s.identity.figures[figure], .least = HUGE_VAL, .greatest = -HUGE_VAL};
-  double squares = 0;
-  for (const SweepRow& r : s.rows) {
-    const double v = value_in(r, figure);
-    if (!std::isfinite(v)) continue;
-    ++spread.rows;
-    const double before = v - spread.mean;
-    spread.mean += before / static_cast<double>(spread.rows);
-    squares += before * (v - spread.mean);
-    spread.least = std::min(spread.least, v), spread.greatest = std::max(spread.greatest, v);
-    if (const auto error = error_in(r, figure)) spread.error = std::max(spread.error.value_or(0), *error);
-  }
-  if (spread.rows > 1) spread.deviation = std::sqrt(squares / static_cast<double>(spread.rows - 1));
-  if (spread.rows == 0) spread.least = spread.mean = spread.greatest = std::nan("");
-  return spread;
-}
-
 std::vector<Spread> spreads_of(const SweepStudyResult& s) {
-  std::vector<Spread> spreads;
-  for (std::size_t k = 0; k < s.identity.figures.size(); ++k)
-    if (Spread spread = spread_of(s, k); spread.rows > 0) spreads.push_back(std::move(spread));
+  std::vector<Spread> spreads = s.tally.spreads;
+  std::erase_if(spreads, [](const Spread& spread) { return spread.rows == 0; });
   return spreads;
 }
 
@@ -176,49 +120,14 @@ Rows figure_table(const SweepStudyResult& s) {
 
 // --- failures ---
 
-// Reasons with their numbers taken out are one reason.
-std::string reason_of(const std::string& diagnosis) {
-  std::string reason;
-  for (std::size_t i = 0; i < diagnosis.size(); ++i) {
-    const bool number = (diagnosis[i] >= '0' && diagnosis[i] <= '9');
-    if (!number)
-      reason += diagnosis[i];
-    else if (!reason.ends_with("#"))
-      reason += '#';
-    while (number && i + 1 < diagnosis.size() &&
-           std::string("0123456789.e-+").find(diagnosis[i + 1]) != std::string::npos)
-      ++i;
-  }
-  return reason;
-}
-
-struct Failures {
-  std::size_t count = 0;
-  const SweepRow* first = nullptr;
-  RowState state = RowState::failed;
-};
-
-std::vector<Failures> failures_of(const SweepStudyResult& s) {
-  std::map<std::string, Failures> by_reason;
-  for (const SweepRow& r : s.rows) {
-    if (r.state == RowState::done) continue;
-    Failures& f = by_reason[name_of(r.state) + reason_of(r.diagnosis)];
-    if (f.count++ == 0) f.first = &r, f.state = r.state;
-  }
-  std::vector<Failures> list;
-  for (const auto& [reason, f] : by_reason) list.push_back(f);
-  std::stable_sort(list.begin(), list.end(), [](const Failures& a, const Failures& b) { return a.count > b.count; });
-  return list;
-}
-
 Rows failure_table(const SweepStudyResult& s) {
-  return table_of("failures", "What did not come out, by reason", failures_of(s))
+  return table_of("failures", "What did not come out, by reason", s.tally.failures)
       .text_in(2)
-      .column("state", "", [](const Failures& f) { return name_of(f.state); })
-      .column("diagnosis", "diagnosis (of the first)", [](const Failures& f) { return f.first->diagnosis; })
+      .column("state", "", [](const Failures& f) { return name_of(f.first.state); })
+      .column("diagnosis", "diagnosis (of the first)", [](const Failures& f) { return f.first.diagnosis; })
       .column("count", "rows", &Failures::count)
-      .column("row", "first row", [](const Failures& f) { return f.first->row; })
-      .column("line", "computed alone", [&s](const Failures& f) { return line_of(s.identity, *f.first); });
+      .column("row", "first row", [](const Failures& f) { return f.first.row; })
+      .column("line", "computed alone", [&s](const Failures& f) { return line_of(s.identity, f.first); });
 }
 
 // --- worst machines ---
@@ -230,27 +139,12 @@ struct Worst {
   const SweepRow* row = nullptr;
 };
 
-// By its limit; without one the greatest.
 std::vector<Worst> worst_of(const SweepStudyResult& s) {
   std::vector<Worst> list;
-  for (std::size_t k = 0; k < s.identity.figures.size(); ++k) {
-    const auto limit =
-        std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == k; });
-    if (!s.limits.empty() && limit == s.limits.end()) continue;
-    const double sign = limit != s.limits.end() && !limit->from_above ? -1 : 1;
-    std::vector<const SweepRow*> rows;
-    for (const SweepRow& r : s.rows)
-      if (std::isfinite(value_in(r, k))) rows.push_back(&r);
-    const std::size_t few = std::min<std::size_t>(rows.size(), s.identity.figures.size() > 4 ? 1 : 3);
-    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(few), rows.end(),
-                      [&](const SweepRow* a, const SweepRow* b) {
-                        const double va = sign * value_in(*a, k), vb = sign * value_in(*b, k);
-                        return va != vb ? va > vb : a->row < b->row;
-                      });
-    for (std::size_t i = 0; i < few && list.size() < most_worst; ++i)
-      list.push_back({s.identity.figures[k].name, s.identity.figures[k].unit, value_in(*rows[i], k),
-                      error_in(*rows[i], k), rows[i]});
-  }
+  for (std::size_t k = 0; k < s.identity.figures.size(); ++k)
+    for (const SweepRow& r : s.tally.worst[k])
+      if (list.size() < most_worst)
+        list.push_back({s.identity.figures[k].name, s.identity.figures[k].unit, value_in(r, k), error_in(r, k), &r});
   return list;
 }
 
@@ -266,20 +160,13 @@ Rows worst_table(const SweepStudyResult& s) {
 
 // --- all of it ---
 
-// A count by thousands, "10,007": a headline rounds numbers, and a count is none to round.
-std::string counted(std::size_t count) {
-  std::string text = fmt::format("{}", count);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
 std::string conclusion_of(const SweepStudyResult& s) {
-  std::string text = counted(s.rows.size());
-  if (s.rows.size() < s.wanted) text += " of " + counted(s.wanted);
+  std::string text = counted(s.tally.rows);
+  if (s.tally.rows < s.wanted) text += " of " + counted(s.wanted);
   text += " variants computed";
-  if (const std::size_t n = s.count(RowState::failed)) text += fmt::format(", {} failed", counted(n));
-  if (const std::size_t n = s.count(RowState::unconfirmed)) text += fmt::format(", {} not confirmed", counted(n));
-  for (const LimitCount& c : counts_of(s))
+  if (s.tally.failed) text += fmt::format(", {} failed", counted(s.tally.failed));
+  if (s.tally.unconfirmed) text += fmt::format(", {} not confirmed", counted(s.tally.unconfirmed));
+  for (const LimitCount& c : s.tally.limits)
     text += fmt::format("; {}: {} of {} hold{}", c.limit, counted(c.holds), counted(c.decided()),
                         c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
   for (const FigureInfluence& f : s.influences) {
@@ -292,45 +179,94 @@ std::string conclusion_of(const SweepStudyResult& s) {
   return text;
 }
 
-std::string csv_text(const SweepStudyResult& s) {
+std::string csv_line(const SweepStudyResult& s, const SweepRow& r) {
+  std::string text = fmt::format("{},{},{:.4g}", r.row, name_of(r.state), r.seconds);
+  for (std::size_t k = 0; k < r.parameters.size(); ++k) {
+    const SweptParameter& p = s.identity.parameters[k];
+    text += p.words.empty() ? fmt::format(",{}", r.parameters[k])
+                            : "," + p.words[static_cast<std::size_t>(r.parameters[k])];
+  }
+  for (std::size_t k = 0; k < s.identity.figures.size(); ++k) {
+    const double v = value_in(r, k);
+    const auto error = error_in(r, k);
+    text += std::isfinite(v) ? fmt::format(",{}", v) : ",";
+    text += error ? fmt::format(",{:.3g}", *error) : ",";
+  }
+  return text + '\n';
+}
+
+// Rows from `from` on, below `to`.
+std::string csv_text(const SweepStudyResult& s, std::size_t from, std::size_t to) {
   std::string text = "row,state,seconds";
   for (const SweptParameter& p : s.identity.parameters)
     text += fmt::format(",{}{}", p.path, p.unit.empty() ? "" : " [" + p.unit + "]");
   for (const SweptFigure& f : s.identity.figures)
     text += fmt::format(",{} [{}],error of {} [{}]", f.name, f.unit, f.name, f.unit);
   text += '\n';
-  for (const SweepRow& r : s.rows) {
-    text += fmt::format("{},{},{:.4g}", r.row, name_of(r.state), r.seconds);
-    for (std::size_t k = 0; k < r.parameters.size(); ++k) {
-      const SweptParameter& p = s.identity.parameters[k];
-      text += p.words.empty() ? fmt::format(",{}", r.parameters[k])
-                              : "," + p.words[static_cast<std::size_t>(r.parameters[k])];
-    }
-    for (std::size_t k = 0; k < s.identity.figures.size(); ++k) {
-      const double v = value_in(r, k);
-      const auto error = error_in(r, k);
-      text += std::isfinite(v) ? fmt::format(",{}", v) : ",";
-      text += error ? fmt::format(",{:.3g}", *error) : ",";
-    }
-    text += '\n';
-  }
+  s.each_row([&](const SweepRow& r) { text += csv_line(s, r); }, from, to);
   return text;
+}
+
+// One table, or of a great sweep one each rows_in_table: none is ever in memory with the others.
+std::vector<CsvFile> csv_tables(const SweepStudyResult& s) {
+  std::vector<CsvFile> tables;
+  const std::vector<std::size_t>& begins = s.tally.pieces;
+  for (std::size_t i = 0; i < std::max<std::size_t>(begins.size(), 1); ++i) {
+    const std::size_t from = i == 0 ? 0 : begins[i], to = i + 1 < begins.size() ? begins[i + 1] : SweepStore::all;
+    tables.push_back({i == 0 ? "variants.csv" : fmt::format("variants_{}.csv", i + 1),
+                      [&s, from, to] { return csv_text(s, from, to); }});
+  }
+  return tables;
+}
+
+// What is said of all rows, and what of those that are held.
+std::vector<std::string> notes_on_rows(const SweepStudyResult& s) {
+  if (s.holds_all()) return {};
+  std::vector<std::string> notes = {
+      fmt::format("Indices and pictures are of {} of the {} rows, drawn by chance; counts, ends and worst machines of "
+                  "all",
+                  counted(s.rows.size()), counted(s.tally.rows))};
+  if (s.tally.pieces.size() > 1)
+    notes.push_back(fmt::format("The variants stand in {} tables of {} rows, variants.csv, variants_2.csv …",
+                                s.tally.pieces.size(), counted(rows_in_table)));
+  return notes;
 }
 
 }  // namespace
 
-std::size_t SweepStudyResult::count(RowState state) const {
-  return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [&](const SweepRow& r) { return r.state == state; }));
+void SweepStudyResult::each_row(const std::function<void(const SweepRow&)>& visit, std::size_t from,
+                                std::size_t to) const {
+  if (!holds_all()) {
+    store->each([&](SweepRow&& row) { visit(row); }, from, to);
+    return;
+  }
+  for (const SweepRow& row : rows)
+    if (row.row >= from && row.row < to) visit(row);
 }
 
-SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string>& limits) {
-  SweepStudyResult s{
-      .identity = store.identity(), .rows = {}, .limits = {}, .influences = {}, .into = store.file().string()};
+SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string>& limits, std::size_t held) {
+  SweepStudyResult s{.identity = store.identity(),
+                     .rows = {},
+                     .tally = {},
+                     .store = &store,
+                     .limits = {},
+                     .influences = {},
+                     .into = store.file().string()};
   for (const std::string& limit : limits) s.limits.push_back(parse_limit(limit, s.identity.figures));
-  s.rows = store.read();
-  s.wanted = s.rows.size();
+  s.tally = tally_of(store, s.limits);
+  s.wanted = s.tally.rows;
   const bool saltelli = meta_of(s.identity, "design").starts_with("saltelli");
+  // Of Saltelli's design whole groups are drawn.
+  const std::size_t group = saltelli ? s.identity.parameters.size() + 2 : 1;
+  const std::size_t groups = (saltelli ? s.identity.rows : s.tally.rows) / group;
+  std::vector<bool> drawn(groups + 1, s.tally.rows <= held);
+  if (s.tally.rows > held)
+    for (const std::size_t i : drawn_by_chance(groups, held / group)) drawn[i] = true;
+  std::size_t number = 0;
+  store.each([&](SweepRow&& row) {
+    if (drawn[std::min(saltelli ? row.row / group : number, groups)]) s.rows.push_back(std::move(row));
+    ++number;
+  });
   for (std::size_t k = 0; k < s.identity.figures.size(); ++k)
     s.influences.push_back(influence_on(k, s.identity, s.rows, saltelli));
   return s;
@@ -351,7 +287,7 @@ Findings findings_of(const SweepStudyResult& s) {
   Findings f{.title = meta_of(s.identity, "title"),
              .subtitle = fmt::format("Sweep of {} by {}", meta_of(s.identity, "of"), meta_of(s.identity, "design")),
              .scene_file = meta_of(s.identity, "scene file"),
-             .complete = !s.interrupted && s.rows.size() >= s.wanted,
+             .complete = !s.interrupted && s.tally.rows >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
   f.answer(Question::figures, conclusion_of(s));
@@ -367,18 +303,20 @@ Findings findings_of(const SweepStudyResult& s) {
   f.say(influence, influence_table(s));
   f.draw(influence, [&s] { return influence_plots(s); });
   f.draw(curves, [&s] { return response_plots(s); });
+  f.draw(curves, [&s] { return scatter_matrix(s); });
   f.say(worst, worst_table(s));
   f.say(worst, failure_table(s));
   f.say(all, figure_table(s));
-  f.tell("rows", s.rows.size());
-  f.tell("failed", s.count(RowState::failed));
-  f.tell("unconfirmed", s.count(RowState::unconfirmed));
+  f.note(all, notes_on_rows(s));
+  f.tell("rows", s.tally.rows);
+  f.tell("failed", s.tally.failed);
+  f.tell("unconfirmed", s.tally.unconfirmed);
   f.tell("design", meta_of(s.identity, "design"));
   f.tell("seed", meta_of(s.identity, "seed"));
   f.tell("shard", s.identity.shard);
   f.tell("database", s.into);
   f.show_scene(meta_of(s.identity, "scene file"), meta_of(s.identity, "scene text"));
-  f.csv.push_back({"variants.csv", [&s] { return csv_text(s); }});
+  f.csv = csv_tables(s);
   return f;
 }
 

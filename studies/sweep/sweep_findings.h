@@ -1,6 +1,9 @@
 // sweep_findings.h — the report of a sweep: response curves, maps, what moves a figure, failures, the worst machines.
 #pragma once
 
+#include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,20 +14,63 @@
 
 namespace kurbel {
 
+// How far a figure reaches over all rows that have it.
+struct Spread {
+  SweptFigure figure;
+  std::size_t rows = 0;
+  double least = HUGE_VAL, mean = 0, greatest = -HUGE_VAL, deviation = 0;
+  std::optional<double> error = {};  // the largest; none was measured
+};
+
+struct LimitCount {
+  std::string limit;
+  std::size_t holds = 0, undecided = 0, beyond = 0, unknown = 0;
+  Interval interval = {};
+  std::size_t decided() const { return holds + beyond + undecided; }
+};
+
+// Rows that failed, or were not confirmed, for one reason.
+struct Failures {
+  std::size_t count = 0;
+  SweepRow first;
+};
+
+// What is counted over all rows in one pass that holds none of them.
+struct SweepTally {
+  std::size_t rows = 0, done = 0, unconfirmed = 0, failed = 0;
+  std::vector<Spread> spreads;               // of each figure
+  std::vector<LimitCount> limits;            // as they were given
+  std::vector<Failures> failures;            // the most frequent reason first
+  std::vector<std::vector<SweepRow>> worst;  // of each figure, by its limit; without one the greatest
+  std::vector<std::size_t> pieces;           // the first row of each rows_in_table
+};
+inline constexpr std::size_t rows_held = 100'000, rows_in_table = 250'000;
+SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& limits);
+
 struct SweepStudyResult {
   SweepIdentity identity;
-  std::vector<SweepRow> rows;
+  std::vector<SweepRow> rows;  // all, or of more than rows_held so many, drawn by chance: for pictures and indices
+  SweepTally tally;            // of all
+  const SweepStore* store = nullptr;  // asked again for rows that are not held
   std::vector<FigureLimit> limits;
   std::vector<FigureInfluence> influences;  // of each figure
   std::string into;                         // file
   bool interrupted = false;
   std::size_t wanted = 0;  // rows of this shard
 
-  std::size_t count(RowState state) const;
+  bool holds_all() const { return rows.size() == tally.rows; }
+  // From `from` on, below `to`, whether they are held or not.
+  void each_row(const std::function<void(const SweepRow&)>& visit, std::size_t from = 0,
+                std::size_t to = SweepStore::all) const;
 };
 
-// Limits as they were written; influences are computed here. Throws std::invalid_argument for one that is none.
-SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string>& limits);
+// Limits as they were written; influences are computed here. Throws std::invalid_argument for one that is none. Of more
+// than `held` rows the store is asked again later: it has to live as long.
+SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string>& limits,
+                          std::size_t held = rows_held);
+
+// Sobol's sequence shifted by a seed: as published (seed 0) its points are chosen, not drawn.
+bool is_shifted_sobol(const SweepIdentity& identity);
 
 // "kurbel run press.toml --set …": computes a row alone.
 std::string line_of(const SweepIdentity& identity, const SweepRow& row);

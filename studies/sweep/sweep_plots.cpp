@@ -1,4 +1,4 @@
-// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, evenly taken.
+// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, drawn by chance.
 #include "studies/sweep/sweep_plots.h"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/scene/units.h"
+#include "studies/findings/thin.h"
 
 namespace kurbel {
 namespace {
@@ -22,32 +23,7 @@ std::string label_of(const SweepStudyResult& s, const SweepRow& r) {
   return label;
 }
 
-std::vector<const SweepRow*> shown(const SweepStudyResult& s) {
-  std::vector<const SweepRow*> rows;
-  const std::size_t step = std::max<std::size_t>(1, (s.rows.size() + most_points - 1) / most_points);
-  for (std::size_t i = 0; i < s.rows.size(); i += step) rows.push_back(&s.rows[i]);
-  return rows;
-}
-
-// Figures that a limit is on come first.
-std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
-  std::vector<std::size_t> list;
-  for (const FigureLimit& l : s.limits)
-    if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
-  for (const FigureInfluence& f : s.influences)
-    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
-  if (list.size() > most_figures) list.resize(most_figures);
-  return list;
-}
-
-// Parameters by their influence on a figure; as they were given where none is known.
-std::vector<std::size_t> parameters_for(const SweepStudyResult& s, std::size_t figure) {
-  std::vector<std::size_t> list;
-  for (const Influence& i : s.influences[figure].ranked) list.push_back(i.parameter);
-  for (std::size_t k = 0; k < s.identity.parameters.size(); ++k)
-    if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
-  return list;
-}
+std::vector<const SweepRow*> shown(const SweepStudyResult& s) { return some_rows(s, most_points); }
 
 // Of one parameter: the curve with the band of its errors.
 void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
@@ -110,8 +86,39 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
                              .x = {points.front().second, points.back().second},
                              .y = {unit.factor * l.value, unit.factor * l.value},
                              .dashed = true});
-  if (s.rows.size() > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.rows.size());
+  if (s.tally.rows > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.tally.rows);
   return plot;
+}
+
+// Colours where variants stand in rows and columns, each cell the mean over all other parameters; else none.
+std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b,
+                                  const ReadableUnit& unit) {
+  const auto values_of = [&](std::size_t parameter) {
+    std::vector<double> values;
+    for (const SweepRow& r : s.rows) values.push_back(r.parameters[parameter]);
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  };
+  const SweptFigure& f = s.identity.figures[figure];
+  ColourMap map{.name = f.name, .unit = unit.unit, .x = values_of(a), .y = values_of(b), .z = {}};
+  if (map.x.size() < 2 || map.y.size() < 2 || map.x.size() * map.y.size() > s.rows.size()) return std::nullopt;
+  std::vector<std::vector<double>> sums(map.y.size(), std::vector<double>(map.x.size(), 0)), counts = sums;
+  for (const SweepRow& r : s.rows) {
+    const double v = value_in(r, figure);
+    if (!std::isfinite(v)) continue;
+    const auto place = [](const std::vector<double>& in, double value) {
+      return static_cast<std::size_t>(std::lower_bound(in.begin(), in.end(), value) - in.begin());
+    };
+    const std::size_t i = place(map.y, r.parameters[b]), k = place(map.x, r.parameters[a]);
+    sums[i][k] += v, ++counts[i][k];
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    map.z.emplace_back(map.x.size(), std::nan(""));
+    for (std::size_t k = 0; k < map.x.size(); ++k)
+      if (counts[i][k] > 0) map.z[i][k] = unit.factor * sums[i][k] / counts[i][k];
+  }
+  return map;
 }
 
 Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b) {
@@ -121,23 +128,30 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
       .x = axis_of(s.identity.parameters[a]),
       .y = axis_of(s.identity.parameters[b]),
       .series = {}};
+  double largest = 0;
+  for (const SweepRow& r : s.rows)
+    if (const double v = value_in(r, figure); std::isfinite(v)) largest = std::max(largest, std::abs(v));
+  const ReadableUnit unit = readable_unit(largest, f.unit);
   const auto add = [&](std::string name, Role role, const auto& belongs) {
     Series series{.name = std::move(name), .role = role, .x = {}, .y = {}, .points = true, .line = false};
     for (const SweepRow* r : shown(s))
       if (belongs(*r)) {
         series.x.push_back(r->parameters[a]), series.y.push_back(r->parameters[b]);
-        series.labels.push_back(fmt::format("{}; {} {}", label_of(s, *r), value_in(*r, figure), pretty_unit(f.unit)));
+        series.labels.push_back(
+            fmt::format("{}; {:.6g} {}", label_of(s, *r), unit.factor * value_in(*r, figure), unit.unit));
       }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
   const auto limit =
       std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
+  plot.map = cells_of(s, figure, a, b, unit);
+  if (plot.map && s.identity.parameters.size() > 2) plot.note = "Colours: mean over all other parameters.";
   if (limit != s.limits.end()) {
     plot.title += fmt::format(": where {}", limit->given);
-    add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
+    if (!plot.map) add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
     add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });
     add("beyond", Role::vermillion, [&](const SweepRow& r) { return side_of(*limit, r) == Side::beyond; });
-  } else {
+  } else if (!plot.map) {
     std::vector<double> values;
     for (const SweepRow& r : s.rows)
       if (const double v = value_in(r, figure); std::isfinite(v)) values.push_back(v);
@@ -146,7 +160,8 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
     const Role roles[] = {Role::purple, Role::elastic, Role::sky, Role::green, Role::orange};
     for (std::size_t fifth = 0; fifth < 5; ++fifth) {
       const double low = values[fifth * (values.size() - 1) / 5], high = values[(fifth + 1) * (values.size() - 1) / 5];
-      add(fmt::format("{:.4g} … {:.4g} {}", low, high, pretty_unit(f.unit)), roles[fifth], [&](const SweepRow& r) {
+      const std::string name = fmt::format("{:.4g} … {:.4g} {}", unit.factor * low, unit.factor * high, unit.unit);
+      add(name, roles[fifth], [&](const SweepRow& r) {
         const double v = value_in(r, figure);
         return (fifth == 0 ? v >= low : v > low) && v <= high;
       });
@@ -157,6 +172,30 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
 }
 
 }  // namespace
+
+std::vector<const SweepRow*> some_rows(const SweepStudyResult& s, std::size_t most) {
+  std::vector<const SweepRow*> rows;
+  for (const std::size_t i : drawn_by_chance(s.rows.size(), most)) rows.push_back(&s.rows[i]);
+  return rows;
+}
+
+std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
+  std::vector<std::size_t> list;
+  for (const FigureLimit& l : s.limits)
+    if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
+  for (const FigureInfluence& f : s.influences)
+    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
+  if (list.size() > most_figures) list.resize(most_figures);
+  return list;
+}
+
+std::vector<std::size_t> parameters_for(const SweepStudyResult& s, std::size_t figure) {
+  std::vector<std::size_t> list;
+  for (const Influence& i : s.influences[figure].ranked) list.push_back(i.parameter);
+  for (std::size_t k = 0; k < s.identity.parameters.size(); ++k)
+    if (std::find(list.begin(), list.end(), k) == list.end()) list.push_back(k);
+  return list;
+}
 
 std::vector<Plot> response_plots(const SweepStudyResult& s) {
   std::vector<Plot> plots;

@@ -39,25 +39,26 @@ void fill_variants(Sheet& sheet, const SweepStudyResult& s) {
     sheet.put(0, column++, "error of " + f.name);
   }
   sheet.put(0, column, std::string("diagnosis"));
-  for (std::size_t i = 0; i < s.rows.size(); ++i) {
-    const SweepRow& r = s.rows[i];
-    sheet.put(i + 1, 0, static_cast<double>(r.row));
-    sheet.put(i + 1, 1, name_of(r.state));
-    sheet.put(i + 1, 2, r.seconds);
+  std::size_t at = 0;
+  s.each_row([&](const SweepRow& r) {
+    ++at;
+    sheet.put(at, 0, static_cast<double>(r.row));
+    sheet.put(at, 1, name_of(r.state));
+    sheet.put(at, 2, r.seconds);
     column = 3;
     for (std::size_t k = 0; k < r.parameters.size(); ++k, ++column) {
       const SweptParameter& p = s.identity.parameters[k];
       if (p.words.empty())
-        sheet.put(i + 1, column, r.parameters[k]);
+        sheet.put(at, column, r.parameters[k]);
       else
-        sheet.put(i + 1, column, p.text_of(r.parameters[k]));
+        sheet.put(at, column, p.text_of(r.parameters[k]));
     }
     for (const RowFigure& f : r.figures) {
-      sheet.put(i + 1, column + 2 * f.figure, f.value);
-      if (f.error) sheet.put(i + 1, column + 2 * f.figure + 1, *f.error);
+      sheet.put(at, column + 2 * f.figure, f.value);
+      if (f.error) sheet.put(at, column + 2 * f.figure + 1, *f.error);
     }
-    if (!r.diagnosis.empty()) sheet.put(i + 1, column + 2 * s.identity.figures.size(), r.diagnosis);
-  }
+    if (!r.diagnosis.empty()) sheet.put(at, column + 2 * s.identity.figures.size(), r.diagnosis);
+  });
 }
 
 }  // namespace
@@ -65,11 +66,12 @@ void fill_variants(Sheet& sheet, const SweepStudyResult& s) {
 void write_xlsx(const SweepStudyResult& s, const std::string& file) {
   if (const std::string why = why_no_file_at(file); !why.empty())
     throw std::invalid_argument(fmt::format("--xlsx: {}", why));
-  if (s.rows.size() >= LXW_ROW_MAX)
+  if (s.tally.rows >= LXW_ROW_MAX)
     throw std::invalid_argument(
         fmt::format("--xlsx {}: a sheet holds {} rows, the sweep has {}; take variants.csv or the database", file,
-                    LXW_ROW_MAX - 1, s.rows.size()));
-  lxw_workbook_options options{};
+                    LXW_ROW_MAX - 1, s.tally.rows));
+  // A row is written when the next one begins: row after row, however many there are.
+  lxw_workbook_options options{.constant_memory = LXW_TRUE, .tmpdir = nullptr, .use_zip64 = LXW_TRUE};
   lxw_workbook* const book = workbook_new_opt(file.c_str(), &options);
   Sheet variants(book, "variants"), asked(book, "sweep");
   fill_variants(variants, s);

@@ -52,6 +52,7 @@ class UncertaintyWork {
       study_.figures.push_back(
           {.figure = figures_[k], .value = value_in(nominal, k), .numerical = error_in(nominal, k)});
     gradients();
+    say_what_is_noise();
     samples();
     if (options_.biases && question_.of == SweepStudy::run) biases();
     conclude();
@@ -119,21 +120,22 @@ class UncertaintyWork {
       FigureUncertainty& figure = study_.figures[f];
       double squares = 0;
       for (std::size_t p = 0; p < swept_.size(); ++p) {
-        ToleranceShare share = share_of(f, p, near);
-        if (!(share.noise <= most_noise * share.deviation)) {
+        ToleranceShare share = share_of(f, p, near, short_step);
+        if (!(share.noise.value_or(0) <= most_noise * share.deviation)) {
           if (far.empty()) far = compute(about_nominal(long_step));
-          share = share_of(f, p, far);
+          share = share_of(f, p, far, long_step);
         }
         if (!std::isfinite(share.deviation)) {
           study_.notes.push_back(
               fmt::format("{}: no gradient by {}, beside its value the machine does not run; it counts as none",
                           figure.figure.name, swept_[p].path));
-          share.gradient = share.deviation = share.noise = 0;
+          share.gradient = share.deviation = 0, share.noise.reset();
         }
         squares += share.deviation * share.deviation;
         figure.shares.push_back(share);
       }
       figure.by_gradients = std::sqrt(squares);
+      tell_noise(figure);
       for (ToleranceShare& s : figure.shares) {
         s.share = squares > 0 ? s.deviation * s.deviation / squares : 0;
         s.without = std::sqrt(std::max(0.0, squares - s.deviation * s.deviation));
@@ -143,14 +145,41 @@ class UncertaintyWork {
     }
   }
 
-  ToleranceShare share_of(std::size_t f, std::size_t p, const std::vector<SweepRow>& rows) const {
+  // What the errors of the runs may make alone; gradients within it are told.
+  void tell_noise(FigureUncertainty& figure) {
+    std::string names;
+    std::size_t within = 0;
+    for (const ToleranceShare& s : figure.shares) {
+      if (!s.noise) continue;
+      figure.noise_floor = std::hypot(figure.noise_floor.value_or(0), *s.noise);
+      if (*s.noise > 0 && s.deviation <= *s.noise) names += (within++ ? ", " : "") + swept_[s.parameter].path;
+    }
+    if (within > 0)
+      below_noise_.push_back(figure.figure.name +
+                             (within < figure.shares.size() ? fmt::format(" (by {})", names) : std::string()));
+  }
+
+  void say_what_is_noise() {
+    if (below_noise_.empty()) return;
+    constexpr std::size_t most_named = 4;
+    std::string list;
+    for (std::size_t i = 0; i < below_noise_.size() && i < most_named; ++i) list += (i ? ", " : "") + below_noise_[i];
+    if (below_noise_.size() > most_named) list += fmt::format(" and {} more", below_noise_.size() - most_named);
+    study_.notes.push_back(
+        fmt::format("what lies below the noise floor, the errors of the runs on both sides, may be nothing: {} (a "
+                    "smaller accuracy in [run] lowers the floor)",
+                    list));
+  }
+
+  ToleranceShare share_of(std::size_t f, std::size_t p, const std::vector<SweepRow>& rows, double step) const {
     const SweepRow &below = rows[2 * p], &above = rows[2 * p + 1];
     const std::size_t k = numbers_[f];
     const double over = above.parameters[p] - below.parameters[p], u = study_.parameters[p].deviation();
-    ToleranceShare share{.parameter = p};
+    ToleranceShare share{.parameter = p, .step = step};
     share.gradient = (value_in(above, k) - value_in(below, k)) / over;
     share.deviation = std::abs(share.gradient) * u;
-    share.noise = (error_in(above, k).value_or(0) + error_in(below, k).value_or(0)) / over * u;
+    const auto e_above = error_in(above, k), e_below = error_in(below, k);
+    if (e_above && e_below) share.noise = (*e_above + *e_below) / over * u;
     return share;
   }
 
@@ -253,7 +282,8 @@ class UncertaintyWork {
   std::optional<VariedScene> varied_;
   std::vector<SweptFigure> figures_;
   std::vector<FigureLimit> limits_;
-  std::vector<std::size_t> numbers_;  // of the figures that the machine as given has
+  std::vector<std::string> below_noise_;  // figures, and by which tolerances
+  std::vector<std::size_t> numbers_;      // of the figures that the machine as given has
 };
 
 }  // namespace

@@ -32,9 +32,11 @@ struct ToleranceShare {
   std::size_t parameter = 0;
   double gradient = 0;   // ∂y/∂x, x in its unit
   double deviation = 0;  // |∂y/∂x| u
-  double noise = 0;      // of that: what the measured errors of the two runs leave open
-  double share = 0;      // of Σ deviation²
-  double without = 0;    // u that would remain if this parameter had no tolerance
+  // Of the deviation: what the measured errors of the two runs leave open, (e₊ + e₋)/(x₊ − x₋) · u; none were measured.
+  std::optional<double> noise = {};
+  double step = 0;     // the difference was taken over ± so many deviations
+  double share = 0;    // of Σ deviation²
+  double without = 0;  // u that would remain if this parameter had no tolerance
 };
 
 struct Bias {
@@ -45,9 +47,10 @@ struct Bias {
 
 struct FigureUncertainty {
   SweptFigure figure;
-  double value = 0;                                    // at the values as given
-  std::optional<double> numerical = {};                // measured error there
-  double by_gradients = 0;                             // standard uncertainty u
+  double value = 0;                        // at the values as given
+  std::optional<double> numerical = {};    // measured error there
+  double by_gradients = 0;                 // standard uncertainty u
+  std::optional<double> noise_floor = {};  // of u, √Σ noise²: what is below may be numerical errors alone
   double by_samples = 0, mean = 0, low = 0, high = 0;  // deviation, mean, 95 % of the samples
   std::size_t samples = 0;
   std::vector<ToleranceShare> shares = {};  // the greatest first

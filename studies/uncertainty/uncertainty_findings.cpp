@@ -17,6 +17,7 @@ Rows figure_table(const UncertaintyStudy& s) {
       .column("value", "as given", &FigureUncertainty::value)
       .column("numerical", "numerical error", &FigureUncertainty::numerical, {.digits = 1})
       .column("by_gradients", "deviation by gradients", &FigureUncertainty::by_gradients, {.digits = 3})
+      .column("noise_floor", "noise floor", &FigureUncertainty::noise_floor, {.digits = 1})
       .column("by_samples", "by samples", &FigureUncertainty::by_samples, {.digits = 3})
       .column("mean", "mean", &FigureUncertainty::mean)
       .column("low", "95 % from", &FigureUncertainty::low, {.digits = 5})
@@ -59,6 +60,7 @@ Rows share_table(const UncertaintyStudy& s) {
       .column("deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, {.digits = 3})
       .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; })
       .column("noise", "open by errors", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
+      .column("step", "over ± deviations", [](const ShareRow& r) { return r.share.step; }, {.digits = 1})
       .column("without", "figure's without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
       .column("unit", "unit", &ShareRow::unit, as_unit);
 }

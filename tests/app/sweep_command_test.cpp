@@ -169,12 +169,13 @@ TEST_F(SweepCommand, KillsAtRandomMomentsLoseNothingThatWasCommitted) {
   EXPECT_NE(said.text.find("nothing committed was lost"), std::string::npos) << said.text;
 }
 
+// In the foreground: else timeout interrupts twice, the program and its group, and a second interrupt ends at once.
 TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
   const std::string design = varied + "--design sobol:200000 ";
-  const Said said = shell(
-      fmt::format("{{ cd '{}' && timeout -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
-                  "--jobs 2; }}",
-                  folder_.string(), KURBEL_EXECUTABLE, design));
+  const Said said = shell(fmt::format(
+      "{{ cd '{}' && timeout --foreground -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
+      "--jobs 2; }}",
+      folder_.string(), KURBEL_EXECUTABLE, design));
   EXPECT_NE(said.text.find("interrupted"), std::string::npos) << said.text;
   const std::vector<SweepRow> there = rows("r.db");
   EXPECT_GT(there.size(), 0u);

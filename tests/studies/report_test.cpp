@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -85,6 +86,21 @@ TEST(Thinning, LeavesShortCurvesAlone) {
   std::vector<double> x = {0, 1, 2}, y = {5, 6, 7};
   thin_by_extremes(x, y, 4);
   EXPECT_EQ(x.size(), 3u);
+}
+
+// A grid of 100 columns keeps all of them: each tenth of 100 000 rows, 100 a column; chance scatters that by √(100 · 0.9).
+TEST(Thinning, ACloudsChoiceHasNoPatternOfItsOwn) {
+  const std::vector<std::size_t> kept = drawn_by_chance(100000, 10000);
+  ASSERT_EQ(kept.size(), 10000u);
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+  std::vector<double> in_column(100, 0);
+  for (const std::size_t i : kept) ++in_column.at(i % 100);
+  const auto [least, most] = std::minmax_element(in_column.begin(), in_column.end());
+  EXPECT_GT(*least, 100 - 4 * std::sqrt(90.0));
+  EXPECT_LT(*most, 100 + 4 * std::sqrt(90.0));
+  const auto in_first_half = std::lower_bound(kept.begin(), kept.end(), 50000u) - kept.begin();
+  EXPECT_NEAR(static_cast<double>(in_first_half), 5000, 4 * std::sqrt(10000 * 0.25 * 0.9));
+  EXPECT_EQ(drawn_by_chance(5, 9).size(), 5u);
 }
 
 TEST(JsonString, ClosesNoScriptAndParsesBack) {
@@ -234,6 +250,39 @@ TEST(Report, WritesGnuplotFiles) {
     EXPECT_GT(std::filesystem::file_size(folder / "torque_it_s.svg"), 1000u);
   }
   std::filesystem::remove_all(folder);
+}
+
+// A cloud has no peaks: what is left of it is still what was said of each point; a curve keeps its peaks.
+TEST(Report, ThinnedCloudsKeepWhatTheirPointsAre) {
+  Series cloud{.name = "cloud", .x = {}, .y = {}, .points = true, .line = false};
+  for (int i = 0; i < 6000; ++i) {
+    cloud.x.push_back(i), cloud.y.push_back(2.0 * i);
+    cloud.labels.push_back(std::to_string(i)), cloud.sizes.push_back(0.5);
+  }
+  const Series some = drawn(cloud);
+  ASSERT_EQ(some.x.size(), points_per_series);
+  ASSERT_EQ(some.labels.size(), points_per_series);
+  EXPECT_EQ(some.sizes.size(), points_per_series);
+  for (std::size_t i = 0; i < some.x.size(); ++i)
+    EXPECT_EQ(some.labels[i], std::to_string(static_cast<int>(some.x[i])));
+  EXPECT_TRUE(std::is_sorted(some.x.begin(), some.x.end()));
+  cloud.line = true, cloud.y[1234] = 1e6;
+  const Series curve = drawn(cloud);
+  EXPECT_LE(curve.x.size(), points_per_series);
+  EXPECT_NE(std::find(curve.y.begin(), curve.y.end(), 1e6), curve.y.end());
+  EXPECT_TRUE(curve.labels.empty());
+}
+
+// Of a list 200, 400, 800 the middle cell reaches from 300 to 600.
+TEST(Report, MapsOfUnevenPlacesHaveCellsThatMeet) {
+  Plot plot{.title = "uneven", .x = {"a"}, .y = {"b"}, .series = {}};
+  plot.map = ColourMap{.name = "c", .unit = "", .x = {200, 400, 800}, .y = {1, 2}, .z = {{1, 2, 3}, {4, 5, 6}}};
+  Report report;
+  report.sections.push_back({.title = "maps", .cards = {plot}});
+  const std::vector<TextFile> files = gnuplot_files(report);
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_NE(files[0].text.find("\n400 2 5 300 600 1.5 2.5\n"), std::string::npos) << files[0].text;
+  EXPECT_NE(files[1].text.find("boxxyerror"), std::string::npos);
 }
 
 }  // namespace

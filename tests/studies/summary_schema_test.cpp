@@ -1,4 +1,7 @@
 // summary_schema_test.cpp — what every command tells programs is what docs/summary.schema.json says, nothing more.
+#include <unistd.h>
+
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -159,18 +162,24 @@ TEST(SummarySchema, IsNotMetByWhatIsElse) {
 
 // Their figures are those of the study that they ask, and are explained there.
 TEST(SummarySchema, HoldsForSweepsAndTolerances) {
-  SweepStudyResult sweep;
-  sweep.identity.meta = {
+  SweepIdentity identity;
+  identity.meta = {
       {"title", "Two masses"}, {"scene file", "two.toml"}, {"of", "run"}, {"design", "random:20"}, {"seed", "1"}};
-  sweep.identity.parameters = {parse_parameter("a.b=1..2 m")};
-  sweep.identity.figures = {{"peak_torque.c", "N*m"}};
+  identity.parameters = {parse_parameter("a.b=1..2 m")};
+  identity.figures = {{"peak_torque.c", "N*m"}};
+  identity.rows = 20;
+  std::vector<SweepRow> rows;
   for (std::size_t i = 0; i < 20; ++i)
-    sweep.rows.push_back({.row = i,
-                          .parameters = {1.0 + 0.05 * static_cast<double>(i)},
-                          .figures = {{0, 3.0 * static_cast<double>(i)}}});
-  sweep.rows[3].state = RowState::failed, sweep.rows[3].diagnosis = "it stops";
-  sweep.limits = {{.figure = 0, .value = 30, .given = "peak_torque.c <= 30 N*m"}};
-  sweep.influences = {influence_on(0, sweep.identity, sweep.rows, false)};
+    rows.push_back({.row = i,
+                    .parameters = {1.0 + 0.05 * static_cast<double>(i)},
+                    .figures = {{0, 3.0 * static_cast<double>(i)}}});
+  rows[3].state = RowState::failed, rows[3].diagnosis = "it stops";
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("kurbel_schema_" + std::to_string(getpid()) + ".db");
+  std::filesystem::remove(file);
+  SweepStore(file, identity).write(rows);
+  const SweepStudyResult sweep = study_of(SweepStore(file), {"peak_torque.c <= 30 N*m"});
+  std::filesystem::remove(file);
   EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(summary_json(findings_of(sweep))), "sweep"), "");
 
   MachineQuestion question;

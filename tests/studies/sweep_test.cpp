@@ -17,6 +17,7 @@
 #include "studies/sweep/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
+#include "studies/sweep/sweep_plots.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -182,6 +183,52 @@ TEST(SweepIndices, OfFirstOrderFollowFromAnyDesign) {
   }
 }
 
+// --- pictures ---
+
+// Of k parameters and a figure: n (n − 1)/2 tiles, each with all rows; a grid's cells are its values.
+TEST(SweepPictures, AScatterMatrixHasEveryPairAndAGridsMapItsValues) {
+  const File file("pictures");
+  const SweepStudyResult s = swept(Design("grid:6x5", ranges({"a.x=0..10", "b.x=0..8"}), 1), file,
+                                   [](const std::vector<double>& x) { return 3 * x[0] + x[1]; });
+  const std::vector<Plot> matrix = scatter_matrix(s);
+  ASSERT_TRUE(matrix.size() == 1 && matrix[0].series.size() == 1);
+  EXPECT_EQ(matrix[0].series[0].x.size(), 3u * 30u);
+  EXPECT_EQ(matrix[0].x.names, (std::vector<std::string>{"a.x\n0 … 10", "b.x\n0 … 8"}));
+  EXPECT_EQ(matrix[0].y.names, (std::vector<std::string>{"y\n0 … 38", "b.x\n0 … 8"}));
+  EXPECT_EQ(matrix[0].series[0].labels.back(), "row 29: b.x 8, y 38");
+  const std::vector<Plot> maps = limit_maps(s);
+  ASSERT_EQ(maps.size(), 1u);
+  ASSERT_TRUE(maps[0].map.has_value());
+  const ColourMap& map = *maps[0].map;
+  ASSERT_TRUE(map.x.size() == 6 && map.y.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(map.z[i][k], 3 * map.x[k] + map.y[i], 1e-12);
+}
+
+// Of a great sweep some rows are held; what is counted is of all, and the table has all.
+TEST(SweepReport, CountsAndTablesAreOfAllRowsWhereFewAreHeld) {
+  const File file("held");
+  swept(Design("saltelli:100", ranges({"a.x=0..10", "b.x=0..8"}), 1), file,
+        [](const std::vector<double>& x) { return 3 * x[0] + x[1]; });
+  const SweepStore store(file.path());
+  const SweepStudyResult all = study_of(store, {"y <= 20"}), few = study_of(store, {"y <= 20"}, 120);
+  ASSERT_EQ(all.rows.size(), 400u);
+  ASSERT_EQ(few.influences[0].rows, 30u);  // whole groups of four
+  double hold = 0, greatest = 0, mean = 0, squares = 0;
+  for (const SweepRow& r : all.rows) mean += value_in(r, 0) / 400;
+  for (const SweepRow& r : all.rows)
+    squares += std::pow(value_in(r, 0) - mean, 2), hold += value_in(r, 0) <= 20,
+        greatest = std::max(greatest, value_in(r, 0));
+  for (const SweepStudyResult* s : {&all, &few}) {
+    EXPECT_EQ(s->tally.limits.at(0).holds, hold);
+    EXPECT_EQ(s->tally.spreads.at(0).greatest, greatest);
+    EXPECT_NEAR(s->tally.spreads[0].deviation, std::sqrt(squares / 399), 1e-12);
+    ASSERT_EQ(s->tally.worst.at(0).size(), 3u);
+    EXPECT_EQ(value_in(s->tally.worst[0][0], 0), greatest);
+  }
+  EXPECT_EQ(findings_of(few).csv.at(0).text(), findings_of(all).csv.at(0).text());
+}
+
 // --- machines ---
 
 // Motor torque T on J₁, a spring, J₂: τ = T J₂/(J₁ + J₂) (1 − cos ωt), so that its peak is 2 T J₂/(J₁ + J₂).
@@ -302,7 +349,7 @@ TEST(SweepMachine, AVariantThatCannotRunIsARowWithItsDiagnosis) {
   EXPECT_EQ(s.rows[0].state, RowState::failed);
   EXPECT_NE(s.rows[0].diagnosis, "");
   EXPECT_EQ(s.rows[2].state, RowState::done);
-  EXPECT_EQ(s.count(RowState::failed), 1u);
+  EXPECT_EQ(s.tally.failed, 1u);
 }
 
 TEST(SweepMachine, FiguresAndLimitsAreChecked) {

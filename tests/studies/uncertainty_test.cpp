@@ -7,6 +7,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "studies/run/simulate.h"
@@ -166,6 +167,45 @@ TEST(Uncertainty, BiasesAreSignedShiftsOfEffectsThatAreOff) {
   for (const Bias& b : f.biases)
     if (std::abs(f.value + b.shift - on.find("peak_torque.main_coupling")->value) < 1e-5 * f.value) found = true;
   EXPECT_TRUE(found);
+}
+
+// A short form of what scripts/uncertainty-trials does with 500 trials.
+TEST(Uncertainty, IntervalsHoldAsOftenAsTheySay) {
+  const std::string script = fmt::format("'{}/scripts/uncertainty-trials' --trials 40 --samples 60 --program '{}'",
+                                         KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE);
+  EXPECT_EQ(std::system((script + " > /dev/null").c_str()), 0) << script;
+}
+
+// A tolerance of a millionth moves no more than the errors of the runs: (e₊ + e₋)/2u · u = (e₊ + e₋)/2 is left open.
+TEST(Uncertainty, NoiseFloorsFollowFromTheErrorsOfTheRuns) {
+  MachineQuestion q;
+  q.text = test::scene_file("scenes/crank_press.toml").text;
+  q.file = "press.toml";
+  q.settings = {"run.until=0.3 s", "flywheel.inertia={ value = \"420 kg*m2\", tolerance = \"0.0001 %\" }",
+                "main_coupling.stiffness={ value = \"900 kN*m/rad\", tolerance = \"0.0001 %\" }"};
+  UncertaintyOptions options;
+  options.samples = 20, options.biases = false, options.figures = {"peak_torque.main_coupling"};
+  const UncertaintyStudy s = study_uncertainty(q, options);
+  const FigureUncertainty& f = of_figure(s, "peak_torque.main_coupling");
+  ASSERT_EQ(f.shares.size(), 2u);
+  ASSERT_TRUE(f.noise_floor && f.shares[0].noise && f.shares[1].noise);
+  EXPECT_DOUBLE_EQ(*f.noise_floor, std::hypot(*f.shares[0].noise, *f.shares[1].noise));
+  bool any_below = false;
+  for (const ToleranceShare& share : f.shares) {
+    EXPECT_EQ(share.step, 1);  // the errors are more than 2 % of so small a difference
+    any_below = any_below || share.deviation <= *share.noise;
+    const Tolerated& of = s.parameters[share.parameter];
+    double errors = 0;
+    for (const double sign : {-1.0, 1.0}) {
+      MachineQuestion beside = q;
+      beside.settings = {"run.until=0.3 s", fmt::format("{}={:.17g} {}", of.given().path,
+                                                        of.given().value + sign * of.deviation(), of.given().unit)};
+      for (const Figure& figure : answer_of(beside).figures)
+        if (figure.name == f.figure.name) errors += figure.error.value();
+    }
+    EXPECT_NEAR(*share.noise, errors / 2, 1e-6 * errors) << of.given().path;
+  }
+  EXPECT_EQ(any_below, !s.notes.empty() && s.notes.back().find("below the noise floor") != std::string::npos);
 }
 
 }  // namespace
