@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "engine/model/compile_steps.h"
 #include "engine/elements/no_element.h"
+#include "engine/model/compile_steps.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {

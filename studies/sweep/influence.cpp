@@ -96,6 +96,69 @@ double first_order(const std::vector<std::size_t>& bins, std::size_t count, cons
   return std::max(0.0, (between - (filled - 1) * within) / total);
 }
 
+// --- a complete table: each combination of values once ---
+
+struct Levels {
+  std::vector<std::size_t> of;  // of each row
+  std::size_t count = 0;
+};
+Levels levels_of(const std::vector<const SweepRow*>& rows, std::size_t parameter) {
+  std::vector<double> values;
+  for (const SweepRow* r : rows) values.push_back(r->parameters[parameter]);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  Levels levels;
+  levels.count = values.size();
+  for (const SweepRow* r : rows)
+    levels.of.push_back(static_cast<std::size_t>(
+        std::lower_bound(values.begin(), values.end(), r->parameters[parameter]) - values.begin()));
+  return levels;
+}
+
+// Row i's place in the table without one parameter (which = none: in the whole table).
+std::vector<std::size_t> places(const std::vector<Levels>& levels, std::size_t rows, std::size_t without) {
+  std::vector<std::size_t> place(rows, 0);
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (k != without)
+      for (std::size_t i = 0; i < rows; ++i) place[i] = place[i] * levels[k].count + levels[k].of[i];
+  return place;
+}
+
+bool is_complete(const std::vector<Levels>& levels, std::size_t rows) {
+  std::size_t cells = 1;
+  for (const Levels& l : levels) {
+    if (l.count > rows / cells) return false;
+    cells *= l.count;
+  }
+  if (cells != rows) return false;
+  std::vector<std::size_t> place = places(levels, rows, levels.size());
+  std::sort(place.begin(), place.end());
+  return std::adjacent_find(place.begin(), place.end()) == place.end();
+}
+
+double variance_of_means(const std::vector<std::size_t>& group, std::size_t count, const std::vector<double>& y,
+                         double mean) {
+  std::vector<double> sum(count, 0.0);
+  const double each = static_cast<double>(y.size()) / static_cast<double>(count);
+  for (std::size_t i = 0; i < y.size(); ++i) sum[group[i]] += y[i] / each;
+  double variance = 0;
+  for (const double m : sum) variance += (m - mean) * (m - mean) / static_cast<double>(count);
+  return variance;
+}
+
+// Nothing is drawn by chance: the shares are those of the table itself.
+void by_complete_table(FigureInfluence& found, const std::vector<Levels>& levels, const std::vector<double>& y,
+                       const Moments& m) {
+  const auto sure = [](double share) { return Index{share, share, share}; };
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (levels[k].count < 2) continue;
+    const double alone = variance_of_means(levels[k].of, levels[k].count, y, m.mean) / m.variance;
+    const double others =
+        variance_of_means(places(levels, y.size(), k), y.size() / levels[k].count, y, m.mean) / m.variance;
+    found.ranked.push_back({.parameter = k, .first = sure(alone), .total = sure(std::max(alone, 1 - others))});
+  }
+}
+
 void by_given_data(FigureInfluence& found, const SweepIdentity& identity, const std::vector<SweepRow>& rows) {
   std::vector<double> y;
   std::vector<const SweepRow*> used;
@@ -103,7 +166,11 @@ void by_given_data(FigureInfluence& found, const SweepIdentity& identity, const 
     if (const double v = value_in(r, found.figure); std::isfinite(v)) y.push_back(v), used.push_back(&r);
   const Moments m = moments_of(y);
   found.rows = y.size(), found.mean = m.mean, found.deviation = std::sqrt(m.variance);
-  if (y.size() < fewest_rows || !(m.variance > 1e-24 * m.mean * m.mean)) return;
+  if (y.size() < 2 || !(m.variance > 1e-24 * m.mean * m.mean)) return;
+  std::vector<Levels> levels;
+  for (std::size_t k = 0; k < identity.parameters.size(); ++k) levels.push_back(levels_of(used, k));
+  if (used.size() == rows.size() && is_complete(levels, used.size())) return by_complete_table(found, levels, y, m);
+  if (y.size() < fewest_rows) return;
   for (std::size_t k = 0; k < identity.parameters.size(); ++k) {
     std::vector<double> x;
     for (const SweepRow* r : used) x.push_back(r->parameters[k]);

@@ -3,7 +3,8 @@
 //     S_i  = V(E[y | x_i]) / V(y)          first order: what knowing x_i alone would take off the variance
 //     S_Ti = E[V(y | x_~i)] / V(y)         total: with all interactions that x_i has a part in
 //
-// From any design by given data: rows are put into bins of x_i; what lies between the bins' means beyond what their
+// Of a complete table (a grid of which every row has the figure) both are sums over the table, without any interval. From
+// any other design by given data: rows are put into bins of x_i; what lies between the bins' means beyond what their
 // scatter gives by chance is S_i (analysis of variance, ω²; Plischke, Borgonovo, Smith 2013). From saltelli by the
 // estimators of Saltelli et al. 2010 (first) and Jansen 1999 (total); 95 % intervals by the bootstrap over its groups.
 #pragma once
@@ -23,7 +24,7 @@ struct Index {
 struct Influence {
   std::size_t parameter = 0;
   Index first = {};
-  std::optional<Index> total = {};  // of saltelli alone
+  std::optional<Index> total = {};  // of saltelli and of complete tables
 };
 
 struct FigureInfluence {

@@ -24,7 +24,10 @@ std::string meta_of(const SweepIdentity& identity, const std::string& key) {
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-std::string in_words(const Index& i) { return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high); }
+std::string in_words(const Index& i) {
+  if (i.low == i.high) return fmt::format("{:.3f}", i.value);
+  return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high);
+}
 
 // A count by thousands, "10,007": a headline rounds numbers, and a count is none to round.
 std::string counted(std::size_t count) {

@@ -54,6 +54,7 @@ class UncertaintyWork {
     gradients();
     say_what_is_noise();
     samples();
+    say_what_is_not_linear();
     if (options_.biases && question_.of == SweepStudy::run) biases();
     conclude();
     return std::move(study_);
@@ -253,6 +254,24 @@ class UncertaintyWork {
       study_.notes.push_back(fmt::format("{}: not tried ({})", n.words, n.because));
   }
 
+  // Where gradients do not hold over the tolerances, their deviation and their shares are of small tolerances only.
+  void say_what_is_not_linear() {
+    constexpr std::size_t most_told = 4;
+    std::size_t found = 0;
+    for (const FigureUncertainty& f : study_.figures) {
+      if (f.is_linear() || f.by_gradients <= 0 || ++found > most_told) continue;
+      const std::string unit = f.figure.unit.empty() ? "" : " " + pretty_unit(f.figure.unit);
+      study_.notes.push_back(fmt::format(
+          "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
+          "{:.5g}{}, "
+          "gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of small "
+          "tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
+          f.figure.name, f.by_samples, unit, f.mean, unit, f.by_gradients, unit, f.value, unit));
+    }
+    if (found > most_told)
+      study_.notes.push_back(fmt::format("so do {} more figures: compare the two columns", found - most_told));
+  }
+
   void conclude() {
     std::string& text = study_.conclusion;
     for (const LimitChance& c : study_.limits)
@@ -264,12 +283,13 @@ class UncertaintyWork {
     });
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
-      text += fmt::format(
-          "{}{} is {:.5g} {} with a deviation of {:.2g} {} by the tolerances; a tighter {} would help most: without "
-          "its "
-          "tolerance {:.2g}",
-          text.empty() ? "" : "; ", figure->figure.name, figure->value, pretty_unit(figure->figure.unit),
-          figure->by_gradients, pretty_unit(figure->figure.unit), swept_[most.parameter].path, most.without);
+      const std::string unit = figure->figure.unit.empty() ? "" : " " + pretty_unit(figure->figure.unit);
+      text += fmt::format("{}{} is {:.5g}{} with a deviation of {:.2g}{} by the tolerances", text.empty() ? "" : "; ",
+                          figure->figure.name, figure->value, unit, figure->deviation(), unit);
+      text += figure->is_linear() ? fmt::format("; a tighter {} would help most: without its tolerance {:.2g}{}",
+                                                swept_[most.parameter].path, most.without, unit)
+                                  : fmt::format(", not in proportion to them; small changes of {} move it most",
+                                                swept_[most.parameter].path);
     }
     if (text.empty()) text = "No figure hangs on the tolerances that are given";
   }
@@ -287,6 +307,16 @@ class UncertaintyWork {
 };
 
 }  // namespace
+
+bool FigureUncertainty::is_linear() const {
+  constexpr std::size_t fewest = 30;
+  constexpr double of_deviation = 0.1, of_mean = 0.2, by_chance = 4;
+  if (samples < fewest) return true;
+  const double root = std::sqrt(static_cast<double>(samples));
+  return std::abs(by_samples - by_gradients) <=
+             of_deviation * by_gradients + by_chance * by_samples / (1.4142 * root) &&
+         std::abs(mean - value) <= (of_mean + by_chance / root) * by_samples;
+}
 
 UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options) {
   if (options.samples < 20) throw std::invalid_argument("--samples: must be 20 or more");

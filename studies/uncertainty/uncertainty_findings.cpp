@@ -116,7 +116,7 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
       plot.x.names.push_back(name);
     };
     bar("numerical error", Role::reference, percent * f.numerical.value_or(0));
-    bar("all tolerances, one deviation", Role::elastic, percent * f.by_gradients);
+    bar("all tolerances, one deviation", Role::elastic, percent * f.deviation());
     for (std::size_t k = 0; k < f.shares.size() && k < 4; ++k)
       bar("tolerance of " + s.parameters[f.shares[k].parameter].given().path, Role::sky,
           percent * f.shares[k].deviation);
@@ -137,7 +137,7 @@ Findings findings_of(const UncertaintyStudy& s) {
   f.answer(s.complete ? Question::figures : Question::runs, s.conclusion, s.complete ? 0 : 1);
   for (const FigureUncertainty& figure : s.figures)
     if (figure.by_gradients > 0 && f.figures.size() < 4)
-      f.figures.push_back({figure.figure.name, figure.value, figure.figure.unit, 2 * figure.by_gradients,
+      f.figures.push_back({figure.figure.name, figure.value, figure.figure.unit, 2 * figure.deviation(),
                            "two deviations of the tolerances", 0, figure.figure.name});
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
+#include "studies/sweep/influence.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/sweep/sweep_plots.h"
 
@@ -71,6 +73,34 @@ TEST(SweepReport, TheUndecidedCountAgainstALimitAtOneEndAndForItAtTheOther) {
   // Clopper and Pearson, 95 %: of 8 trials 3 and 4 successes (tables: 0.0852 … 0.7551, 0.1570 … 0.8430).
   EXPECT_NEAR(c.interval.low, 0.0852, 1e-4);
   EXPECT_NEAR(c.interval.high, 0.8430, 1e-4);
+}
+
+// Every combination once is the whole truth of a table: y = 7 a + a b over a ∈ {0, 1, 2, 3}, b ∈ {1, 3, 8} has V(E[y|a]) =
+// (7 + b̄)² V_a, V(E[y|b]) = ā² V_b, and V_a V_b of both together. A row less, and it is estimated again.
+TEST(SweepIndices, OfACompleteTableAreThoseOfItsSums) {
+  SweepIdentity identity;
+  for (const char* given : {"a.x=0,1,2,3", "b.x=1,3,8"}) identity.parameters.push_back(parse_parameter(given));
+  identity.figures = {{"y", ""}};
+  std::vector<SweepRow> rows;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double a = static_cast<double>(i % 4), b = std::vector{1.0, 3.0, 8.0}[i / 4];
+    rows.push_back({.row = i, .parameters = {a, b}, .figures = {{0, 7 * a + a * b, 0.0}}});
+  }
+  const FigureInfluence found = influence_on(0, identity, rows, false);
+  ASSERT_EQ(found.ranked.size(), 2u);
+  const double va = 1.25, vb = 26.0 / 3, of_a = 11 * 11 * va, of_b = 1.5 * 1.5 * vb, v = of_a + of_b + va * vb;
+  EXPECT_NEAR(found.deviation, std::sqrt(v), 1e-12);
+  EXPECT_EQ(found.ranked[0].parameter, 0u);
+  EXPECT_NEAR(found.ranked[0].first.value, of_a / v, 1e-12);
+  EXPECT_NEAR(found.ranked[1].first.value, of_b / v, 1e-12);
+  EXPECT_NEAR(found.ranked[0].total.value().value, 1 - of_b / v, 1e-12);
+  EXPECT_NEAR(found.ranked[1].total.value().value, 1 - of_a / v, 1e-12);
+  EXPECT_EQ(found.ranked[1].first.low, found.ranked[1].first.high);
+  rows.pop_back();
+  const FigureInfluence estimated = influence_on(0, identity, rows, false);
+  ASSERT_EQ(estimated.ranked.size(), 2u);
+  EXPECT_FALSE(estimated.ranked[0].total.has_value());
+  EXPECT_LT(estimated.ranked[0].first.low, estimated.ranked[0].first.high);
 }
 
 }  // namespace

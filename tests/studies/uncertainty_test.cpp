@@ -208,5 +208,36 @@ TEST(Uncertainty, NoiseFloorsFollowFromTheErrorsOfTheRuns) {
   EXPECT_EQ(any_below, !s.notes.empty() && s.notes.back().find("below the noise floor") != std::string::npos);
 }
 
+// ω = M t/J over J = 0.2 … 1.8 of its value: E[1/x] = ln 9/1.6, E[1/x²] = (5 − 5/9)/1.6, against gradients' 0.8/√3.
+TEST(Uncertainty, WhatGradientsDoNotFollowIsToldByItsSamples) {
+  MachineQuestion q;
+  q.text =
+      "line = [\"wheel\"]\nwheel = { kind = \"inertia\", inertia = { value = \"1 kg*m2\", from = \"0.2 kg*m2\", to = "
+      "\"1.8 kg*m2\" } }\npush = { kind = \"torque source\", torque = \"5 N*m\", on = \"wheel\" }\n"
+      "run = { until = \"2 s\" }\n";
+  q.file = "wheel.toml";
+  UncertaintyOptions options;
+  options.samples = 4000;
+  options.biases = false;
+  options.figures = {"final_speed.wheel"};
+  const UncertaintyStudy s = study_uncertainty(q, options);
+  const FigureUncertainty& f = of_figure(s, "final_speed.wheel");
+  const double mean = std::log(9.0) / 1.6, u = std::sqrt((5 - 5 / 9.0) / 1.6 - mean * mean);
+  EXPECT_NEAR(f.value, 10, 1e-9);
+  EXPECT_NEAR(f.by_gradients, 8 / std::sqrt(3.0), 0.05);              // of a central difference over ± 0.2 deviations
+  EXPECT_NEAR(f.by_samples, 10 * u, 4 * 10 * u / std::sqrt(4000.0));  // long tails scatter by more than 1/√(2n)
+  EXPECT_FALSE(f.is_linear());
+  EXPECT_EQ(f.deviation(), f.by_samples);
+  EXPECT_NE(s.conclusion.find(fmt::format("a deviation of {:.2g} rad/s", f.by_samples)), std::string::npos)
+      << s.conclusion;
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_NE(s.notes[0].find("does not follow its gradients"), std::string::npos) << s.notes[0];
+  // By 1 % it is linear.
+  q.text.replace(q.text.find("0.2 kg"), 3, "0.99"), q.text.replace(q.text.find("1.8 kg"), 3, "1.01");
+  const UncertaintyStudy narrow = study_uncertainty(q, options);
+  EXPECT_TRUE(of_figure(narrow, "final_speed.wheel").is_linear());
+  EXPECT_TRUE(narrow.notes.empty());
+}
+
 }  // namespace
 }  // namespace kurbel
