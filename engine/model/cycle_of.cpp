@@ -48,7 +48,7 @@ CyclePeriod cycle_of(const Model& m) {
   const double of_laws = period.empty() ? 0 : common_period(period).value;
   period.insert(period.begin(), turn);
   if (const CommonPeriod common = common_period(period); common.value > 0) return {common.value, true, of_laws};
-  return {m.cycle > 0 ? m.cycle : turn, false, of_laws};
+  return {meets(m.cycle, turn) ? m.cycle : turn, false, of_laws};
 }
 
 }  // namespace kurbel

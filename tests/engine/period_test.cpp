@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "drivetrain/shared/torque_source.h"
+#include "engine/model/cycle_of.h"
 #include "engine/model/model.h"
 #include "engine/numerics/curve.h"
 #include "tests/support/scenes.h"
@@ -207,6 +208,23 @@ TEST(Period, LawsOverTheAngleStartOnAnyTurn) {
         expect_same(base, figures_of(scene, start, 3), of_steps, fmt::format("period {} from {:.17g}", text, start));
     }
   }
+}
+
+// Behind 1009:1000 a law of 72° comes again after 0.2018 turns, and with whole turns never within a thousand: the machine's
+// cycle is the law's, and what averages over whole turns takes one.
+TEST(Period, ALawThatNeverMeetsATurnKeepsItsOwn) {
+  const auto model = compile(test::scene_from(R"(
+line = ["motor", "gearbox", "mill"]
+motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.2 kg*m2" }
+gearbox = { kind = "gearbox", stages = [{ teeth = [1000, 1009], inertia = ["0 kg*m2", "0 kg*m2"] }] }
+mill = { kind = "load", inertia = "0.3 kg*m2", table = { over = "angle", period = "72 deg", unit = ["deg", "N*m"], points = [[0, 5], [30, 25]] } }
+)"),
+                             {});
+  const CyclePeriod cycle = cycle_of(*model);
+  EXPECT_FALSE(cycle.periodic);
+  EXPECT_DOUBLE_EQ(cycle.angle, 2 * pi);
+  EXPECT_NEAR(cycle.of_laws, 2 * pi * 0.2 * 1.009, 1e-12);
+  EXPECT_DOUBLE_EQ(model->cycle, cycle.of_laws);
 }
 
 // A force over the crank angle, with sharp knots and with rounded ones; the second cylinder stands 90° ahead.
