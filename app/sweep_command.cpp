@@ -194,7 +194,10 @@ void set_up_sweep(CLI::App& command, int& code) {
   command.add_option("--delta", a->delta, "demanded δ, of --of size");
   command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
   command
-      .add_option("--into", a->into, "the database (SQLite) that is filled, or gone on with; on a disk of this machine")
+      .add_option(
+          "--into", a->into,
+          "the database (SQLite) that is filled, or gone on with, on a disk of this machine; what is committed (four "
+          "times a second) survives a kill and, where the disk flushes when told to, a power cut")
       ->required();
   command.add_option("--jobs", a->jobs, "threads (default: one for each core)")->check(thread_count);
   command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");

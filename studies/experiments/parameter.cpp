@@ -135,8 +135,8 @@ namespace {
 }
 
 // "flywheel.inertia [kg*m2]"
-SweptParameter parse_heading(std::string_view cell, const std::string& file, std::size_t line) {
-  SweptParameter p{.path = {}, .given = std::string(cell)};
+SweptParameter parse_heading(std::string_view cell, const std::string& file, std::size_t line, std::size_t column) {
+  SweptParameter p{.path = {}, .given = std::string(cell), .where = fmt::format("{}:{}:{}", file, line, column)};
   const std::size_t bracket = cell.rfind('[');
   // The last bracket is a unit where a blank stands before it; "stages[2].ratio" is a path.
   if (bracket != std::string_view::npos && bracket > 0 && cell[bracket - 1] == ' ' && cell.ends_with(']')) {
@@ -187,7 +187,10 @@ VariantTable parse_variants(const std::string& text, const std::string& file) {
     if (line.empty() || line.starts_with('#')) continue;
     const std::vector<std::string_view> parts = split(line, by);
     if (table.parameters.empty()) {
-      for (const std::string_view part : parts) table.parameters.push_back(parse_heading(part, file, number));
+      for (const std::string_view part : parts) {
+        const auto column = static_cast<std::size_t>(part.data() - line.data()) + 1;
+        table.parameters.push_back(parse_heading(part, file, number, column));
+      }
       continue;
     }
     if (parts.size() != table.parameters.size())

@@ -19,6 +19,7 @@ struct SweptParameter {
   std::vector<double> values = {};              // of a list, in that unit; of words their numbers 0, 1, …
   std::vector<std::string> words = {};          // of a list of words
   std::string given = {};                       // as it was written
+  std::string where = {};                       // of a column: file:line:col of its heading
   std::function<double(double)> quantile = {};  // in place of a range or list: the value at a share of the probability
 
   bool is_list() const { return !values.empty(); }

@@ -125,12 +125,13 @@ void VariedScene::check_ends(std::size_t k) {
       read_with(settings);
     } catch (SceneError& error) {
       std::vector<Message> messages = error.messages;
-      for (Message& m : messages)
-        if (m.file == fmt::format("--set {}", in_quotes(settings.back())))
-          m.file = fmt::format("--vary {}", in_quotes(p.given));
-      for (Message& m : messages)
-        if (m.file.starts_with("--vary") && p.words.empty())
-          m.at = {}, m.text += fmt::format(" (at {})", p.text_of(value));
+      const std::string asked = p.where.empty() ? fmt::format("--vary {}", in_quotes(p.given))
+                                                : fmt::format("{}: {}", p.where, in_quotes(p.given));
+      for (Message& m : messages) {
+        if (m.file != fmt::format("--set {}", in_quotes(settings.back()))) continue;
+        m.file = asked;
+        if (p.words.empty()) m.at = {}, m.text += fmt::format(" (at {})", p.text_of(value));
+      }
       throw SceneError(std::move(messages));
     }
   }

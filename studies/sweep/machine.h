@@ -32,7 +32,7 @@ struct MachineQuestion {
 class VariedScene {
  public:
   // Reads the scene at the ends of every parameter. Throws SceneError for what the reader refuses there, told under
-  // "--vary".
+  // "--vary", or at the column's heading.
   VariedScene(const MachineQuestion& question, const std::vector<SweptParameter>& parameters);
 
   // With these values; valid until the next call. Throws SceneError where they do not go together.

@@ -98,6 +98,13 @@ TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
     EXPECT_NE(said.text.find(c.told), std::string::npos) << c.options << "\n" << said.text;
     EXPECT_FALSE(fs::exists(folder_ / "x.db")) << c.options;
   }
+  // Of a table the heading's place is told.
+  std::ofstream(folder_ / "w.csv") << "spring.stiffness [kN*m/rad],masss.inertia [kg*m2]\n4,1\n";
+  const Said wrong = sweep("--into x.db --variants w.csv");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.text.starts_with("w.csv:1:29: \"masss.inertia [kg*m2]\": the scene has no \"masss\""))
+      << wrong.text;
+  EXPECT_FALSE(fs::exists(folder_ / "x.db"));
   std::ofstream(folder_ / "no.db") << "no database, but a text of some length";
   EXPECT_EQ(sweep("--into no.db " + varied + "--design lhs:4").code, 2);
   EXPECT_EQ(sweep("--into there/is/none.db " + varied + "--design lhs:4").code, 2);
