@@ -156,7 +156,9 @@ void bind_run(py::module_& m) {
 }
 
 void bind_motion(py::module_& m) {
-  py::class_<SavedState>(m, "State", "A moment of a machine as a value; can be pickled, compared, kept as text.")
+  py::class_<SavedState>(
+      m, "State",
+      "A moment of a machine as a value, to compare and to keep: its text is exact, Motion.state_from reads it.")
       .def_property_readonly("time", &SavedState::time, "[s]")
       .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, own states: Motion.state_names")
       .def_property_readonly("text", &SavedState::text, "JSON, exact")
