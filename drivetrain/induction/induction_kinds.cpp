@@ -54,21 +54,20 @@ void check_start(const Motor& m, std::optional<double> synchronous_speed) {
 // The motor on its starter.
 template <class Element>
 void put_started(const std::string& name, const InductionKeys& m, const Element& motor, Network& net, int node) {
-  const double on = m.window.start > Window{}.start ? m.window.start : 0;
   const double limit = m.torque_limit.value_or(HUGE_VAL);
   switch (m.starting) {
     case Starting::direct:
       return net.put(node, name, motor, m.window);
     case Starting::star_delta: {
-      const StarDelta starter{on, m.switch_time.value_or(-1), m.switch_speed.value_or(0), m.pause};
+      const StarDelta starter{m.switch_time.value_or(-1), m.switch_speed.value_or(0), m.pause};
       return net.put(node, name, StartedMotor<Element, StarDelta>{motor, starter, HUGE_VAL}, m.window);
     }
     case Starting::soft_start: {
-      const SoftStart starter{on, m.initial_voltage, *m.ramp};
+      const SoftStart starter{m.initial_voltage, *m.ramp};
       return net.put(node, name, StartedMotor<Element, SoftStart>{motor, starter, limit}, m.window);
     }
     case Starting::frequency_converter: {
-      const FrequencyConverter starter{on, *m.ramp, m.target_speed.value_or(motor.synchronous_speed),
+      const FrequencyConverter starter{*m.ramp, m.target_speed.value_or(motor.synchronous_speed),
                                        motor.synchronous_speed};
       return net.put(node, name, StartedMotor<Element, FrequencyConverter>{motor, starter, limit}, m.window);
     }

@@ -1,5 +1,6 @@
 // started_motor.h — an induction motor on its starter, with a limit of torque:
 //     M = factor · M_c(ω + lag), cut off at ± limit          (factor, lag: starters.h)
+// Whenever it is switched on its start begins anew.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace kurbel {
 template <class Motor, class Starter>
 struct StartedMotor {
   // Two ends of the characteristic's piece, two limits of torque, end of the stage.
-  static constexpr ShaftTraits is{.account = Account::driving, .settles = true, .guards = 5};
+  static constexpr ShaftTraits is{.account = Account::driving, .settles = true, .guards = 5, .starts_anew = true};
   Motor motor;
   Starter starter;
   double torque_limit = HUGE_VAL;  // [N·m], > 0
@@ -24,7 +25,7 @@ struct StartedMotor {
   T torque(const ShaftState<T>& x) const {
     const Mode m = unpacked(x.mode);
     if (m.limit != free) return T(m.limit == upper ? torque_limit : -torque_limit);
-    return unlimited(m, x.t, x.rate);
+    return unlimited(m, x.t - x.on_since, x.rate);
   }
   bool uses_time() const { return starter.uses_time(); }
   bool uses_speed() const { return true; }
@@ -34,15 +35,18 @@ struct StartedMotor {
   void guard(const ShaftState<double>& x, double* g) const {
     const Mode m = unpacked(x.mode);
     std::fill(g, g + is.guards, 1.0);
-    g[4] = std::min(1.0, starter.guard(m.stage, x.t, x.rate));
+    g[4] = std::min(1.0, starter.guard(m.stage, since(x), x.rate));
     if (m.stage < 0) return;  // switched off for a moment
-    motor.guard_piece(m.piece, x.rate + starter.supply(m.stage, x.t).lag, g);
+    motor.guard_piece(m.piece, x.rate + starter.supply(m.stage, since(x)).lag, g);
     if (std::isinf(torque_limit)) return;
-    const double over = unlimited(m, x.t, x.rate) / torque_limit;
+    const double over = unlimited(m, since(x), x.rate) / torque_limit;
     if (m.limit != lower) g[2] = std::min(1.0, m.limit == upper ? over - 1 : 1 - over);
     if (m.limit != upper) g[3] = std::min(1.0, m.limit == lower ? -1 - over : 1 + over);
   }
-  int first_mode(const ShaftState<double>& x) const { return packed(entered(starter.first_stage(x.t, x.rate), x)); }
+  int first_mode(const ShaftState<double>& x) const {
+    return packed(entered(starter.first_stage(since(x), x.rate), x));
+  }
+  int mode_anew(const ShaftState<double>& x) const { return first_mode(x); }
   int next_mode(const ShaftState<double>& x, int which) const {
     Mode m = unpacked(x.mode);
     m.told = nothing;
@@ -52,7 +56,7 @@ struct StartedMotor {
       m.limit = m.limit != free ? free : which == 2 ? upper : lower;
       m.told = torque_limited;
     } else {
-      m = entered(starter.next_stage(m.stage, x.t), x);
+      m = entered(starter.next_stage(m.stage, since(x)), x);
       m.told = new_stage;
     }
     return packed(m);
@@ -65,6 +69,7 @@ struct StartedMotor {
   }
 
  private:
+  static double since(const ShaftState<double>& x) { return x.t - x.on_since; }  // it went on [s]
   enum Limit { free, upper, lower };
   enum Told { nothing, new_stage, torque_limited };  // what the last event was
   struct Mode {
@@ -90,8 +95,8 @@ struct StartedMotor {
   Mode entered(int stage, const ShaftState<double>& x) const {
     Mode m{stage, 0, free, nothing};
     if (stage < 0) return m;
-    m.piece = motor.piece_at(x.rate + starter.supply(stage, x.t).lag);
-    const double torque = unlimited(m, x.t, x.rate);
+    m.piece = motor.piece_at(x.rate + starter.supply(stage, since(x)).lag);
+    const double torque = unlimited(m, since(x), x.rate);
     m.limit = torque > torque_limit ? upper : torque < -torque_limit ? lower : free;
     return m;
   }

@@ -1,6 +1,6 @@
 // starters.h — how an induction motor is brought up to speed: star–delta, soft start, frequency converter.
 //
-// Each says at any time by which factor the motor's torque is scaled and by how much its synchronous speed lies lower:
+// Each says at any time t since the motor was switched on by which factor the motor's torque is scaled and by how much its synchronous speed lies lower:
 //     M(t, ω) = factor · M_c(ω + lag),   M_c the motor's own characteristic at rated voltage and frequency
 // Stages are fixed between events; a stage ends where its guard reaches zero. Sources: Dubey, Fundamentals of
 // Electrical Drives, ch. 6 (starting, variable frequency control); Leonhard, Control of Electrical Drives.
@@ -21,28 +21,25 @@ struct Supply {
 // Star–delta: in star each winding has 1/√3 of the line voltage, M ∝ U², so a third of the torque; then all contacts
 // are open for a pause; then delta. Switched at a time or at a speed.
 struct StarDelta {
-  double switched_on = 0;   // [s]
-  double switch_time = -1;  // after switching on [s]; < 0: by speed
+  double switch_time = -1;  // [s]; < 0: by speed
   double switch_speed = 0;  // [rad/s]
   double pause = 0;         // [s], ≥ 0
   static constexpr int star = 0, delta = 1;
 
   bool by_time() const { return switch_time >= 0; }
   bool uses_time() const { return by_time() || pause > 0; }
-  double settled_from() const { return by_time() ? switched_on + switch_time + pause : -HUGE_VAL; }
+  double settled_from() const { return by_time() ? switch_time + pause : -HUGE_VAL; }
   Supply supply(int stage, double) const { return {stage == star ? 1.0 / 3 : stage == delta ? 1.0 : 0.0, 0}; }
   double guard(int stage, double t, double speed) const {
     if (stage == delta) return 1;
-    if (stage == star)
-      return by_time() ? switched_on + switch_time - t : (switch_speed - speed) / std::abs(switch_speed);
-    return (by_time() ? switched_on + switch_time : since(stage)) + pause - t;
+    if (stage == star) return by_time() ? switch_time - t : (switch_speed - speed) / std::abs(switch_speed);
+    return (by_time() ? switch_time : since(stage)) + pause - t;
   }
   int next_stage(int stage, double t) const { return stage == star && pause > 0 ? waiting(t) : delta; }
   // From the moment alone: a machine that starts above the switching speed starts in delta.
   int first_stage(double t, double speed) const {
     if (!by_time()) return speed >= switch_speed ? delta : star;
-    const double on = t - switched_on;
-    return on < switch_time ? star : on < switch_time + pause ? waiting(switched_on + switch_time) : delta;
+    return t < switch_time ? star : t < switch_time + pause ? waiting(switch_time) : delta;
   }
   std::string name(int stage) const {
     return stage == star ? "in star" : stage == delta ? "switched to delta" : "star opened: no torque";
@@ -56,20 +53,19 @@ struct StarDelta {
 
 // Soft start: thyristors raise the voltage from u₀ to 1 over the ramp; M ∝ u².
 struct SoftStart {
-  double switched_on = 0;      // [s]
   double initial_voltage = 0;  // u₀ over the rated voltage, 0 … 1
   double ramp = 0;             // [s], > 0
   static constexpr int rising = 0, full = 1;
 
   bool uses_time() const { return true; }
-  double settled_from() const { return switched_on + ramp; }
+  double settled_from() const { return ramp; }
   Supply supply(int stage, double t) const {
-    const double u = stage == full ? 1 : initial_voltage + (1 - initial_voltage) * (t - switched_on) / ramp;
+    const double u = stage == full ? 1 : initial_voltage + (1 - initial_voltage) * t / ramp;
     return {u * u, 0};
   }
-  double guard(int stage, double t, double) const { return stage == full ? 1 : (switched_on + ramp - t) / ramp; }
+  double guard(int stage, double t, double) const { return stage == full ? 1 : (ramp - t) / ramp; }
   int next_stage(int, double) const { return full; }
-  int first_stage(double t, double) const { return t - switched_on < ramp ? rising : full; }
+  int first_stage(double t, double) const { return t < ramp ? rising : full; }
   std::string name(int stage) const { return stage == full ? "full voltage" : "voltage rises"; }
 };
 
@@ -78,16 +74,15 @@ struct SoftStart {
 // resistance): the curve shifts parallel, breakdown torque and the slip speed of each torque stay. Above it U stays,
 // and the torque falls with the square of the flux, (f_n/f)².
 struct FrequencyConverter {
-  double switched_on = 0;        // [s]
   double ramp = 0;               // [s], > 0
   double target_speed = 0;       // synchronous speed at its end [rad/s], > 0
   double synchronous_speed = 0;  // at rated frequency [rad/s], > 0
   static constexpr int constant_flux = 0, weak_field = 1, at_target = 2;
 
   bool uses_time() const { return true; }
-  double settled_from() const { return switched_on + ramp; }
+  double settled_from() const { return ramp; }
   double speed_of_field(int stage, double t) const {
-    return stage == at_target ? target_speed : target_speed * (t - switched_on) / ramp;
+    return stage == at_target ? target_speed : target_speed * t / ramp;
   }
   Supply supply(int stage, double t) const {
     const double field = speed_of_field(stage, t);
@@ -95,17 +90,17 @@ struct FrequencyConverter {
     const double flux = weak ? synchronous_speed / field : 1;
     return {flux * flux, synchronous_speed - field};
   }
-  double rated_frequency_at() const { return switched_on + ramp * synchronous_speed / target_speed; }
+  double rated_frequency_at() const { return ramp * synchronous_speed / target_speed; }
   double guard(int stage, double t, double) const {
     if (stage == at_target) return 1;
     const bool knee = stage == constant_flux && target_speed > synchronous_speed;
-    return ((knee ? rated_frequency_at() : switched_on + ramp) - t) / ramp;
+    return ((knee ? rated_frequency_at() : ramp) - t) / ramp;
   }
   int next_stage(int stage, double) const {
     return stage == constant_flux && target_speed > synchronous_speed ? weak_field : at_target;
   }
   int first_stage(double t, double) const {
-    if (t - switched_on >= ramp) return at_target;
+    if (t >= ramp) return at_target;
     return t < rated_frequency_at() ? constant_flux : weak_field;
   }
   std::string name(int stage) const {

@@ -70,7 +70,7 @@ Fields<RheostatKeys> rheostat_fields() {
       .add({.name = "starting_resistances",
             .unit = "Ohm",
             .doc = "in the armature circuit, stage by stage of a start, falling; a sequence may only switch the motor "
-                   "then, and its last stage stays"},
+                   "on and off then, and each start goes through them"},
            &Keys::starting_resistances)
       .add({.name = "switch_current",
             .unit = "A",
@@ -90,9 +90,8 @@ void put_on_rheostat(const RheostatKeys& keys, const std::string& name, Window w
   std::vector<Motor> stages;
   for (const double step : *keys.starting_resistances) stages.push_back(with(resistance + step));
   stages.push_back(with(resistance));
-  const double on = window.start > Window{}.start ? window.start : 0;
   const auto put = [&](auto motor) {
-    motor.stages = std::move(stages), motor.switched_on = on;
+    motor.stages = std::move(stages);
     motor.switch_current = keys.switch_current.value_or(1);
     if (keys.switch_times) motor.times = *keys.switch_times;
     net.put(node, name, std::move(motor), window);

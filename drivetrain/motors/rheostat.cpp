@@ -13,7 +13,7 @@ ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) 
   if (under(motor.stages.back(), effects) == nullptr) return nullptr;
   OnRheostat<std::remove_cvref_t<decltype(motor.stages.back().line)>, when> line;
   for (const Circuit& stage : motor.stages) line.stages.push_back(stage.line);
-  line.switch_current = motor.switch_current, line.times = motor.times, line.switched_on = motor.switched_on;
+  line.switch_current = motor.switch_current, line.times = motor.times;
   return shaft_form(line);
 }
 

@@ -4,7 +4,8 @@
 // The next stage comes when the armature current has fallen to the current of switching, or at given times. By current:
 // with an inductance it rises after each switching to its peak first (where di/dt = 0: it meets the current of steady
 // motion at that speed), then falls; a stage whose peak stays below the current of switching is left at once. A machine
-// that starts turning is already past its peak. Like an induction motor on its starter it takes no commands.
+// that starts turning is already past its peak. Like an induction motor on its starter it is merely on or off; switched
+// on again it has all its resistances again, and no current.
 // Source: G. K. Dubey, Fundamentals of Electrical Drives, ch. 5 (starting of DC motors); theory 4.18.
 #pragma once
 
@@ -26,7 +27,6 @@ struct RheostatStages {
   std::vector<Motor> stages;    // with R + R_1, R + R_2, …, R
   double switch_current = 1;    // [A]
   std::vector<double> times{};  // ends of the stages, after switching on [s]
-  double switched_on = 0;       // [s]
 
  protected:
   static constexpr bool has_peak = Motor::is.states > 0;
@@ -64,6 +64,7 @@ struct RheostatCurrent<Motor, true> : RheostatStages<Motor> {
   void first_states(const ShaftState<double>& x, double* own) const {
     this->motor(this->unpacked(x.mode)).first_states(this->inner(x), own);
   }
+  void switched(const ShaftState<double>& x, double* own) const { this->stages.back().switched(x, own); }
   OwnState state(int k) const { return this->stages.back().state(k); }
 };
 
@@ -72,18 +73,19 @@ template <class Motor, CutOut when>
 struct RheostatTimes : RheostatCurrent<Motor, (Motor::is.states > 0)> {};
 template <class Motor>
 struct RheostatTimes<Motor, CutOut::by_time> : RheostatCurrent<Motor, (Motor::is.states > 0)> {
-  double settled_from() const { return this->switched_on + this->times.back(); }
+  double settled_from() const { return this->times.back(); }
 };
 
 template <class Motor, CutOut when>
 struct OnRheostat : RheostatTimes<Motor, when> {
   using Stages = RheostatStages<Motor>;
-  using Stages::stages, Stages::switch_current, Stages::switched_on, Stages::times;
+  using Stages::stages, Stages::switch_current, Stages::times;
   static constexpr int own_guards = Motor::is.guards;  // then the end of the stage
   static constexpr ShaftTraits is = [] {
     ShaftTraits traits = Motor::is;
     traits.guards += 1;
-    traits.commanded = traits.reversible = traits.feels_switching = false;
+    traits.commanded = traits.reversible = false;
+    traits.starts_anew = true;
     traits.settles = when == CutOut::by_time;
     return traits;
   }();
@@ -103,23 +105,14 @@ struct OnRheostat : RheostatTimes<Motor, when> {
     if (m.stage == last())
       left = 1;
     else if (when == CutOut::by_time)
-      left = switched_on + times[static_cast<std::size_t>(m.stage)] - x.t;
+      left = x.on_since + times[static_cast<std::size_t>(m.stage)] - x.t;
     else if (m.past_peak)
       left = flowing(m, x) / switch_current - 1;
     else
       left = (steady(m, x) - flowing(m, x)) / switch_current;
   }
-  int first_mode(const ShaftState<double>& x) const {
-    Mode m;
-    if (when == CutOut::by_time) {
-      while (m.stage < last() && x.t >= switched_on + times[static_cast<std::size_t>(m.stage)]) ++m.stage;
-    } else if (!has_peak || x.rate != 0) {
-      while (m.stage < last() && steady(m, x) <= switch_current) ++m.stage;
-      m.past_peak = true;
-    }
-    m.own = motor(m).first_mode(x);
-    return packed(m);
-  }
+  int first_mode(const ShaftState<double>& x) const { return begun(x, !has_peak || x.rate != 0); }
+  int mode_anew(const ShaftState<double>& x) const { return begun(x, !has_peak); }
   int next_mode(const ShaftState<double>& x, int which) const {
     Mode m = unpacked(x.mode);
     m.told = false;
@@ -150,6 +143,19 @@ struct OnRheostat : RheostatTimes<Motor, when> {
   using Stages::flowing, Stages::has_peak, Stages::inner, Stages::last, Stages::motor, Stages::packed, Stages::steady,
       Stages::unpacked;
   using Mode = typename Stages::Mode;
+
+  // The first stage that is still to last at this moment.
+  int begun(const ShaftState<double>& x, bool past_peak) const {
+    Mode m;
+    if (when == CutOut::by_time) {
+      while (m.stage < last() && x.t >= x.on_since + times[static_cast<std::size_t>(m.stage)]) ++m.stage;
+    } else if (past_peak || x.rate != 0) {
+      while (m.stage < last() && steady(m, x) <= switch_current) ++m.stage;
+    }
+    m.past_peak = past_peak && when == CutOut::by_current;
+    m.own = motor(m).first_mode(x);
+    return packed(m);
+  }
 };
 
 // Their static laws without the effect "transients".

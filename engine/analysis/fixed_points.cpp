@@ -120,7 +120,8 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
     out.z = round.z;
     if (out.first.size() == 0) out.first = round.z;
     changes.push_back(out.residual);
-    if (out.residual > enough || out.residual <= floor_of_rounds) break;
+    const bool begins_loose = i == 0;  // with the errors of the run that led here
+    if ((out.residual > enough && !begins_loose) || out.residual <= floor_of_rounds) break;
   }
   if (out.residual > enough) {
     out.why = "rounds still change";

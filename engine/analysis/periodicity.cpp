@@ -58,7 +58,8 @@ Periodicity periodicity_of(const Model& m) {
     if (e.element->is.uses_angle && e.element->angle_period > 0)
       angles.push_back({e.element->angle_period / m.scale_ratio[at(e.node)], e.component});
     if (e.element->time_period > 0) times.push_back({e.element->time_period, e.component});
-    result.settled_from = std::max(result.settled_from, e.element->settled_from);
+    const double begins = e.element->is.starts_anew ? e.window.first_on() : 0;
+    result.settled_from = std::max(result.settled_from, begins + e.element->settled_from);
   }
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];

@@ -67,9 +67,12 @@ class Search {
   // Until when something is still to be switched that does not come again [s]; before: nothing.
   double switched_until() const {
     double until = period_.settled_from;
-    for (const Network::ShaftElement& e : m_.network.elements)
+    for (std::size_t i = 0; i < m_.network.elements.size(); ++i) {
+      const Network::ShaftElement& e = m_.network.elements[i];
       for (const double edge : {e.window.start, e.window.stop})
         if (edge < never) until = std::max(until, edge);
+      if (e.element->is.starts_anew) until = std::max(until, state_.modes.on_since[i] + e.element->settled_from);
+    }
     for (const PrescribedSpeed& given : m_.network.prescribed)
       if (!given.time.empty()) until = std::max(until, given.time.back());
     for (const Command& command : state_.modes.command)

@@ -201,7 +201,9 @@ ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivat
   const RunOutcome outcome = integrate(equations_, run, observers);
   cost_ += options_.cycles * (variational ? derivative_cost() : 1.0);
   Image image = judge(outcome, from, begin, equations_);
-  if (!with_derivative || image.end != End::returned) return image;
+  if (image.end != End::returned) return image;
+  in_step_with_sequence(outcome, image);
+  if (!with_derivative) return image;
   if (!variational) {
     differentiate(z, image);
     return image;
@@ -212,6 +214,19 @@ ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivat
   image.uncertain = safely * loose_directions * options_.tolerance;
   image.grazed = sensitivities.grazed();
   return image;
+}
+
+// A sequence that goes round says itself when a round ends: as long after a command as it began. Where a step waits for
+// the motion the period is known only about; by as much as the round ended late the motion is followed back.
+void ReturnMap::in_step_with_sequence(const RunOutcome& outcome, Image& image) {
+  const Modes &now = equations_.modes(), &then = section_->state().modes;
+  if (!own_period_ || !shared_->scene.sequence.repeat || now.next_step != then.next_step) return;
+  const double late = (outcome.t - now.last_step_time) - (section_->state().t - then.last_step_time);
+  std::vector<double> rate(equations_.size());
+  equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);
+  image.z -=
+      late * section_->read_directions(Eigen::Map<const Eigen::VectorXd>(rate.data(), section_->directions().rows()));
+  image.time -= late;
 }
 
 // Where contacts stick and slip within the round, edges of time hang on the state, or a jam ends a motion: central

@@ -100,6 +100,7 @@ class ReturnMap {
   void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);
   void differentiate(const Eigen::VectorXd& z, Image& image);
+  void in_step_with_sequence(const RunOutcome& outcome, Image& image);
   Image judge(const RunOutcome& outcome, double from, double link_begin, Equations& equations) const;
 
   std::shared_ptr<const Model> shared_;

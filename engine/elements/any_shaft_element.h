@@ -27,8 +27,9 @@ class AnyShaftElement {
   bool uses_time = true, uses_speed = true;    // its torque does
   double angle_period = 2 * std::numbers::pi;  // its torque repeats after this angle of its own shaft [rad]
   double time_period = 0;                      // its law over time repeats after this [s]; 0: it does not
-  double settled_from = -HUGE_VAL;             // a law over time without a period holds still from here on [s]
-  bool opens_at_zero = false;                  // told 0 it is off
+  double settled_from =
+      -HUGE_VAL;  // a law over time without a period holds still from here on, or so long after it went on [s]
+  bool opens_at_zero = false;  // told 0 it is off
   std::vector<OwnState> own_states = {};
   int modes = 1;                               // slots for them
   double mean_inertia = 0, least_inertia = 0;  // of a mechanism over a turn, on its own shaft [kg·m²]

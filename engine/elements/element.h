@@ -44,12 +44,15 @@
 // .periodic
 //     double time_period() const;                            M over time repeats after this [s]; 0: it does not
 // .settles
-//     double settled_from() const;                           its law over time holds still from here on [s]
+//     double settled_from() const;                           its law over time holds still from here on, of what starts
+//                                                            anew so long after it went on [s]
 // .stores       energy in its states
 //     double stored(const double* own) const;                [J]
 //     double loss_power(x) const;                            −M ω − dE/dt
 // .feels_switching, with states
 //     void switched(x, double* own) const;                   it went on or off (x.on)
+// .starts_anew, with guards: whenever it goes on its start begins again; it reads x.on_since
+//     int mode_anew(x) const;                                mode in which it goes on, its own states as switched
 //
 // Either may be, with x its local motion (Twist or ShaftState):
 // .guards = n   piecewise
@@ -106,6 +109,7 @@ struct ShaftState {
   double command = 1;      // what an operating sequence says
   const T* own = nullptr;  // states of the element
   bool on = true;          // within its window of time, and not switched off; else its torque counts as nothing
+  double on_since = 0;     // of what starts anew: it went on last [s]
 };
 
 // A state of its own that an element brings.
@@ -146,6 +150,7 @@ struct Hold {
 // When a source or load acts.
 struct Window {
   double start = -1e300, stop = 1e300;  // [s]
+  double first_on() const { return start > Window{}.start ? start : 0; }
 };
 
 // What a connection is; the members that belong to each are told above.
@@ -182,6 +187,7 @@ struct ShaftTraits {
   int states = 0;
   bool stores = false;
   bool feels_switching = false;
+  bool starts_anew = false;
   bool described = false;
   bool other_forms = false;
 };

@@ -17,15 +17,16 @@ namespace kurbel {
 // Where the machine is. Arrays belong to the equations.
 struct Instant {
   double t = 0;
-  const double* angle = nullptr;    // per tracked angle
-  const double* twist = nullptr;    // per elastic connection
-  const double* speed = nullptr;    // per shaft
-  const int* mode = nullptr;        // per element
-  const int* direction = nullptr;   // per shaft
-  const char* active = nullptr;     // per element: within its window of time
-  const int* slip = nullptr;        // per elastic connection: sense of slip, 0 = stuck
-  const double* command = nullptr;  // per command of the operating sequence
-  const double* own = nullptr;      // the elements' own states
+  const double* angle = nullptr;     // per tracked angle
+  const double* twist = nullptr;     // per elastic connection
+  const double* speed = nullptr;     // per shaft
+  const int* mode = nullptr;         // per element
+  const int* direction = nullptr;    // per shaft
+  const char* active = nullptr;      // per element: within its window of time
+  const int* slip = nullptr;         // per elastic connection: sense of slip, 0 = stuck
+  const double* command = nullptr;   // per command of the operating sequence
+  const double* own = nullptr;       // the elements' own states
+  const double* on_since = nullptr;  // per element: it went on last [s]
 };
 
 // What the elements do to the machine at that instant.
@@ -143,6 +144,8 @@ class ElementPool {
   virtual void first_states(const Instant&, double* /*own*/) const {}
   // States of the elements whose `active` is no longer what it was before.
   virtual void switched(const Instant&, const char* /*before*/, double* /*own*/) const {}
+  // Modes of those that went on and start anew.
+  virtual void start_anew(const Instant&, const char* /*before*/, int* /*mode*/) const {}
   // Torques at standstill: what the opposing elements of each shaft can hold.
   virtual void add_holds(const Instant&, Hold* /*per shaft*/, Hold* /*per element*/) const {}
   // What the slipping connections can carry without slipping, and what they carry while they slip.

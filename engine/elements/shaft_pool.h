@@ -172,6 +172,11 @@ class ShaftPool final : public ElementPool {
       for (const Placed& p : placed_)
         if (now.active[p.at.id] != before[p.at.id]) p.element.switched(state(p, now), own + p.at.own);
   }
+  void start_anew(const Instant& now, const char* before, int* mode) const override {
+    if constexpr (E::is.starts_anew)
+      for (const Placed& p : placed_)
+        if (now.active[p.at.id] && !before[p.at.id]) mode[p.at.mode] = p.element.mode_anew(state(p, now));
+  }
   void add_holds(const Instant& now, Hold* shaft, Hold* element) const override {
     if constexpr (Directional<E>)
       for (const Placed& p : placed_) {
@@ -216,6 +221,7 @@ class ShaftPool final : public ElementPool {
     ShaftState<double> x{now.t, angle, p.at.gain * now.speed[p.at.shaft], now.mode[p.at.mode], p.at.direction(now)};
     if constexpr (HasStates<E>) x.own = now.own + p.at.own;
     x.on = now.active[p.at.id] != 0;
+    if constexpr (E::is.starts_anew) x.on_since = now.on_since[p.at.id];
     if constexpr (Commanded<E>)
       if (p.at.command >= 0) x.command = now.command[p.at.command];
     return x;

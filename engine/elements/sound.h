@@ -22,12 +22,13 @@ namespace sound {
 struct Names {
   int hold, capacity, spring_torque, energy, twist_at, stiffness_at_rest, turning_torque, rest_twist, rest_ratio;
   int loss_power, guard, first_mode, next_mode, mode_name, rates, first_states, state, describe;
-  int work_account, angle_period, next_edge, mode_at, time_period, settled_from, stored, switched, opens_at_zero;
+  int work_account, angle_period, next_edge, mode_at, time_period, settled_from, stored, switched, mode_anew,
+      opens_at_zero;
   int turned_mode;  // of a load on a mechanism's output
   // Traits are said in `is`; a member of that name says nothing.
   int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, tells_loss;
   int guards, regularised_mode, states, described, other_forms;
-  int account, directional, reversible, timed, periodic, settles, stores, feels_switching;
+  int account, directional, reversible, timed, periodic, settles, stores, feels_switching, starts_anew;
 };
 template <class E>
 struct Free : E, Names {};
@@ -244,6 +245,12 @@ concept FeelsSwitching = (E::is.feels_switching && E::is.states > 0 &&
                           }) ||
                          (!E::is.feels_switching && requires { &Free<E>::switched; });
 template <class E>
+concept StartsAnew = (E::is.starts_anew && E::is.guards > 0 &&
+                      requires(const E& e, const ShaftState<double>& x) {
+                        { e.mode_anew(x) } -> std::same_as<int>;
+                      }) ||
+                     (!E::is.starts_anew && requires { &Free<E>::mode_anew; });
+template <class E>
 concept OfNoConnection = requires {
   &Free<E>::capacity;
   &Free<E>::spring_torque;
@@ -273,7 +280,7 @@ concept SoundShaftElement = sound::SaysWhatItIs<E, ShaftTraits> && sound::SaysTr
     sound::Directional<E> && sound::Commanded<E> && sound::HasPeriodOfAngle<E> && sound::Timed<E> &&
     sound::Periodic<E> && sound::Settles<E> && sound::Guards<E, ShaftState<double>> &&
     sound::States<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Stores<E> && sound::FeelsSwitching<E> &&
-    sound::Described<E> && sound::OtherForms<E, ShaftForm> && sound::OfNoConnection<E>;
+    sound::StartsAnew<E> && sound::Described<E> && sound::OtherForms<E, ShaftForm> && sound::OfNoConnection<E>;
 
 // What settles into a connection.
 template <class S>
@@ -345,6 +352,7 @@ consteval bool demand_sound_shaft_element() {
                 ".stores, with .states, goes with double stored(const double*) const and double "
                 "loss_power(x) const");
   static_assert(sound::FeelsSwitching<E>, ".feels_switching, with .states, goes with void switched(x, double*) const");
+  static_assert(sound::StartsAnew<E>, ".starts_anew, with .guards, goes with int mode_anew(x) const");
   static_assert(sound::OtherForms<E, ShaftForm>, ".other_forms goes with ShaftForm under(const E&, const Effects&)");
   static_assert(sound::OfNoConnection<E>, "this member belongs to a trait of connections");
   return true;

@@ -65,6 +65,7 @@ Modes unset_modes(const Model& m, std::size_t contacts) {
   modes.piece.assign(m.mode_slots, 0);
   modes.prescribed_piece.assign(m.network.prescribed.size(), 0);
   modes.active.assign(m.network.elements.size(), 1);
+  for (const Network::ShaftElement& e : m.network.elements) modes.on_since.push_back(e.window.first_on());
   modes.direction.assign(m.shafts.size(), 1);
   modes.slip.assign(m.elastic.size(), 1);
   modes.loss_direction.assign(m.relations.size(), 1);

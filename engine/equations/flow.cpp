@@ -142,6 +142,7 @@ void Flow::look_at(double t, std::span<const double> y, Instant& now) {
   now.mode = modes_.piece.data();
   now.direction = modes_.direction.data();
   now.active = modes_.active.data();
+  now.on_since = modes_.on_since.data();
   now.slip = modes_.slip.data();
   now.command = command_value_.data();
   now.own = y.data() + own_begin();

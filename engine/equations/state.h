@@ -27,6 +27,7 @@ struct Modes {
   std::vector<int> piece;             // of the elements' laws, as many as an element asks for
   std::vector<int> prescribed_piece;  // per prescribed speed
   std::vector<char> active;           // per element: within its window of time, and switched on
+  std::vector<double> on_since;       // per element: it went on last [s]
   std::vector<int> direction;         // per shaft: sense of motion, 0 = held; 1 where nothing opposes motion
   std::vector<int> slip;              // per elastic joint: sense of slip, 0 = stuck; 1 where there is no contact
   std::vector<int> loss_direction;    // per relation: sense of sliding of a gear with losses

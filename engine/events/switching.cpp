@@ -9,6 +9,8 @@
 namespace kurbel {
 
 void Switching::begin(double t, std::span<double> y) {
+  const std::vector<Network::ShaftElement>& elements = flow_.model().network.elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) flow_.changing_modes().on_since[e] = elements[e].window.first_on();
   if (sequence_.begin(flow_.changing_modes(), t, y)) take_steps(t, y, nullptr);
   set_timed_modes(t);
 }
@@ -36,9 +38,14 @@ void Switching::take_steps(double t, std::span<double> y, EventLog* log) {
 }
 
 void Switching::tell_switched(double t, std::span<double> y, const std::vector<char>& before) {
-  if (flow_.modes().active == before) return;
-  for (const auto& pool : flow_.model().pools)
+  Modes& modes = flow_.changing_modes();
+  if (modes.active == before) return;
+  for (std::size_t e = 0; e < before.size(); ++e)
+    if (modes.active[e] && !before[e]) modes.on_since[e] = t;
+  for (const auto& pool : flow_.model().pools) {
     pool->switched(flow_.instant(t, y), before.data(), y.data() + flow_.own_begin());
+    pool->start_anew(flow_.instant(t, y), before.data(), modes.piece.data());
+  }
 }
 
 void Switching::pass_edge(double t, std::span<double> y, EventLog& log) {

@@ -11,9 +11,9 @@
 namespace kurbel {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Command, value, rate, from, until, to, law, piece)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, direction, slip, loss_direction, loss_sign,
-                                   regularised, carries, capacity, turns, first_two_turns, command, next_step,
-                                   armed_time, armed_angle, last_step_time)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_since, direction, slip, loss_direction,
+                                   loss_sign, regularised, carries, capacity, turns, first_two_turns, command,
+                                   next_step, armed_time, armed_angle, last_step_time)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
                                    last_step, recent, held_needed)
@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 2";
+const char* const kind = "kurbel checkpoint 3";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;
@@ -39,13 +39,14 @@ void check(const Checkpoint& c, const Equations& equations) {
   const auto alike = [](const auto& a, const auto& b) { return a.size() == b.size(); };
   const Modes &m = c.state.modes, &own = equations.modes();
   const bool fits = alike(m.piece, own.piece) && alike(m.prescribed_piece, own.prescribed_piece) &&
-                    alike(m.active, own.active) && alike(m.direction, own.direction) && alike(m.slip, own.slip) &&
+                    alike(m.active, own.active) && alike(m.on_since, own.on_since) &&
+                    alike(m.direction, own.direction) && alike(m.slip, own.slip) &&
                     alike(m.loss_direction, own.loss_direction) && alike(m.loss_sign, own.loss_sign) &&
                     alike(m.regularised, own.regularised) && alike(m.carries, own.carries) &&
                     alike(m.capacity, own.capacity) && alike(m.turns, own.turns) && alike(m.command, own.command);
   if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
   const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
-                     all_finite(m.capacity) && all_finite(m.turns) &&
+                     all_finite(m.capacity) && all_finite(m.on_since) && all_finite(m.turns) &&
                      std::all_of(c.observers.begin(), c.observers.end(), all_finite) &&
                      m.next_step <= equations.model().scene.sequence.steps.size();
   const auto pieces = [](const std::vector<int>& list) {

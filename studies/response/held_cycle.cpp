@@ -225,6 +225,7 @@ class Search {
   // The same modes, with the holding torques among the elements.
   static State on(const Model& model, State state) {
     state.modes.active.resize(model.network.elements.size(), 1);
+    state.modes.on_since.resize(model.network.elements.size(), 0);
     return state;
   }
 

@@ -68,11 +68,11 @@ TEST(ShaftElements, DerivativesAreExact) {
   expect_exact_derivatives(by_points, 200);
   const InductionMotor kloss = InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0, 1);
   for (const double limit : {100.0, HUGE_VAL}) {
-    expect_exact_derivatives(StartedMotor<InductionMotor, StarDelta>{kloss, {0, 2, 0, 0.5}, limit}, 200);
-    expect_exact_derivatives(StartedMotor<CatalogueMotor, StarDelta>{by_points, {0, -1, 120, 0}, limit}, 200);
-    expect_exact_derivatives(StartedMotor<CatalogueMotor, SoftStart>{by_points, {0, 0.3, 1.5}, limit}, 200);
+    expect_exact_derivatives(StartedMotor<InductionMotor, StarDelta>{kloss, {2, 0, 0.5}, limit}, 200);
+    expect_exact_derivatives(StartedMotor<CatalogueMotor, StarDelta>{by_points, {-1, 120, 0}, limit}, 200);
+    expect_exact_derivatives(StartedMotor<CatalogueMotor, SoftStart>{by_points, {0.3, 1.5}, limit}, 200);
     expect_exact_derivatives(
-        StartedMotor<CatalogueMotor, FrequencyConverter>{by_points, {0, 1.5, 300, by_points.synchronous_speed}, limit},
+        StartedMotor<CatalogueMotor, FrequencyConverter>{by_points, {1.5, 300, by_points.synchronous_speed}, limit},
         200);
   }
   const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
@@ -256,7 +256,7 @@ TEST(Motors, DriveBetweenStandstillAndTheirNoLoadSpeed) {
   expect_drives_between_standstill_and(InductionMotor::from_catalogue(15e3, 152.9, 157.08, 3, 0.7, 0.9), 157.08, 400);
   expect_drives_between_standstill_and(motor_by_points(), 157.08, 400);
   expect_drives_between_standstill_and(
-      StartedMotor<CatalogueMotor, StarDelta>{motor_by_points(), {0, 2, 0, 0.5}, HUGE_VAL}, 157.08, 400);
+      StartedMotor<CatalogueMotor, StarDelta>{motor_by_points(), {2, 0, 0.5}, HUGE_VAL}, 157.08, 400);
   expect_drives_between_standstill_and(PneumaticMotor{20, 60, 0.4}, 60, 100);
   const HydraulicMotor hydraulic{1e-5, 2e7, 1e-3, 0.9, 0.9, 2e6};
   expect_drives_between_standstill_and(TorqueOverSpeed{Account::driving, hydraulic.curve(), 1}, 100, 300);

@@ -220,10 +220,23 @@ TEST(StarDelta, CountsFromSwitchingOn) {
   EXPECT_NEAR(figure(r, "final_speed.motor"), k.ws * (1 - k.slip_after(k.slip_after(1, 2.0 / 3), 0.4)), 1e-9 * k.ws);
 }
 
+// Off in the middle of star and on again: two seconds of star again, not what was left of them.
+TEST(StarDelta, BeginsAnewWheneverItIsSwitchedOn) {
+  const KlossStart k;
+  const std::string scene =
+      k.scene("starting = \"star-delta\"\nswitch_time = \"2 s\"\npause = \"50 ms\"", 1 + 2.05 + 0.4);
+  const Result r = run(scene + R"([sequence]
+steps = [{ at = "0.5 s", set = "motor", to = 0 }, { at = "1 s", set = "motor", to = 1 }]
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double star = k.slip_after(k.slip_after(1, 0.5 / 3), 2.0 / 3);
+  EXPECT_NEAR(figure(r, "final_speed.motor"), k.ws * (1 - k.slip_after(star, 0.4)), 1e-9 * k.ws);
+}
+
 // Half speed of a fan in star: a third of the torque is all that the machine sees; no pause, no step in speed.
 TEST(StarDelta, GivesAThirdOfTheTorqueInStarAndAllInDelta) {
   const InductionMotor motor = InductionMotor::from_catalogue(15e3, 152.9, 157.08, 2.8, 0, 1);
-  const StartedMotor<InductionMotor, StarDelta> started{motor, {0, 1, 0, 0.1}, HUGE_VAL};
+  const StartedMotor<InductionMotor, StarDelta> started{motor, {1, 0, 0.1}, HUGE_VAL};
   for (const double speed : {-20.0, 0.0, 100.0, 150.0, 170.0}) {
     const auto torque = [&](double t) {
       ShaftState<double> x{t, 0, speed, 0, 1};
@@ -294,7 +307,7 @@ double converted_torque(const Converted& motor, double t, double speed) {
 TEST(FrequencyConverter, ShiftsTheCurveAndWeakensItAboveRatedFrequency) {
   const InductionMotor motor = InductionMotor::from_catalogue(15e3, 152.9, 157.08, 2.8, 0, 1);
   const double ws = motor.synchronous_speed, slip_speed = ws * motor.breakdown_slip;
-  const Converted started{motor, {0, 10, 2.5 * ws, ws}, HUGE_VAL};
+  const Converted started{motor, {10, 2.5 * ws, ws}, HUGE_VAL};
   for (const double f : {0.1, 0.4, 0.9}) {  // over the rated frequency
     const double t = 10 * f / 2.5;
     EXPECT_NEAR(converted_torque(started, t, f * ws - slip_speed), motor.breakdown_torque,
@@ -370,6 +383,7 @@ void expect_finite_within_limit(const Motor& motor, const Starter& starter, doub
   std::uniform_real_distribution<double> time(-1, 12), speed(-3, 5);
   for (int i = 0; i < 3000; ++i) {
     ShaftState<double> x{time(random), 0, speed(random) * motor.synchronous_speed, 0, 1};
+    x.on_since = -0.5;
     x.mode = started.first_mode(x);
     const double torque = started.torque(x);
     EXPECT_TRUE(std::isfinite(torque)) << x.t << " s, " << x.rate;
@@ -385,11 +399,11 @@ TEST(StartedMotors, TorqueIsFiniteAndWithinItsLimitEverywhere) {
       .starting_torque = 210, .breakdown = {135, 290}, .rated = {153, 98}, .synchronous_speed = 157.08};
   const CatalogueMotor catalogue{points.curve(), 157.08, 98};
   for (const double limit : {70.0, HUGE_VAL}) {
-    expect_finite_within_limit(kloss, StarDelta{1, 4, 0, 0.3}, limit);
-    expect_finite_within_limit(catalogue, StarDelta{1, -1, 120, 0.3}, limit);
-    expect_finite_within_limit(catalogue, SoftStart{0, 0, 5}, limit);
-    expect_finite_within_limit(kloss, FrequencyConverter{0, 5, 420, 157.08}, limit);
-    expect_finite_within_limit(catalogue, FrequencyConverter{0, 5, 80, 157.08}, limit);
+    expect_finite_within_limit(kloss, StarDelta{4, 0, 0.3}, limit);
+    expect_finite_within_limit(catalogue, StarDelta{-1, 120, 0.3}, limit);
+    expect_finite_within_limit(catalogue, SoftStart{0, 5}, limit);
+    expect_finite_within_limit(kloss, FrequencyConverter{5, 420, 157.08}, limit);
+    expect_finite_within_limit(catalogue, FrequencyConverter{5, 80, 157.08}, limit);
   }
 }
 

@@ -165,6 +165,52 @@ TEST(Rheostat, StagesThatDoNothingArePassedOver) {
   EXPECT_NEAR(test::series(r, "torque.motor")[0], 1.4 * (150 - 1.4 * 60) / 0.7, 1e-9);
 }
 
+// Off at 3 s, on at 8 s: the weight has slowed it down by 100 rad/s, and the stages that suit that speed come again.
+TEST(Rheostat, IsInTheCircuitAgainAtEachStart) {
+  const std::string twice = with(hoist, "until = \"6 s\"", "until = \"12 s\"") + R"([sequence]
+steps = [{ at = "3 s", set = "motor", to = 0 }, { at = "8 s", set = "motor", to = 1 }]
+)";
+  const Result r = run(with(twice, "samples = 601", "samples = 1201"));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const auto speed = test::series(r, "speed.motor"), torque = test::series(r, "torque.motor");
+  EXPECT_NEAR(speed[300] - speed[799], 4.99 * 60 / 3, 1e-6);
+  const double at_start = speed[799] - 0.2;  // at 8 s
+  double added = 0;                          // the first stage in which more than 90 A flow
+  for (const Real step : {0.12L, 0.3L, 0.6L, 1.0L, 1.6L})
+    if (220 - 1.4 * at_start > 90 * (0.4 + static_cast<double>(step))) added = static_cast<double>(step);
+  ASSERT_GT(added, 0.5);
+  const auto last_row = static_cast<std::size_t>(801);
+  EXPECT_NEAR(torque[last_row], 1.4 * (220 - 1.4 * speed[last_row]) / (0.4 + added), 1e-6);
+  EXPECT_GT(stage_events(r).size(), 6U);
+  EXPECT_GT(stage_events(r)[5].t, 8);
+
+  // With its inductance the current begins at zero again, and no jump of it goes into the machine.
+  const Result slow =
+      run(with(twice, "switch_current = \"90 A\"", "switch_current = \"90 A\"\ninductance = \"20 mH\""));
+  ASSERT_TRUE(slow.complete) << slow.diagnosis;
+  EXPECT_EQ(stage_events(slow).size(), stage_events(r).size());
+  EXPECT_LT(slow.energy.relative, 1e-8);
+  const auto current = test::series(slow, "current.motor"), time = slow.trajectory->time();
+  for (std::size_t row = 0; row < time.size(); ++row)
+    if (time[row] > 3.001 && time[row] < 7.999) {
+      EXPECT_EQ(current[row], 0) << time[row];
+    }
+}
+
+// Its times count from each start.
+TEST(Rheostat, TimesCountFromEachStart) {
+  const Result r = run(with(with(hoist, "switch_current = \"90 A\"",
+                                 "switch_times = [\"0.5 s\", \"0.9 s\", \"1.2 s\", \"1.4 s\", \"1.5 s\"]"),
+                            "[run]",
+                            "[sequence]\nsteps = [{ at = \"2 s\", set = \"motor\", to = 0 }, { at = \"3 s\", set = "
+                            "\"motor\", to = 1 }]\n[run]"));
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const std::vector<Event> events = stage_events(r);
+  ASSERT_EQ(events.size(), 10U);
+  const double ends[] = {0.5, 0.9, 1.2, 1.4, 1.5};
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(events[5 + k].t, 3 + ends[k], 1e-12);
+}
+
 TEST(Rheostat, JacobianEqualsDifferences) {
   for (const char* more : {"", "inductance = \"20 mH\"\n"})
     test::expect_exact_jacobian_near_start(
