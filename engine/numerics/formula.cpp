@@ -103,6 +103,11 @@ bool may_touch(const Formula::Node& node) {
   return node.op == FormulaOp::power && node.number > 1 && node.number != std::round(node.number);
 }
 
+// Undefined at one place, defined on both sides of it.
+bool has_pole(const Formula::Node& node) {
+  return node.op == FormulaOp::divide || node.op == FormulaOp::tan || (node.op == FormulaOp::power && node.number < 0);
+}
+
 // Why a function of one operand has no value there; empty: it has.
 std::string not_defined(FormulaOp op, double a, double n) {
   switch (op) {
@@ -198,8 +203,11 @@ Formula::Range Formula::choose_over(const Node& node, const std::vector<Range>& 
     r.split = r.split || asked.split;
     return r;
   }
-  r = {std::min(yes.low, no.low), std::max(yes.high, no.high), true,
-       asked.outside >= 0 ? asked.outside : std::max(yes.outside, no.outside)};
+  r = {std::min(yes.low, no.low), std::max(yes.high, no.high), true, std::max(yes.outside, no.outside)};
+  if (asked.outside < 0) return r;
+  // What is asked must be computed on every branch; its slope nobody asks for.
+  r.outside = asked.outside;
+  r.split = asked.split || !has_pole(nodes_[static_cast<std::size_t>(asked.outside)]);
   return r;
 }
 

@@ -262,6 +262,9 @@ TEST(Formula, ABranchThatIsNotTakenNeedNoValue) {
 
 TEST(Formula, LeavingItsDomainIsToldBeforeAnyRun) {
   EXPECT_NE(fault_of("1/x", -1, 1).find("division by 0"), std::string::npos);
+  EXPECT_NE(fault_of("max(x - 1, x/x)", -2, 2).find("division by 0"), std::string::npos);  // at the middle of its range
+  EXPECT_EQ(fault_of("if(x > 0, 1/x, 0)", -2, 2), "");                                     // not on the branch taken
+  EXPECT_EQ(fault_of("if(sqrt(x) > 1, 1, x)", 0, 3), "");
   EXPECT_NE(fault_of("1/(x - 0.3)", -1, 1).find("division by 0"), std::string::npos);
   EXPECT_NE(fault_of("log(x)", -1, 1).find("logarithm of -1"), std::string::npos);
   EXPECT_NE(fault_of("sqrt(1 - x)", 0, 2).find("root of -"), std::string::npos);

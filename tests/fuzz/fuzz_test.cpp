@@ -30,6 +30,8 @@ TEST(Fuzz, EveryTextIsReadOrRefusedWithAPlace) { Attack("reader").expect_no_faul
 
 TEST(Fuzz, EveryTableIsReadOrRefusedWithAPlace) { Attack("csv").expect_no_fault(1, 3000); }
 
+TEST(Fuzz, EveryFormulaIsComputedOrRefusedWithAColumn) { Attack("formula").expect_no_fault(1, 2000); }
+
 TEST(Fuzz, EverySceneThatCanBeReadIsCompiledOrRefusedWithAPlace) { Attack("compile").expect_no_fault(1, 1200); }
 
 TEST(Fuzz, EveryMachineRunsOrSaysWhyNot) { Attack("run").expect_no_fault(1, 25); }

@@ -41,11 +41,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
   kurbel::fuzz::Random random(seed);
-  const bool is_table = target().judge == kurbel::fuzz::judge_csv;
-  if (random.chance(is_table ? 0.5 : 0.1)) return LLVMFuzzerMutate(data, size, most);
-  std::string text = text_of(data, size);
-  text =
-      is_table ? kurbel::fuzz::mutated_table(text, random) : kurbel::fuzz::mutated_scene(text, random, target().style);
+  const bool is_scene = target().mutated == kurbel::fuzz::mutated_scene;
+  if (random.chance(is_scene ? 0.1 : 0.5)) return LLVMFuzzerMutate(data, size, most);
+  std::string text = target().mutated(text_of(data, size), random, target().style);
   text.resize(std::min(text.size(), most));
   std::memcpy(data, text.data(), text.size());
   return text.size();

@@ -372,7 +372,7 @@ std::string mutated_scene(const std::string& text, Random& random, const Mutatio
   return changed;
 }
 
-std::string mutated_table(const std::string& text, Random& random) {
+std::string mutated_table(const std::string& text, Random& random, const MutationStyle&) {
   std::string changed = text;
   static const std::vector<std::string> cells = {",",  ";", "\t", "\n", "\r\n",   "1e999", "nan",          "0,5",
                                                  "\"", "#", "-",  "+1", "1e-320", "x",     "\xEF\xBB\xBF", "1 000"};
@@ -389,7 +389,7 @@ std::string scene_input(std::uint64_t seed, const MutationStyle& style) {
   const std::string& text = random.one_of(style.bad_ones_too ? all_scenes() : good_scenes()).text;
   return mutated_scene(text, random, style);
 }
-std::string table_input(std::uint64_t seed) {
+std::string table_input(std::uint64_t seed, const MutationStyle&) {
   Random random(seed);
   return mutated_table(random.one_of(tables()).text, random);
 }

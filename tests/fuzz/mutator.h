@@ -16,10 +16,10 @@ struct MutationStyle {
 };
 
 std::string mutated_scene(const std::string& text, Random& random, const MutationStyle& style = {});
-std::string mutated_table(const std::string& text, Random& random);
+std::string mutated_table(const std::string& text, Random& random, const MutationStyle& = {});
 
 // The input that belongs to a number: a seed, changed.
 std::string scene_input(std::uint64_t seed, const MutationStyle& style);
-std::string table_input(std::uint64_t seed);
+std::string table_input(std::uint64_t seed, const MutationStyle& = {});
 
 }  // namespace kurbel::fuzz

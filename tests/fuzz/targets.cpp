@@ -26,6 +26,7 @@
 #include "studies/scenes/kinds.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady_findings.h"
+#include "tests/fuzz/formulas.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/seeds.h"
 
@@ -271,13 +272,16 @@ const std::vector<Target>& targets() {
        judge_run,
        6 * run_budget + 4},
       {"study", "does every other verb answer or refuse?", {0.1, 0.01, 3, false}, judge_study, 20 * run_budget + 8},
-      {"csv", "is every table read or refused with a place?", {}, judge_csv, 2},
+      {"csv", "is every table read or refused with a place?", {}, judge_csv, 2, table_input, mutated_table},
+      {"formula",
+       "is every formula computed, or refused with a column?",
+       {},
+       judge_formula,
+       3,
+       formula_input,
+       mutated_formula},
   };
   return list;
-}
-
-std::string input_of(const Target& target, std::uint64_t number) {
-  return target.judge == judge_csv ? table_input(number) : scene_input(number, target.style);
 }
 
 const Target* target_named(const std::string& name) {

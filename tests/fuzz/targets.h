@@ -17,6 +17,8 @@ struct Target {
   MutationStyle style;  // of its inputs
   std::string (*judge)(const std::string& input);
   double patience;  // processor time after which an input counts as endless [s]
+  std::string (*input)(std::uint64_t number, const MutationStyle& style) = scene_input;
+  std::string (*mutated)(const std::string& text, Random& random, const MutationStyle& style) = mutated_scene;
 };
 
 std::string judge_reader(const std::string& text);
@@ -29,7 +31,7 @@ const std::vector<Target>& targets();
 const Target* target_named(const std::string& name);
 
 // The input of a target that belongs to a number.
-std::string input_of(const Target& target, std::uint64_t number);
+inline std::string input_of(const Target& target, std::uint64_t number) { return target.input(number, target.style); }
 
 // Processor time that a short run may take for each integration [s].
 inline constexpr double run_budget = 0.1;
