@@ -65,7 +65,8 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--diameter", arguments->diameter, "outer diameter (default: by proportion)");
   command.add_option("--rim-speed", arguments->rim_speed, "limit, e.g. \"30 m/s\" (default: the material's)");
   command.add_option("--sheet", arguments->sheet, "length of the diagrams for their scales, e.g. \"240 mm\"");
-  command.add_flag("!--no-simulation", o.simulate, "do not look for the regime of the sized machine");
+  command.add_flag_callback(
+      "--no-simulation", [&o] { o.simulate = false; }, "do not look for the regime of the sized machine");
   command.callback([&code, arguments] { code = size_scene(*arguments); });
 }
 

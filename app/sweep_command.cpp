@@ -281,7 +281,9 @@ void set_up_uncertainty(CLI::App& command, int& code) {
   command.add_option("--seed", a->options.seed, "of what is drawn (default: 1)");
   command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)")->check(thread_count);
   command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: none is undecided then");
-  command.add_flag("!--no-trials", a->options.biases, "skip the runs that try, one by one, the effects that are off");
+  command.add_flag_callback(
+      "--no-trials", [a] { a->options.biases = false; },
+      "skip the runs that try, one by one, the effects that are off");
   command.callback([&code, a] { code = uncertainty(*a); });
 }
 

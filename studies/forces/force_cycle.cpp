@@ -208,9 +208,12 @@ constexpr double nothing_left = 1e-9;
 
 // Why the works of a cycle make no efficiency; empty: they do.
 std::string why_no_efficiency(const ForceCycle& c, double spent, double uncertain) {
-  constexpr double enough = 1e-3;  // of what is spent: an efficiency is not to be less certain
-  if (!(uncertain <= enough * spent))
+  constexpr double nothing = 0.5, enough = 0.05;  // of what is spent: an efficiency is not to be less certain
+  if (!(uncertain <= nothing * spent))
     return "no work goes through the mechanism in a cycle beyond its error: what its parts take they give back";
+  if (uncertain > enough * spent)
+    return fmt::format("the works of the cycle, {} spent, are only known to within {} together",
+                       with_unit(spent, "J", 4), with_unit(uncertain, "J", 2));
   if (!(c.useful > uncertain))
     return c.harmful > 0 ? "no useful work is done: what goes in is lost" : "no useful work is done";
   return "";

@@ -37,6 +37,13 @@ std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
 
 bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
 
+// With its error where that shows.
+std::string efficiency_text(const ForceCycle& c) {
+  constexpr double shows = 5e-5;
+  return c.efficiency_error > shows ? fmt::format("{:.3g} ± {:.1g} %", 100 * *c.efficiency, 100 * c.efficiency_error)
+                                    : fmt::format("{:.4g} %", 100 * *c.efficiency);
+}
+
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
   const Peak& bearing = c.reaction[0];
@@ -50,7 +57,7 @@ std::string conclusion_of(const Forces& f) {
                                                                     in_words(c.torque, "N*m"), at_angle(c.torque)),
                                  in_words(c.shaking_force, "N"));
   if (has_friction(f))
-    text += c.efficiency ? fmt::format("; efficiency of the cycle {:.4g} %{}", 100 * *c.efficiency,
+    text += c.efficiency ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
                                        c.harmful > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful, "J", 4),
                                                                    with_unit(c.spent, "J", 4))
                                                      : "")
@@ -324,8 +331,8 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
             FormulaCard{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
                         .symbols = "η = A_useful / (A_in − ΔT)",
                         .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
-                        .note = fmt::format("Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", c.harmful,
-                                            c.kinetic_change)});
+                        .note = fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
+                                            efficiency_text(c), c.harmful, c.kinetic_change)});
   else
     to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
                      .body = c.no_efficiency + "."});

@@ -209,7 +209,7 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
   return figures;
 }
 
-Findings findings_of(const Result& r) {
+Findings findings_of(const Result& r, const Result* rigid) {
   Findings f{
       .title = r.title,
       .subtitle = fmt::format("{} model, {}", r.label, r.effects == "none" ? "no effects on" : "effects: " + r.effects),
@@ -224,8 +224,9 @@ Findings findings_of(const Result& r) {
   f.answer(Question::figures, capitalised(figures_in_words(r)));
   f.brief = brief_of(r);
   f.figures = key_figures_of(r);
-  show_motion(f, {&r});
+  show_motion(f, rigid && drawable({rigid}) ? Results{rigid, &r} : Results{&r});
   const Chapter figures = f.chapter("Figures");
+  f.chapter(chapter_of_rigid);
   f.chapter(chapter_of_trials);
   const Chapter notes = f.chapter("Notes");
   f.say(figures, Sentences{.lines = model_words(r), .page = false});

@@ -10,13 +10,15 @@
 namespace kurbel {
 
 // Files: trajectory.csv, of a comparison one per model. The result must outlive the findings.
-Findings findings_of(const Result& result);
+// `rigid`: the same machine without elasticity, drawn behind it.
+Findings findings_of(const Result& result, const Result* rigid = nullptr);
 Findings findings_of(const Comparison& comparison);
 // What the page begins with.
 std::vector<KeyFigure> key_figures_of(const Result& result);
 std::vector<KeyFigure> key_figures_of(const Comparison& comparison);
-// A chapter of both behind the figures, for whoever has tried the effects that are off; empty, it is not shown.
-inline constexpr const char* chapter_of_trials = "Effects that are off";
+// Chapters behind the figures, for whoever has tried the rigid machine or the effects that are off; empty, they are not
+// shown.
+inline constexpr const char *chapter_of_rigid = "The rigid machine", *chapter_of_trials = "Effects that are off";
 
 // --- words (run_words.cpp) ---
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/numerics/deadline.h"
 #include "studies/run/run_findings.h"
@@ -48,7 +49,24 @@ class TrialRuns {
  public:
   TrialRuns(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options)
       : run_(run), names_(key_figures), options_(options), end_(processor_time() + allowance(run)) {
-    options_.traces = options_.keep_state = false;
+    options_.keep_state = false;
+    draws_ = std::exchange(options_.traces, false);
+  }
+
+  // The run's machine without elasticity, before all others.
+  void compare_with_rigid() {
+    if (!is_elastic(*run_.model) || !why_none(run_, options_).empty()) return;
+    try {
+      const Effects rigid = models_to_compare(run_.model->scene, run_.model->effects).a;
+      trials_.rigid = Trial{.effect = {.name = "rigid", .words = "the rigid machine", .effects = rigid}};
+    } catch (const std::exception&) {  // it makes no machine: there is nothing to compare with
+      return;
+    }
+    SimulateOptions options = options_;
+    options.traces = draws_;
+    run(
+        *trials_.rigid, [&] { return compile(run_.model->scene, trials_.rigid->effect.effects); }, options);
+    if (stopped() || spent()) trials_.rigid.reset();
   }
 
   Trials all() {
@@ -75,24 +93,32 @@ class TrialRuns {
 
   void try_one(OffEffect effect) {
     Trial trial{.effect = std::move(effect)};
-    const Deadline deadline(std::max(end_ - processor_time(), 1e-3), options_.watch.interrupted);
+    run(
+        trial, [&] { return machine_with(run_.model->scene, run_.model->effects, trial.effect); }, options_);
+    if (!trial.failed.empty() && (stopped() || spent())) return leave(trial.effect, why_ended());
+    trials_.tried.push_back(std::move(trial));
+  }
+
+  template <class Machine>
+  void run(Trial& trial, const Machine& machine, const SimulateOptions& options) {
+    const Deadline deadline(std::max(end_ - processor_time(), 1e-3), options.watch.interrupted);
     try {
-      const auto machine = machine_with(run_.model->scene, run_.model->effects, trial.effect);
-      trial.result = simulate(machine, "trial with " + trial.effect.words, options_);
+      const std::shared_ptr<const Model> model = machine();
+      trial.result =
+          simulate(model, trial.effect.name == "rigid" ? "rigid" : "trial with " + trial.effect.words, options);
       if (!trial.result.complete) trial.failed = in_one_line(trial.result.diagnosis);
     } catch (const OutOfTime&) {
       trial.failed = why_ended();
     } catch (const std::exception& error) {
       trial.failed = in_one_line(error.what());
     }
-    if (!trial.failed.empty() && (stopped() || spent())) return leave(trial.effect, why_ended());
     if (trial.failed.empty()) trial.changes = changes_of(run_, trial.result, names_);
-    trials_.tried.push_back(std::move(trial));
   }
 
   const Result& run_;
   const std::vector<std::string>& names_;
   SimulateOptions options_;
+  bool draws_ = false;
   double end_;  // processor time of the process [s]
   Trials trials_;
 };
@@ -119,8 +145,12 @@ Trials try_effects(const Result& run, const std::vector<std::string>& key_figure
 }
 
 WithTrials<Result> with_trials(Result run, const SimulateOptions& options) {
-  Trials trials = try_effects(run, names_of(key_figures_of(run), run), options);
-  return {std::move(run), std::move(trials)};
+  if (!run.complete || !run.model) return {std::move(run), {}};
+  const std::vector<std::string> names = names_of(key_figures_of(run), run);
+  TrialRuns trials(run, names, options);
+  trials.compare_with_rigid();
+  Trials all = trials.all();
+  return {std::move(run), std::move(all)};
 }
 
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options) {

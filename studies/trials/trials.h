@@ -1,7 +1,8 @@
 // trials.h — effects that have data in the scene and are off: one run each with it on, at the run's own settings, says
-// which of them would move a key figure, and by how much.
+// which of them would move a key figure, and by how much; and of an elastic run what the rigid machine would have told.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,7 @@ struct NotTried {
 };
 
 struct Trials {
+  std::optional<Trial> rigid = {};  // of an elastic run: the same machine without elasticity, with traces to draw
   std::vector<Trial> tried;
   std::vector<NotTried> not_tried;
 };
@@ -51,7 +53,7 @@ struct WithTrials {
   Study study;
   Trials trials;
 };
-WithTrials<Result> with_trials(Result run, const SimulateOptions& options);
+WithTrials<Result> with_trials(Result run, const SimulateOptions& options);  // and with the rigid machine
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options);
 
 }  // namespace kurbel

@@ -124,6 +124,59 @@ std::vector<const Trial*> moving_most_first(const Trials& trials) {
   return moving;
 }
 
+Chapter chapter_named(Findings& f, const char* title) {
+  const auto found = std::find(f.chapters.begin(), f.chapters.end(), title);
+  return found == f.chapters.end() ? f.chapter(title) : static_cast<Chapter>(found - f.chapters.begin());
+}
+
+// --- the rigid machine ---
+
+// What the rigid model would tell otherwise, the surely greatest first.
+void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
+  const auto differs = std::find_if(rigid.changes.begin(), rigid.changes.end(), changes_the_answer);
+  if (!rigid.failed.empty()) {
+    if (f.brief) f.brief->words.push_back("the rigid machine: its run failed: " + rigid.failed);
+  } else if (differs == rigid.changes.end()) {
+    if (f.brief)
+      f.brief->words.push_back(fmt::format("the rigid model would do: its key figures differ by less than {:g} %",
+                                           100 * least_that_changes_the_answer));
+  } else {
+    const MovedFigure moved = moved_by(rigid, speed).front();
+    f.answer(Question::depends, moved.on == "—"
+                                    ? fmt::format("The rigid model would tell no {}", moved.figure)
+                                    : fmt::format("The rigid model would tell {} in place of {} for {} ({})", moved.on,
+                                                  moved.off, moved.figure, moved.change));
+  }
+}
+
+void show_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
+  conclude_rigid(f, rigid, speed);
+  if (!rigid.failed.empty()) {
+    f.tell("rigid", Record{{"failed", rigid.failed}});
+    return;
+  }
+  Rows table = table_of("", "Key figures that the rigid machine (grey, behind) has otherwise", moved_by(rigid, speed))
+                   .text_in(1)
+                   .explained_by(&MovedFigure::name)
+                   .not_on_terminal()
+                   .only_for_people("key figure", &MovedFigure::figure)
+                   .only_for_people("elastic", &MovedFigure::off)
+                   .only_for_people("rigid", &MovedFigure::on)
+                   .only_for_people("change", &MovedFigure::change);
+  f.say(chapter_named(f, chapter_of_rigid), std::move(table));
+  f.tell("rigid",
+         Record{{"changes", each(rigid.changes, [](const TrialChange& c) {
+                   Record change = {{"figure", c.change.figure}, {"unit", c.change.unit}, {"elastic", c.change.full}};
+                   if (c.gone) return change;
+                   change.push_back({"rigid", c.change.without});
+                   change.push_back({"change", c.relative});
+                   change.push_back({"error", c.change.error});
+                   return change;
+                 })}});
+}
+
+// --- effects that are off ---
+
 Record trial_record(const Trial& trial) {
   Record record = {{"effect", trial.effect.name}};
   if (!trial.effect.gives_way.empty()) record.push_back({"in_place_of", trial.effect.gives_way});
@@ -140,11 +193,6 @@ Record trial_record(const Trial& trial) {
                       return change;
                     })});
   return record;
-}
-
-Chapter chapter_of(Findings& f) {
-  const auto found = std::find(f.chapters.begin(), f.chapters.end(), chapter_of_trials);
-  return found == f.chapters.end() ? f.chapter(chapter_of_trials) : static_cast<Chapter>(found - f.chapters.begin());
 }
 
 // The effect that is off and would change the answer most; how many were tried.
@@ -170,7 +218,7 @@ void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
 void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   if (trials.tried.empty() && trials.not_tried.empty()) return;
   conclude(f, trials, speed);
-  const Chapter in = chapter_of(f);
+  const Chapter in = chapter_named(f, chapter_of_trials);
   f.say(in, Sentences{.lines = words_of(trials, speed),
                       .heading = "effects that are off:",
                       .indent = "  ",
@@ -206,7 +254,9 @@ std::vector<std::string> words_of(const Trials& trials, const SpeedUnit& speed) 
 }
 
 Findings findings_of(const WithTrials<Result>& s) {
-  Findings f = findings_of(s.study);
+  const std::optional<Trial>& rigid = s.trials.rigid;
+  Findings f = findings_of(s.study, rigid && rigid->failed.empty() ? &rigid->result : nullptr);
+  if (rigid) show_rigid(f, *rigid, speed_unit_of(s.study));
   show(f, s.trials, speed_unit_of(s.study));
   return f;
 }

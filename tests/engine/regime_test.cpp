@@ -209,6 +209,58 @@ TEST(Regime, ASequenceOfManyStepsComesAgain) {
   EXPECT_NEAR(speed_of(scene, regime, "motor"), offset / (1 - factor), 1e-7);
 }
 
+// Steps that wait for the motion: a brake grips over each turn's first quarter. A DC motor is linear, so each part is an
+// exponential in time, φ(t) = ω_b t + (ω_a − ω_b)(1 − e^(−κt))/κ; round by round from any speed. Its round is one turn, with
+// the elasticity of a shaft, too: not two or three of them, whatever the run left unsettled.
+std::string gripped_each_turn(const std::string& shaft) {
+  return "line = [\"motor\", " + std::string(shaft.empty() ? "" : "\"shaft\", ") +
+         "\"brake\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", "
+         "inertia = \"0.4 kg*m2\" }\n" +
+         shaft +
+         "brake = { kind = \"brake\", torque = \"8 N*m\", inertia = \"0.1 kg*m2\" }\n[sequence]\nrepeat = true\nsteps "
+         "= [{ "
+         "angle = \"0 deg\", of = \"motor\", set = \"brake\", to = 1 }, { angle = \"90 deg\", of = \"motor\", set = "
+         "\"brake\", to = 0 }]\n";
+}
+TEST(Regime, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
+  const Scene rigid = scene_from(gripped_each_turn(""));
+  constexpr long double rate = 60.0L / 40 / 0.5L;
+  long double speed = 30, period = 0;
+  const auto go = [&](long double way, long double towards) {
+    long double t = way / speed;
+    for (int i = 0; i < 30; ++i) {
+      const long double left = std::exp(-rate * t);
+      t -= (towards * t + (speed - towards) * (1 - left) / rate - way) / (towards + (speed - towards) * left);
+    }
+    speed = towards + (speed - towards) * std::exp(-rate * t), period += t;
+  };
+  for (int round = 0; round < 200; ++round) {
+    period = 0;
+    go(static_cast<long double>(pi) / 2, 40 * (1 - 8.0L / 60));
+    go(3 * static_cast<long double>(pi) / 2, 40);
+  }
+  const Regime regime = regime_of(rigid);
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_NEAR(regime.point.time, static_cast<double>(period), 1e-9);
+
+  const Scene elastic =
+      scene_from(gripped_each_turn("shaft = { kind = \"shaft\", stiffness = \"2 kN*m/rad\", damping_ratio = 0.05 "
+                                   "}\neffects = { elasticity = true }\n"));
+  const Regime twisted = regime_of(elastic);
+  ASSERT_EQ(twisted.kind, Regime::Kind::cycle) << twisted.words;
+  const auto model = compile(elastic, elastic.effects);
+  Equations equations(model, false);
+  RunOptions run;
+  run.tolerance = 1e-11, run.until = 12;
+  run.from = {0, equations.start(0)};
+  const RunOutcome outcome = integrate(equations, run, {});
+  std::vector<double> grips;
+  for (const Event& e : outcome.events)
+    if (e.kind == EventKind::command) grips.push_back(e.t);
+  ASSERT_GT(grips.size(), 100U);
+  EXPECT_NEAR(twisted.point.time, grips[grips.size() - 1] - grips[grips.size() - 3], 1e-8);
+}
+
 // A flywheel so heavy that a turn takes off 1e-7 of a deviation: that is slow, not a family of motions.
 TEST(Regime, AMachineThatIsMerelySlowIsNoFamily) {
   const Regime regime = regime_of(

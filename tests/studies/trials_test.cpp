@@ -54,6 +54,33 @@ TEST(Trials, LossesOfAGearSlowAShuntMotorByWhatItGivesMore) {
   EXPECT_NEAR(trial, on, 1e-4 * on);
 }
 
+// Behind an elastic run the rigid machine is the one of `compare`, to the last digit, and its curves stand behind.
+TEST(Trials, TheRigidMachineIsTheOneOfCompare) {
+  Scene scene = geared_scene(true);
+  EXPECT_FALSE(tried(scene, scene.effects).trials.rigid);  // is rigid itself
+  scene.effects.all_elastic = true;
+  SimulateOptions drawn = quick();
+  drawn.traces = true;
+  const auto found = tried(scene, scene.effects, drawn);
+  ASSERT_TRUE(found.trials.rigid);
+  const Trial& rigid = *found.trials.rigid;
+  ASSERT_TRUE(rigid.failed.empty()) << rigid.failed;
+  const Comparison both = compare(scene, models_to_compare(scene, scene.effects), quick());
+  ASSERT_FALSE(rigid.changes.empty());
+  for (const TrialChange& c : rigid.changes) {
+    if (c.gone) continue;
+    EXPECT_EQ(c.change.without, test::figure(both.a, c.change.figure)) << c.change.figure;
+    EXPECT_EQ(c.change.full, test::figure(both.b, c.change.figure)) << c.change.figure;
+  }
+  for (const Plot& plot : motion_plots({&rigid.result, &found.study})) {
+    if (plot.series.size() != 2 || plot.title.find("Torque in") == std::string::npos) continue;
+    EXPECT_EQ(plot.series[0].role, Role::rigid) << plot.title;
+    EXPECT_EQ(plot.series[1].role, Role::elastic) << plot.title;
+    return;
+  }
+  ADD_FAILURE() << "no torque of both";
+}
+
 TEST(Trials, NothingIsTriedWhereNothingIsOff) {
   Scene scene = geared_scene(true);
   scene.effects.all_elastic = true;
