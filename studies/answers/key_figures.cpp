@@ -24,9 +24,9 @@ struct Ranked {
   std::string_view name;
 };
 constexpr std::array own_names = {
-    Ranked{3, "thermal_use"},      Ranked{3, "cycle_motor_power"},  Ranked{3, "motor_mean_power"},
-    Ranked{3, "motor_rms_torque"}, Ranked{6, "motor_slip_heat"},    Ranked{8, "loop_work"},
-    Ranked{2, "flywheel_energy"},  Ranked{5, "machine_efficiency"},
+    Ranked{3, "thermal_use"},      Ranked{3, "cycle_motor_power"}, Ranked{3, "motor_mean_power"},
+    Ranked{3, "motor_rms_torque"}, Ranked{4, "motor_rms_current"}, Ranked{6, "motor_slip_heat"},
+    Ranked{8, "loop_work"},        Ranked{2, "flywheel_energy"},   Ranked{5, "machine_efficiency"},
 };
 
 bool begins(const std::string& name, std::string_view word) {

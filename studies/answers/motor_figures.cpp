@@ -22,6 +22,22 @@ std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor
                                                                  : std::nullopt;
 }
 
+// The armature current's mean square over the torque's integrals per time; none: no law gives the current by the torque.
+struct MeanSquareCurrent {
+  double by_mean = 0;    // A² for a mean torque of 1 N·m: a series motor, M = κ i²
+  double by_square = 0;  // A² for a mean square of 1 N²·m²: a shunt motor, M = k i
+};
+std::optional<MeanSquareCurrent> mean_square_current(const Model& m, const MotorTorque& motor) {
+  const Section* section = m.scene.find(motor.component);
+  if (!section || !section->has("constant") || section->has("field")) return {};
+  const double constant = section->number("constant");
+  if (section->kind->name == "dc shunt motor") return MeanSquareCurrent{.by_square = 1 / (constant * constant)};
+  const bool reversed = std::any_of(m.scene.sequence.steps.begin(), m.scene.sequence.steps.end(),
+                                    [](const SequenceStep& step) { return step.to < 0 || !step.law.empty(); });
+  if (section->kind->name == "dc series motor" && !reversed) return MeanSquareCurrent{.by_mean = 1 / constant};
+  return {};
+}
+
 std::optional<double> rated_torque(const Model& m, const MotorTorque& motor) {
   const Section* section = m.scene.find(motor.component);
   return section ? rated_torque_of(*section) : std::nullopt;
@@ -67,6 +83,13 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
     figures.push_back(
         figure("motor_rms_torque", motor, root_mean_square(square, run.duration), "N*m", motor.rated_torque));
     figures.push_back(figure("motor_mean_power", motor, work / run.duration, "W", run.energy_scale / run.duration));
+    if (const auto current = mean_square_current(m, motor)) {
+      const auto rms = [&](double torque, double of_square) {
+        return std::sqrt(std::max(0.0, current->by_mean * torque + current->by_square * of_square));
+      };
+      figures.push_back(figure("motor_rms_current", motor, rms(mean / run.duration, square / run.duration), "A",
+                               rms(motor.rated_torque, motor.rated_torque * motor.rated_torque)));
+    }
     if (const std::optional<double> synchronous = synchronous_speed(m, motor)) {
       const double usual = motor.rated_torque * *synchronous * run.duration;
       figures.push_back(
@@ -92,6 +115,7 @@ std::vector<Figure> motor_figure_list(const Model& m) {
   for (const MotorTorque& motor : m.motors) {
     list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
     list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
+    if (mean_square_current(m, motor)) list.push_back(figure("motor_rms_current", motor, 0, "A", 0));
     if (synchronous_speed(m, motor)) list.push_back(figure("motor_slip_heat", motor, 0, "J", 0));
     if (m.cycle == 0) continue;
     list.push_back(figure("cycle_motor_power", motor, 0, "W", 0));

@@ -2,6 +2,7 @@
 //
 //     mean power    ∫ M ω dt / t                        work of the motor's account over the time run
 //     RMS torque    √( ∫ M² dt / t )                    a lower bound of heating: no-load losses and starts come on top
+//     RMS current   √( ∫ i² dt / t )                    of a direct-current motor's armature: i = M/k, i² = M/κ
 //     heat of slip  ω_s ∫ M dt − ∫ M ω dt               of the rotor of an induction motor at the mains (theory 4)
 //     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats
 // All of them are integrated along with the motion: ∫ M dt and ∫ M² dt are quadratures of the audit.

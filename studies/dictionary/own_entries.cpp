@@ -90,6 +90,11 @@ std::vector<Definition> entries_of_own() {
           "root of the mean square of its torque over the time run; a lower bound of heating: no-load losses and the "
           "currents of a start come on top",
           "its rated torque", "√( (1/t) ∫ M² dt )"),
+      of_run("motor_rms_current", "RMS current of a direct-current motor over a run", "A", "MOTOR",
+             "root of the mean square of the armature's current over the time run; times the winding's resistance and "
+             "squared the power that heats it; not told of a weakened field, nor of a series motor that a sequence "
+             "reverses",
+             "the current that its supply gives where a rheostat or a converter stands between", "√( (1/t) ∫ i² dt )"),
       of_run("motor_mean_power", "mean power of a motor over a run", "W", "MOTOR",
              "work that the motor gives to its shaft in the run over the time run",
              "the power that it takes from its supply"),

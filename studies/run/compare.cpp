@@ -108,7 +108,7 @@ void conclude(Comparison& c) {
     const std::string& joint = worst->of;
     const Figure* peak = c.b.find(QuantityKind::peak_torque, joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
-                               with_error(std::abs(peak->value), peak->error, "N*m"), *worst->b, c.a.label);
+                               with_unit(std::abs(peak->value), "N*m", 4), *worst->b, c.a.label);
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == QuantityKind::delta;

@@ -35,6 +35,29 @@ TEST(MotorFigures, OfARunUpOnAnInertiaAreThoseOfTheClosedForm) {
   EXPECT_EQ(r.find("thermal_use.motor"), nullptr) << "no cycle, no use of one";
 }
 
+// U, R, k on an inertia alone: i = (U/R) e^(−t/T), T = J R/k². And of a series motor, whose torque is κ i², by the current
+// that its circuit has as a state.
+TEST(MotorFigures, CurrentOfARunUpIsThatOfTheClosedForm) {
+  const std::string text = R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "dc shunt motor", voltage = "220 V", resistance = "0.5 Ohm", constant = "1.4 N*m/A", inertia = "1 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "5 kg*m2" }
+    run = { start = "rest", until = "2 s", accuracy = 1e-9, samples = 20001 }
+  )";
+  const double t = 2, T = 6 * 0.5 / (1.4 * 1.4);
+  EXPECT_NEAR(figure(test::run(text), "motor_rms_current.motor"),
+              220 / 0.5 * std::sqrt(T / (2 * t) * (1 - std::exp(-2 * t / T))), 1e-5);
+  std::string series = test::with(test::with(text, "dc shunt motor", "dc series motor"), "1.4 N*m/A\"",
+                                  "60 mN*m/A2\", inductance = \"10 mH\", max_speed = \"900 rad/s\"");
+  const Result r = test::run(series);
+  const std::vector<double> current = test::series(r, "current.motor"), time = r.trajectory->time();
+  double square = 0;  // Simpson's rule
+  for (std::size_t i = 0; i + 2 < current.size(); i += 2)
+    square += (time[i + 2] - time[i]) / 6 *
+              (current[i] * current[i] + 4 * current[i + 1] * current[i + 1] + current[i + 2] * current[i + 2]);
+  EXPECT_NEAR(figure(r, "motor_rms_current.motor"), std::sqrt(square / t), 1e-5);
+}
+
 // Whatever its curve: an induction motor that runs an inertia up from rest to ω heats its rotor by
 //     ω_s J ω − ½ J ω²,   towards ω_s as much as it gives to the inertia.
 TEST(MotorFigures, HeatOfSlipOfAStartIsThatOfTheClosedForm) {
