@@ -212,6 +212,15 @@ Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
   return ratio != 0 ? Eigen::VectorXcd(link_row / ratio) : link_row;
 }
 
+// A joint that carries nothing on the mean, as a damper's ring, has what rounding leaves of the others' torques.
+void clear_noise(SpeedResponse& response) {
+  constexpr double noise = 1e-10;
+  double largest = 0;
+  for (const JointResponse& joint : response.joints) largest = std::max({largest, std::abs(joint.mean), joint.peak});
+  for (JointResponse& joint : response.joints)
+    if (std::abs(joint.mean) <= noise * largest) joint.mean = 0;
+}
+
 }  // namespace
 
 SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) {
@@ -266,6 +275,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     joint.peak = std::max(swing.greatest, -swing.least) + beside[j];
     joint.rms = std::sqrt(joint.rms);
   }
+  clear_noise(result);
   return result;
 }
 
@@ -293,6 +303,7 @@ SpeedResponse response_of_samples(const std::vector<std::vector<double>>& torque
     result.joints.push_back(joint);
     result.orders.push_back(orders);
   }
+  clear_noise(result);
   return result;
 }
 
