@@ -9,6 +9,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "engine/scene/scene.h"
 #include "library/own_elements.h"
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
