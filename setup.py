@@ -1,9 +1,11 @@
 """pip install --no-index --no-build-isolation . — by the same CMake as everything else.
 
-The build's folder is build/release, or KURBEL_BUILD; what is built there already is not built again.
+The build's folder is build/release, or KURBEL_BUILD; what is built there already is not built again. The version is
+that of CMakeLists.txt.
 """
 
 import os
+import re
 import shutil
 import subprocess
 
@@ -28,8 +30,13 @@ class Binary(Distribution):
         return True
 
 
+def version():
+    with open(os.path.join(here, "CMakeLists.txt"), encoding="utf-8") as lists:
+        return re.search(r"project\(kurbel VERSION ([0-9.]+)", lists.read())[1]
+
+
 # What setuptools leaves behind goes into the build's folder, too.
 left = os.path.join(here, "build", "pip")
 os.makedirs(left, exist_ok=True)
-setup(packages=["kurbel"], package_dir={"kurbel": "python/kurbel"}, cmdclass={"build_py": Build}, distclass=Binary,
+setup(version=version(), packages=["kurbel"], package_dir={"kurbel": "python/kurbel"}, cmdclass={"build_py": Build}, distclass=Binary,
       options={"egg_info": {"egg_base": left}, "build": {"build_base": left}})

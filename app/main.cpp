@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
       "exit codes: 0 done, 2 the input is wrong, 3 a run failed or did not reach the accuracy asked for, 130 "
       "interrupted"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "kurbel 0.1.0");
+  app.set_version_flag("--version", "kurbel " KURBEL_VERSION);
   int code = exit_done;
   for (const VerbText& verb : verbs()) verb.set_up(*app.add_subcommand(verb.name, verb.help), code);
   refuse_empty_values(app);

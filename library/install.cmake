@@ -13,6 +13,10 @@ install(FILES docs/kurbel.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT p
 install(FILES scripts/kurbel.bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kurbel
   COMPONENT program)
 install(FILES THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# As Debian has it: each package with its own.
+install(FILES library/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/kurbel COMPONENT program)
+install(FILES library/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkurbel-dev COMPONENT dev)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkurbel-dev COMPONENT dev)
 
 set(KURBEL_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/kurbel)
 configure_package_config_file(library/kurbelConfig.cmake.in ${PROJECT_BINARY_DIR}/kurbelConfig.cmake
@@ -45,3 +49,6 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_STRIP_FILES ON)
+
+# Pages of <kurbel/…>, by Doxygen.
+add_custom_target(reference COMMAND ${PROJECT_SOURCE_DIR}/scripts/reference ${PROJECT_BINARY_DIR}/reference USES_TERMINAL)

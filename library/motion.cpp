@@ -29,12 +29,17 @@ struct MotionParts {
     here.state.modes = equations.modes();
   }
 
-  void go_to(double time) {
+  void go_to(double time, const Watcher& watcher) {
     RunOptions options;
     options.tolerance = tolerance, options.method = method, options.until = time;
     options.budget = equations.model().scene.run.budget;
     options.checkpoint = &here;
     options.to_go_on = true;
+    options.interrupted = watcher.interrupted;
+    if (watcher.progress)
+      options.progress = [&watcher, from = here.state.t, time](double fraction) {
+        watcher.progress("on the way", (fraction * time - from) / (time - from));
+      };
     const RunOutcome outcome = integrate(equations, options, {});
     if (outcome.complete) here = outcome.checkpoint;
     stand();
@@ -81,11 +86,11 @@ Motion& Motion::operator=(Motion&&) noexcept = default;
 
 double Motion::time() const { return parts_->here.state.t; }
 
-void Motion::go_to(double time) {
+void Motion::go_to(double time, const Watcher& watcher) {
   if (!(time >= this->time()))
     throw std::invalid_argument(
         fmt::format("go_to({:g}): the motion is at {:g} s; restore an earlier state to go back", time, this->time()));
-  if (time > this->time()) parts_->go_to(time);
+  if (time > this->time()) parts_->go_to(time, watcher);
 }
 
 SavedState Motion::state() const {

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <stdexcept>
 
+#include "engine/scene/scene.h"
 #include "library/own_elements.h"
+#include "mechanisms/kinds/kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 #include "mechanisms/reduced/links_summed.h"
 #include "studies/scenes/add_kind.h"
@@ -144,6 +147,24 @@ PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi) {
 }
 
 ClosedForm closed_form(const OwnMechanismData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
+
+void refuse_forces_of_own(const Scene& scene, const std::string& wanted) {
+  std::vector<std::string> known;
+  for (const Kind& kind : mechanism_kinds()) known.push_back(kind.name);
+  const std::scoped_lock lock(own_mutex);
+  const Section* own = nullptr;
+  for (const Section& section : scene.components) {
+    const std::string& kind = section.kind->name;
+    if (wanted.empty() && std::find(known.begin(), known.end(), kind) != known.end()) return;
+    if (own_kinds().contains(kind) && (wanted.empty() ? own == nullptr : section.name == wanted)) own = &section;
+  }
+  if (!own) return;
+  throw std::invalid_argument(
+      fmt::format("{}: {} is a {}, a kind of its user's own, of which the motion of the links is known and no joint, "
+                  "so that reactions "
+                  "have no place; ask run, steady or reduce, or describe it by one of {}",
+                  scene.file, in_quotes(own->name), in_quotes(own->kind->name), listed(known)));
+}
 
 void add_mechanism(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                    const MakeMechanism& make) {

@@ -12,6 +12,8 @@
 
 namespace kurbel {
 
+struct Scene;
+
 struct OwnMechanismData {
   std::string kind;
   double number = 0;           // of the kind, in the order of their coming: with the values it tells one from another
@@ -26,5 +28,9 @@ LinkageDrawing drawing_of(const OwnMechanismData& data);
 std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data);
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi);
 ClosedForm closed_form(const OwnMechanismData& data, long double phi);
+
+// Throws std::invalid_argument where reactions are asked of a mechanism of this sort: `wanted` by its name, or, where that is
+// empty, as the scene has no other.
+void refuse_forces_of_own(const Scene& scene, const std::string& wanted);
 
 }  // namespace kurbel

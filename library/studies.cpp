@@ -7,6 +7,7 @@
 
 #include "library/machine_parts.h"
 #include "library/option_values.h"
+#include "library/own_mechanism.h"
 #include "library/study_options.h"
 #include "studies/accuracy/accuracy_findings.h"
 #include "studies/advise/advise_findings.h"
@@ -102,6 +103,7 @@ StudyOutput forces_in_joints(Asked& a) {
   o.effects = a.options.effects("effects", a.scene());
   o.simulate = !a.options.flag("no_run");
   if (!a.ready()) return {};
+  refuse_forces_of_own(a.scene(), o.mechanism);
   if (chosen_mechanism(a.scene(), o.mechanism).kind->name != "slider-crank")
     return output_of(find_linkage_forces(a.scene(), o));
   return output_of(find_forces(a.scene(), o));

@@ -12,6 +12,7 @@
 #include "engine/numerics/deadline.h"
 #include "library/machine_parts.h"
 #include "studies/sweep/machine.h"
+#include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep.h"
 
 namespace kurbel {
@@ -45,7 +46,7 @@ SweepIdentity identity_of(const Variation& variation, const Design& design, std:
                           std::map<std::string, std::string> meta, const std::string& shard) {
   std::vector<std::string> names;
   for (const SweptFigure& figure : figures) names.push_back(figure.name);
-  meta.insert({{"version", "kurbel 0.1.0"},
+  meta.insert({{"version", program_version()},
                {"design", design.text()},
                {"seed", std::to_string(variation.seed)},
                {"varied", joined(variation.vary)},

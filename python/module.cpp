@@ -162,18 +162,17 @@ void bind_motion(py::module_& m) {
       .def_property_readonly("time", &SavedState::time, "[s]")
       .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, own states: Motion.state_names")
       .def_property_readonly("text", &SavedState::text, "JSON, exact")
-      .def("__eq__", [](const SavedState& a, const SavedState& b) { return a == b; });
+      .def(
+          "__eq__", [](const SavedState& a, const SavedState& b) { return a == b; }, py::arg("other"),
+          py::is_operator());
   py::class_<Motion>(m, "Motion", "A machine in motion under its user's hands. For one thread at a time.")
       .def(py::init<const Machine&, const std::string&, double>(), py::arg("machine"), py::arg("effects") = "",
            py::arg("tolerance") = 1e-9)
       .def_property_readonly("time", &Motion::time, "[s]")
       .def(
           "go_to",
-          [](Motion& motion, double time) {
-            py::gil_scoped_release released;
-            motion.go_to(time);
-          },
-          py::arg("time"), "On to a time [s], through all events on the way.")
+          [](Motion& motion, double time) { computed([&](const Watcher& watcher) { motion.go_to(time, watcher); }); },
+          py::arg("time"), "On to a time [s], through all events on the way. Interrupted, it stands where it stood.")
       .def_property_readonly("state", &Motion::state)
       .def("restore", &Motion::restore, py::arg("state"), "Back to a state of this machine.")
       .def("state_from", &Motion::state_from, py::arg("text"), "A state of this machine from its text.")
@@ -188,6 +187,7 @@ void bind_motion(py::module_& m) {
 
 PYBIND11_MODULE(_kurbel, m) {
   m.doc() = "kurbel's facade as Python's types; import kurbel instead";
+  m.attr("__version__") = KURBEL_VERSION;
   scene_error() = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "kurbel.SceneError",
       "A scene that cannot be read or makes no machine. places: (file, line, column, text) of every fault.",

@@ -26,16 +26,17 @@ namespace kurbel {
 
 // A key that the element has in a scene. Every key is required unless it has a fallback as it would stand in the file.
 struct Parameter {
-  std::string name, unit;     // SI: "N*m/rad"; empty: a plain number
-  std::string fallback = {};  // "\"0 N*m*s/rad\""
-  std::string doc = {};
+  std::string name;           // of the key: "stiffness"
+  std::string unit;           // SI: "N*m/rad"; empty: a plain number
+  std::string fallback = {};  // "\"0 N*m*s/rad\""; empty: the key is required
+  std::string doc = {};       // for kurbel keys
 };
 // The values of one component's keys, in SI.
 class Parameters {
  public:
-  explicit Parameters(std::vector<std::pair<std::string, double>> all) : all_(std::move(all)) {}
+  explicit Parameters(std::vector<std::pair<std::string, double>> all) : all_(std::move(all)) {}  // for kurbel itself
   double operator[](const std::string& name) const;  // throws std::out_of_range for a key that was not declared
-  std::vector<double> values() const;
+  std::vector<double> values() const;                // in the order of their declaration
 
  private:
   std::vector<std::pair<std::string, double>> all_;
@@ -43,18 +44,22 @@ class Parameters {
 
 // --- a coupling ---
 
+// A coupling's torque with its derivatives, which the solver's Jacobian is made of.
 struct CouplingTorque {
-  double value = 0;                  // [N·m]
-  double by_twist = 0, by_rate = 0;  // ∂τ/∂θ [N·m/rad], ∂τ/∂θ̇ [N·m·s/rad]
+  double value = 0;     // τ [N·m]
+  double by_twist = 0;  // ∂τ/∂θ [N·m/rad]
+  double by_rate = 0;   // ∂τ/∂θ̇ [N·m·s/rad]
 };
 // τ(θ, θ̇) with τ(0, 0) = 0, positive driving what stands behind in the line. At rest it must rise with θ.
 class CouplingLaw {
  public:
   virtual ~CouplingLaw() = default;
-  virtual CouplingTorque torque(double twist, double rate) const = 0;  // [rad], [rad/s]
+  // At a twist θ [rad] and its rate θ̇ [rad/s].
+  virtual CouplingTorque torque(double twist, double rate) const = 0;
 };
 
-// Of a formula of (twist, rate) for any type of number.
+// A law of a formula τ(θ, θ̇) in (twist, rate) for any type of number: it is asked with Dual<2>, so that its derivatives are
+// exact. What a Dual knows: + − · /, sin, cos, sqrt, exp, tanh, abs, pow(x, n).
 template <class F>
 std::shared_ptr<const CouplingLaw> coupling_law(F formula) {
   struct Law final : CouplingLaw {
@@ -68,15 +73,18 @@ std::shared_ptr<const CouplingLaw> coupling_law(F formula) {
   return std::make_shared<const Law>(std::move(formula));
 }
 
+// From one component's parameters to its law. Throws std::invalid_argument in words for parameters that do not go
+// together.
+using MakeCoupling = std::function<std::shared_ptr<const CouplingLaw>(const Parameters&)>;
 // Makes `kind` known to all scenes that are read from now on. The component has two shafts, with `inertia_in` and
 // `inertia_out` as kurbel's couplings, and its elasticity is an effect. Throws std::invalid_argument for a kind that is
-// known. `make` throws std::invalid_argument in words for parameters that do not go together.
-using MakeCoupling = std::function<std::shared_ptr<const CouplingLaw>(const Parameters&)>;
+// known.
 void add_coupling(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                   const MakeCoupling& make);
 
 // --- a mechanism ---
 
+// Of a series, term by term from s′ = c a′, c′ = −s a′.
 inline Taylor sin(const Taylor& a) {
   Taylor s(std::sin(a.c[0])), c(std::cos(a.c[0]));
   for (int k = 1; k <= Taylor::order; ++k) {
@@ -84,6 +92,7 @@ inline Taylor sin(const Taylor& a) {
   }
   return s;
 }
+// Likewise.
 inline Taylor cos(const Taylor& a) {
   Taylor s(std::sin(a.c[0])), c(std::cos(a.c[0]));
   for (int k = 1; k <= Taylor::order; ++k) {
@@ -94,21 +103,27 @@ inline Taylor cos(const Taylor& a) {
 
 // A link at the crank's angle φ: where its centre of mass is, and which way it points.
 struct Link {
-  std::string name;
-  double mass = 0, inertia = 0;  // [kg], central [kg·m²]
-  Taylor x, y, angle;            // [m], [rad]; axes of the mechanism, φ counter-clockwise from +x
+  std::string name;    // for messages and drawings
+  double mass = 0;     // [kg], ≥ 0
+  double inertia = 0;  // about its centre of mass [kg·m²], ≥ 0
+  Taylor x;            // of its centre of mass [m]; axes of the mechanism, φ counter-clockwise from +x
+  Taylor y;            // of its centre of mass [m]
+  Taylor angle;        // which way it points [rad]
 };
+// All links at one angle of the crank.
 struct LinkagePosition {
   std::vector<Link> links;  // the crank first; at most five
   Taylor output;            // x [m] that loads act along
 };
 
-// One degree of freedom, period 2π in the crank's angle.
+// From the crank's angle φ [rad] to the links: one degree of freedom, period 2π. A formula of Taylor: + − · /, sin, cos, sqrt.
 using MechanismMotion = std::function<LinkagePosition(const Taylor& phi)>;
+// From one component's parameters to its motion. Throws std::invalid_argument in words for parameters that do not go
+// together.
 using MakeMechanism = std::function<MechanismMotion(const Parameters&)>;
 // Makes `kind` known, with `phase`, `gravity`, `stroke_angle` and `load` as kurbel's mechanisms have. Variable inertia,
-// weight and loads follow from the motion (I_r = Σ m v′² + J ϑ′²). Reactions in joints are not known of it: kurbel forces
-// refuses it.
+// weight and loads follow from the motion (I_r = Σ m v′² + J ϑ′²). Reactions in joints are not known of it: the study
+// "forces" refuses it. Throws std::invalid_argument for a kind that is known.
 void add_mechanism(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                    const MakeMechanism& make);
 

@@ -12,40 +12,42 @@ namespace kurbel {
 
 // A figure. In SI: speeds in rad/s.
 struct FigureValue {
-  std::string name;  // "peak_torque.main_coupling"; what it means: kurbel explain
-  double value = 0;
+  std::string name;             // "peak_torque.main_coupling"; what it means: kurbel explain
+  double value = 0;             // in `unit`
   std::string unit;             // "N*m"; empty: a plain number
-  std::optional<double> error;  // measured by further runs; empty: not measured
-  std::optional<double> at;     // the moment that it belongs to [s]
+  std::optional<double> error;  // ±, in `unit`, measured by further runs; empty: not measured
+  std::optional<double> at;     // the moment that it belongs to [s]; empty: to none
 };
 
+// All that a run found, by their names and in the order of the report.
 class FigureValues {
  public:
   FigureValues() = default;
-  explicit FigureValues(std::vector<FigureValue> all) : all_(std::move(all)) {}
-  // Null where there is none of this name.
+  explicit FigureValues(std::vector<FigureValue> all) : all_(std::move(all)) {}  // for kurbel itself
+  // The figure of this name; null where there is none.
   const FigureValue* find(const std::string& name) const;
-  // Throws std::out_of_range with the nearest names.
+  // The figure of this name. Throws std::out_of_range with the nearest names.
   const FigureValue& operator[](const std::string& name) const;
-  std::size_t size() const { return all_.size(); }
-  auto begin() const { return all_.begin(); }
-  auto end() const { return all_.end(); }
+  std::size_t size() const { return all_.size(); }  // how many there are
+  auto begin() const { return all_.begin(); }       // of FigureValue, for range-based loops
+  auto end() const { return all_.end(); }           // behind the last one
 
  private:
   std::vector<FigureValue> all_;
 };
 
-// One quantity over time, in the memory of the run that recorded it, which it keeps: value i lies at data()[i · stride].
+// One quantity over time, in the memory of the run that recorded it, which it keeps: value i lies at data()[i · stride()].
 class TimeSeries {
  public:
   TimeSeries() = default;
+  // Of memory that `kept` holds, for as long as it is held.
   TimeSeries(std::shared_ptr<const void> kept, const double* data, std::size_t size, std::size_t stride)
       : kept_(std::move(kept)), data_(data), size_(size), stride_(stride) {}
-  std::size_t size() const { return size_; }
-  double operator[](std::size_t i) const { return data_[i * stride_]; }
-  const double* data() const { return data_; }
-  std::size_t stride() const { return stride_; }
-  const std::shared_ptr<const void>& kept() const { return kept_; }
+  std::size_t size() const { return size_; }                             // how many values
+  double operator[](std::size_t i) const { return data_[i * stride_]; }  // value i < size(), not checked, in SI
+  const double* data() const { return data_; }                           // the first value
+  std::size_t stride() const { return stride_; }                         // from value to value, in doubles
+  const std::shared_ptr<const void>& kept() const { return kept_; }      // what holds the memory, for other languages
 
  private:
   std::shared_ptr<const void> kept_;
@@ -53,18 +55,20 @@ class TimeSeries {
   std::size_t size_ = 0, stride_ = 1;
 };
 
-// Quantities at equidistant times.
+// Quantities at equidistant times. Empty of a multibody run.
 class Trajectory {
  public:
   Trajectory() = default;
+  // Of a recorder's memory: a row of all names at each time.
   Trajectory(std::shared_ptr<const void> kept, const std::vector<double>* time, const std::vector<double>* values,
              std::vector<std::string> names, std::vector<std::string> units)
       : kept_(std::move(kept)), time_(time), values_(values), names_(std::move(names)), units_(std::move(units)) {}
   const std::vector<std::string>& names() const { return names_; }  // "speed.press", "torque.main_coupling"
   const std::vector<std::string>& units() const { return units_; }  // SI, in the order of the names
-  std::size_t rows() const { return time_ ? time_->size() : 0; }
+  std::size_t rows() const { return time_ ? time_->size() : 0; }    // how many times
+  // The times [s], ascending.
   TimeSeries time() const { return time_ ? TimeSeries(kept_, time_->data(), time_->size(), 1) : TimeSeries(); }
-  // Throws std::out_of_range with the nearest names.
+  // The quantity of this name over time(), in SI. Throws std::out_of_range with the nearest names.
   TimeSeries operator[](const std::string& name) const;
 
  private:

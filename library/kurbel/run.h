@@ -16,40 +16,41 @@ struct RunParts;
 
 // What is not given is as the scene says.
 struct RunChoices {
-  std::optional<std::string> effects = {};  // as --effects: "none", "all", "elasticity:main_coupling,gravity"
+  std::optional<std::string> effects = {};  // as `--effects`: "none", "all", "elasticity:main_coupling,gravity"
   std::optional<std::string> method = {};   // "auto", "dop853", …
-  std::optional<double> accuracy = {};      // of every figure over its scale
-  std::optional<double> until = {};         // [s]
+  std::optional<double> accuracy = {};      // of every figure over its scale, 1e-12 … 0.1
+  std::optional<double> until = {};         // [s], > 0
   bool errors = true;                       // measured by further runs
   bool plots = true;                        // follow what the page draws
-  Watcher watcher = {};
+  Watcher watcher = {};                     // interrupts, and is told the progress
 };
 
 // Something that happened: a clutch stuck, a load's piece ended, the sequence went on.
 struct Happening {
-  double t = 0;  // [s]
-  std::string component, what;
+  double t = 0;           // [s]
+  std::string component;  // where: "clutch"; empty: the machine as a whole
+  std::string what;       // in words: "sticks"
 };
 
-// A value: copies share it.
+// One simulation and what it yielded. A value: copies share it.
 class Run {
  public:
-  explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}
-  bool complete() const;
-  std::string diagnosis() const;  // of one that broke off: when, where, why, what to try
-  const FigureValues& figures() const;
+  explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
+  bool complete() const;                                                             // it came to its end …
+  std::string diagnosis() const;              // … or when, where and why not, and what to try
+  const FigureValues& figures() const;        // in SI, each with its measured error; of an incomplete run none is sure
   const Trajectory& trajectory() const;       // empty of a multibody run
   std::vector<Happening> happenings() const;  // in their order
-  double measured_accuracy() const;           // largest error over its scale
-  double processor_seconds() const;           // of all runs, those for the errors included
+  double measured_accuracy() const;           // largest error of a figure over its scale, a plain number
+  double processor_seconds() const;           // of all runs, those for the errors included [s]
   const Study& study() const;                 // conclusion, page, JSON, tables
 
  private:
   std::shared_ptr<const RunParts> parts_;
 };
 
-// Throws BadScene where the machine cannot be compiled or started, std::invalid_argument for choices that are none. A run
-// that cannot go on is returned incomplete.
+// Simulates a machine from its start to its end. Throws BadScene where the machine cannot be compiled or started,
+// std::invalid_argument for choices that are none. A run that cannot go on, or is interrupted, is returned incomplete.
 Run run(const Machine& machine, const RunChoices& choices = {});
 
 }  // namespace kurbel

@@ -22,47 +22,59 @@ struct Watcher {
 // What a study found. A value: copies share it.
 class Study {
  public:
-  explicit Study(std::shared_ptr<const StudyParts> parts) : parts_(std::move(parts)) {}
-  std::string conclusion() const;   // in one line
-  std::string text() const;         // as the command prints it
+  explicit Study(std::shared_ptr<const StudyParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
+  std::string conclusion() const;                                                        // in one line
+  std::string text() const;                                                              // as the command prints it
   std::string json() const;         // the same for programs: summary.json, docs/summary.schema.json
   std::string html() const;         // the page, whole in itself
   bool complete() const;            // it came to its end …
   std::string diagnosis() const;    // … or why not
   std::string unconfirmed() const;  // why the accuracy asked for is not sure; empty: it is
   std::vector<std::pair<std::string, std::string>> tables() const;  // CSV files by their names
-  // summary.json, report.html and the tables into a folder, as one result set: whole or not there.
+  // summary.json, report.html and the tables into a folder, as one result set: whole or not there. Throws
+  // std::runtime_error where it cannot be written.
   void write(const std::string& folder) const;
 
  private:
   std::shared_ptr<const StudyParts> parts_;
 };
 
-// Options by the names that the command has: {"mid_speed", "60 rpm"} is --mid-speed "60 rpm". A flag is "true".
+// Options by the names that the command has: {"mid_speed", "60 rpm"} is `--mid-speed "60 rpm"`. A flag is "true".
 using Options = std::vector<std::pair<std::string, std::string>>;
 
 // One of study_names() put to a machine. Throws std::invalid_argument for another name, and for an option that the study
-// does not have (with those that it has).
+// does not have (with those that it has); BadScene where the machine cannot be compiled or started.
 Study study(const std::string& name, const Machine& machine, const Options& options = {}, const Watcher& watcher = {});
-std::vector<std::string> study_names();  // "compare", "steady", "modes", …
-std::vector<std::string> option_names(const std::string& study);
+std::vector<std::string> study_names();                           // "compare", "steady", "modes", …
+std::vector<std::string> option_names(const std::string& study);  // "mid_speed", …; std::invalid_argument: no study
 
+// Rigid against elastic, or two sets of effects (`effects`, `against`): the figures of both, and their ratio.
 inline Study compare(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("compare", m, o, w);
 }
+// The motion that a start leads to: δ at every shaft, torques, works, whether it is stable.
 inline Study steady(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("steady", m, o, w); }
+// Natural frequencies [Hz], shapes, damping; the response to the machine's own orders.
 inline Study modes(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("modes", m, o, w); }
+// Reactions in every joint of a mechanism [N], balancing torque [N·m], shaking forces [N].
 inline Study forces(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("forces", m, o, w); }
+// The flywheel's inertia [kg·m²] for a demanded δ = (ω_max − ω_min)/ω_mean (`delta`), and its dimensions.
 inline Study size(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("size", m, o, w); }
+// The machine on one link (`to`): inertia, torque and the drive's elastic chain over its angle.
 inline Study reduce(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("reduce", m, o, w); }
+// Gear pairs of the stages that are given by module: contact ratio, sliding, undercut, mesh stiffness.
 inline Study gears(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("gears", m, o, w); }
+// What each effect changes and costs: the full model without one effect at a time.
 inline Study effects(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("effects", m, o, w);
 }
+// The cheapest set of effects whose figures stay within a part (`within`) of the fullest model's.
 inline Study advise(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("advise", m, o, w); }
+// What accuracy costs: integrators and tolerances against references by two independent methods.
 inline Study accuracy(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("accuracy", m, o, w);
 }
+// What tolerances that the scene gives make of its figures, by gradients and by samples.
 inline Study uncertainty(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("uncertainty", m, o, w);
 }

@@ -234,7 +234,7 @@ Vector SimbodyReduction::kept(const Matrix& g, const Vector& bias, const Vector&
   return dependent_part;
 }
 
-Reduction SimbodyReduction::reduce(State& state, const KnownMotion* known) const {
+Reduction SimbodyReduction::reduce(State& state, const KnownDerivatives* known) const {
   Reduction result;
 
   // Position: the loops are closed, and on which branch.

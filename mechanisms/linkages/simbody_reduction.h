@@ -37,7 +37,7 @@ struct Reduction {
 };
 
 // dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates, known from elsewhere.
-struct KnownMotion {
+struct KnownDerivatives {
   SimTK::Vector q1, q2, q3;
 };
 
@@ -71,7 +71,7 @@ class SimbodyReduction {
   // The reduction at a closed state, whose speeds are set to the velocity ratios (dφ/dt = 1). Throws std::runtime_error
   // if Simbody finds the loops open. In a change point, where the closures do not say how the motion goes on, it is
   // given: they then only have to be kept by it.
-  Reduction reduce(SimTK::State& state, const KnownMotion* known = nullptr) const;
+  Reduction reduce(SimTK::State& state, const KnownDerivatives* known = nullptr) const;
 
  private:
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;

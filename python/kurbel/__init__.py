@@ -5,18 +5,17 @@
     r.figures["delta.press"].value, .unit, .error
     r.trajectory["torque.main_coupling"]      # numpy, in the run's own memory [N*m]
 
-A scene is the path of a file, a text (with a line end in it), a dict, or a Machine. All numbers are in SI units, angles
-in rad, speeds in rad/s. What is wrong with a scene raises SceneError, a ValueError whose `places` tell file, line,
+A scene is the path of a file, a text (with a line end in it), a mapping as tomllib hands out (a dict), or a Machine.
+All numbers are in SI units, angles in rad, speeds in rad/s. What is wrong with a scene raises SceneError, a ValueError whose `places` tell file, line,
 column and text of every fault. A run that cannot go on is no exception: `complete` is False, `diagnosis` says why.
 """
 
-from ._kurbel import Event, Figure, Machine, Motion, SceneError, State, option_names, study_names
+from ._kurbel import Event, Figure, Machine, Motion, SceneError, State, __version__, option_names, study_names
 from ._results import Run, Study, Trajectory
 from ._sweep import Sweep, sweep
 from ._text import machine
 from . import _kurbel
 
-__version__ = "0.1.0"
 __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State", "Study", "Sweep", "Trajectory",
            "machine", "motion", "option_names", "run", "study", "study_names", "sweep"]
 

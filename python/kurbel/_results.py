@@ -31,12 +31,18 @@ class Study:
 
     @property
     def complete(self):
+        """It came to its end; otherwise `diagnosis` says why not."""
         return self._output.complete
 
     @property
     def diagnosis(self):
         """Why it is not complete, in words."""
         return self._output.diagnosis
+
+    @property
+    def unconfirmed(self):
+        """Why the accuracy asked for is not sure; empty: it is."""
+        return self._output.unconfirmed
 
     @property
     def tables(self):

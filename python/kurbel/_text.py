@@ -1,6 +1,7 @@
-"""Scenes from whatever describes them: files, texts, dicts."""
+"""Scenes from whatever describes them: files, texts, mappings."""
 
 import os
+from collections.abc import Mapping
 
 from ._kurbel import Machine
 
@@ -22,7 +23,7 @@ def _value(value):
         return "true" if value else "false"
     if isinstance(value, str):
         return _quoted(value)
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(v) for v in value) + "]"
@@ -30,7 +31,7 @@ def _value(value):
         return _value(value.tolist())
     if isinstance(value, (int, float)):
         return repr(value)
-    raise TypeError(f"a scene holds no {type(value).__name__}: {value!r}; give texts, numbers, lists and dicts")
+    raise TypeError(f"a scene holds no {type(value).__name__}: {value!r}; give texts, numbers, lists and mappings")
 
 
 def _key(key):
@@ -41,7 +42,7 @@ def _key(key):
 
 
 def text_of(scene):
-    """A dict as the text of a scene, a key a line."""
+    """A mapping as the text of a scene, a key a line."""
     return "".join(f"{_key(key)} = {_value(value)}\n" for key, value in scene.items())
 
 
@@ -50,11 +51,11 @@ def settings_of(set):
 
 
 def machine(scene, *, set=None):
-    """A machine from a file's path, a text with a line end in it, a dict, or a machine. Raises SceneError."""
+    """A machine from a file's path, a text with a line end in it, a mapping (a dict), or a machine. Raises SceneError."""
     settings = settings_of(set)
     if isinstance(scene, Machine):
         return scene.with_settings(settings) if settings else scene
-    if isinstance(scene, dict):
+    if isinstance(scene, Mapping):
         return Machine.from_text(text_of(scene), "dict", settings)
     if isinstance(scene, str) and "\n" in scene:
         return Machine.from_text(scene, "text", settings)

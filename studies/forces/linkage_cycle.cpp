@@ -19,7 +19,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-using Quantity = std::function<double(const LinkagePosition&)>;
+using Quantity = std::function<double(const PositionForces&)>;
 
 class Builder {
  public:
@@ -28,13 +28,13 @@ class Builder {
 
   void build() {
     for (std::size_t i = 0; i < along_.where.size(); ++i) add(along_.where[i], along_.motion[i]);
-    const auto by_angle = [](const LinkagePosition& a, const LinkagePosition& b) {
+    const auto by_angle = [](const PositionForces& a, const PositionForces& b) {
       return a.forces.state.phi < b.forces.state.phi;
     };
-    const auto kinetic = [](const LinkagePosition& p) { return p.forces.kinetic_energy; };
+    const auto kinetic = [](const PositionForces& p) { return p.forces.kinetic_energy; };
     cycle_.kinetic_change = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
     for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
-    for (const LinkagePosition& p : samples_) {
+    for (const PositionForces& p : samples_) {
       phi_.push_back(p.forces.state.phi);
       motion_.push_back({p.forces.state.phi, {p.forces.state.omega, p.forces.state.alpha}});
     }
@@ -48,9 +48,9 @@ class Builder {
   }
 
  private:
-  LinkagePosition at(double phi, CrankMotion motion) {
+  PositionForces at(double phi, CrankMotion motion) {
     phi = beside_change_point(data_, phi);
-    LinkagePosition p;
+    PositionForces p;
     p.forces = forces_in(data_.linkage(phi), {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)});
     p.power = {.crank = p.forces.torque * motion.omega,
                .load = p.forces.load_power,
@@ -69,7 +69,7 @@ class Builder {
 
   Peak peak(const Quantity& value, double scale) {
     std::vector<double> values;
-    for (const LinkagePosition& p : samples_) values.push_back(value(p));
+    for (const PositionForces& p : samples_) values.push_back(value(p));
     Peak found = measured_peak_of(
         phi_, values, [&](double x) { return value(at(x, motion_between(motion_, x))); }, scale);
     if (std::abs(found.value) <= rounding_of_forces * scale) found = {0, 0, rounding_of_forces * scale};
@@ -80,7 +80,7 @@ class Builder {
     const auto with_step = [&](std::size_t step) {
       double sum = 0, weights = 0;
       for (std::size_t i = 0; i + 1 < cycle_.positions.size(); i += step) {
-        const LinkagePosition& p = cycle_.positions[i];
+        const PositionForces& p = cycle_.positions[i];
         const double w = weight ? weight(p) : 1;
         sum += w * value(p), weights += w;
       }
@@ -94,7 +94,7 @@ class Builder {
   OutputLoads& loads_;
   const MotionAlong& along_;
   LinkageCycle& cycle_;
-  std::vector<LinkagePosition> samples_;  // every abscissa but rows alone
+  std::vector<PositionForces> samples_;  // every abscissa but rows alone
   std::vector<double> phi_;
   std::vector<MotionSample> motion_;
   std::vector<CycleWork> shares_;
@@ -103,7 +103,7 @@ class Builder {
 
 void Builder::add(const Abscissa& where, CrankMotion motion) {
   Deadline::check();
-  LinkagePosition p = at(where.place(), motion);
+  PositionForces p = at(where.place(), motion);
   p.forces.state.phi = where.phi;
   if (where.row) cycle_.rows.push_back(p);
   if (where.grid) cycle_.positions.push_back(p);
@@ -135,7 +135,7 @@ void Builder::find_speeds() {
 
 void Builder::find_scales() {
   double arm = 0;
-  for (const LinkagePosition& p : cycle_.positions) {
+  for (const PositionForces& p : cycle_.positions) {
     for (const JointForces& j : p.forces.joints) {
       force_ = std::max(force_, j.force.magnitude());
       arm = std::max(arm, j.at.magnitude());
@@ -154,33 +154,33 @@ void Builder::find_peaks() {
   for (std::size_t k = 0; k < first.joints.size(); ++k) {
     const JointForces& j = first.joints[k];
     const std::string name = fmt::format("{}: {} on {}", j.name, j.from, j.on);
-    const Quantity force = [k](const LinkagePosition& p) {
+    const Quantity force = [k](const PositionForces& p) {
       const JointForces& here = p.forces.joints[k];
       return here.slides ? here.normal : here.force.magnitude();
     };
     cycle_.reactions.push_back({name, "N", "reaction", peak(force, force_)});
     if (j.slides)
       cycle_.reactions.push_back({name + ", moment", "N*m", "reaction_moment",
-                                  peak([k](const LinkagePosition& p) { return p.forces.joints[k].moment; }, moment_)});
+                                  peak([k](const PositionForces& p) { return p.forces.joints[k].moment; }, moment_)});
   }
   cycle_.torque = {"balancing torque", "N*m", "balancing_torque",
-                   peak([](const LinkagePosition& p) { return p.forces.torque; }, moment_)};
+                   peak([](const PositionForces& p) { return p.forces.torque; }, moment_)};
   cycle_.shaking_force = {"shaking force", "N", "shaking_force",
-                          peak([](const LinkagePosition& p) { return p.forces.shaking_force.magnitude(); }, force_)};
+                          peak([](const PositionForces& p) { return p.forces.shaking_force.magnitude(); }, force_)};
   cycle_.shaking_moment = {"shaking moment", "N*m", "shaking_moment",
-                           peak([](const LinkagePosition& p) { return p.forces.shaking_moment; }, moment_)};
+                           peak([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_)};
 }
 
 void Builder::find_links() {
-  const Quantity time = [](const LinkagePosition& p) { return 1 / std::abs(p.forces.state.omega); };
-  const MeanFigure inertia = mean([](const LinkagePosition& p) { return p.forces.reduced_inertia; }, {});
-  const MeanFigure energy = mean([](const LinkagePosition& p) { return p.forces.kinetic_energy; }, time);
+  const Quantity time = [](const PositionForces& p) { return 1 / std::abs(p.forces.state.omega); };
+  const MeanFigure inertia = mean([](const PositionForces& p) { return p.forces.reduced_inertia; }, {});
+  const MeanFigure energy = mean([](const PositionForces& p) { return p.forces.kinetic_energy; }, time);
   const auto share = [](const MeanFigure& part, const MeanFigure& whole) -> MeanFigure {
     if (!(whole.value > 0)) return {0, 0.0};
     return {part.value / whole.value, (*part.error + part.value / whole.value * *whole.error) / whole.value};
   };
   for (std::size_t k = 0; k < samples_.front().forces.links.size(); ++k) {
-    using P = const LinkagePosition&;
+    using P = const PositionForces&;
     const auto link = [k](P p) -> const LinkForces& { return p.forces.links[k]; };
     const auto largest = [&](auto&& of) {
       double most = 0;
@@ -223,15 +223,15 @@ void Builder::find_orders() {
     return measured_harmonics(
         [&] {
           std::vector<double> values;
-          for (const LinkagePosition& p : cycle_.positions) values.push_back(value(p));
+          for (const PositionForces& p : cycle_.positions) values.push_back(value(p));
           return values;
         }(),
         turns, scale);
   };
-  cycle_.shaking_x = orders_of([](const LinkagePosition& p) { return p.forces.shaking_force.x; }, force_);
-  cycle_.shaking_y = orders_of([](const LinkagePosition& p) { return p.forces.shaking_force.y; }, force_);
-  cycle_.shaking_couple = orders_of([](const LinkagePosition& p) { return p.forces.shaking_moment; }, moment_);
-  const Quantity torque = [](const LinkagePosition& p) { return p.forces.torque; };
+  cycle_.shaking_x = orders_of([](const PositionForces& p) { return p.forces.shaking_force.x; }, force_);
+  cycle_.shaking_y = orders_of([](const PositionForces& p) { return p.forces.shaking_force.y; }, force_);
+  cycle_.shaking_couple = orders_of([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_);
+  const Quantity torque = [](const PositionForces& p) { return p.forces.torque; };
   cycle_.torque_orders = orders_of(torque, moment_);
   cycle_.torque_mean = mean(torque, {});
   *cycle_.torque_mean.error += rounding_of_forces * moment_;
@@ -240,11 +240,11 @@ void Builder::find_orders() {
 // The works of a cycle make its change of kinetic energy: what is left over is every work's error.
 void Builder::balance() {
   double scale = 0, left = -cycle_.kinetic_change;
-  for (const LinkagePosition& p : samples_)
+  for (const PositionForces& p : samples_)
     for (const double power : {p.power.crank, p.power.load, p.power.weight, p.power.kinetic_rate})
       scale = std::max(scale, std::abs(power));
   for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows})
-    for (LinkagePosition& p : *list) {
+    for (PositionForces& p : *list) {
       const double open = p.power.crank + p.power.load + p.power.weight - p.power.kinetic_rate;
       p.power.residual = scale > 0 ? open / scale : 0;
       cycle_.power_residual = std::max(cycle_.power_residual, std::abs(p.power.residual));
@@ -269,7 +269,7 @@ void Builder::collect_curve() {
   const auto add_peak = [&](const Peak& p) { cycle_.curve.push_back(at(p.phi, motion_between(motion_, p.phi))); };
   for (const LinkageFigure& figure : cycle_.reactions) add_peak(figure.peak);
   for (const LinkageFigure* f : {&cycle_.torque, &cycle_.shaking_force, &cycle_.shaking_moment}) add_peak(f->peak);
-  std::stable_sort(cycle_.curve.begin(), cycle_.curve.end(), [](const LinkagePosition& a, const LinkagePosition& b) {
+  std::stable_sort(cycle_.curve.begin(), cycle_.curve.end(), [](const PositionForces& a, const PositionForces& b) {
     return a.forces.state.phi < b.forces.state.phi;
   });
 }

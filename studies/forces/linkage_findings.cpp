@@ -23,7 +23,7 @@ std::string peak_text(const Peak& p) { return p.unbounded ? "no bound" : with_er
 
 namespace {
 
-using P = const LinkagePosition&;
+using P = const PositionForces&;
 
 std::vector<const LinkageFigure*> peaks_of(const LinkageCycle& c) {
   std::vector<const LinkageFigure*> peaks;

@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-using P = const LinkagePosition&;
+using P = const PositionForces&;
 using Quantity = std::function<double(P)>;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }

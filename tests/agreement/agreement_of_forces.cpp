@@ -73,7 +73,7 @@ ToldForces forces_told(const ForceCycle& cycle) {
 
 ToldForces forces_told(const LinkageCycle& cycle) {
   Curve torque;
-  for (const LinkagePosition& p : cycle.curve) torque.add(p.forces.torque);
+  for (const PositionForces& p : cycle.curve) torque.add(p.forces.torque);
   const std::size_t high = torque.greatest(), low = torque.least();
   return {torque.values[high],
           torque.values[low],

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -270,6 +271,25 @@ TEST(House, EveryReadmeTellsWhatItsRoomImports) {
         << room << "/README.md must have the line\n"
         << told << ".";
   }
+}
+
+// A name of the namespace is one thing: two types of one name in two sources are linked into one without a word, with the
+// members of either (ODR).
+TEST(House, NoTwoHeadersDefineTypesOfOneName) {
+  const std::regex type("(?:struct|class) ([A-Za-z]+)(?: final)?(?: :[^:].*)? \\{.*");
+  std::map<std::string, std::string> defined_in;
+  std::vector<std::string> rooms = rooms_in_order();
+  rooms.push_back("library/kurbel");
+  for (const std::string& room : rooms)
+    for (const std::string& file : sources_of(room)) {
+      if (!file.ends_with(".h")) continue;
+      for (const std::string& line : lines_of(file))
+        if (std::smatch found; std::regex_match(line, found, type)) {
+          const auto [place, fresh] = defined_in.try_emplace(found[1], file);
+          EXPECT_TRUE(fresh || place->second == file) << file << " and " << place->second << " define " << found[1];
+        }
+    }
+  EXPECT_GT(defined_in.size(), 400u);
 }
 
 // Links within the project lead somewhere.

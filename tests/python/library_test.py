@@ -3,12 +3,7 @@
 import json
 import math
 import os
-import signal
-import subprocess
-import sys
 import tempfile
-import threading
-import time
 import unittest
 
 import numpy
@@ -174,45 +169,6 @@ class Motions(unittest.TestCase):
         self.assertEqual(other["torque.coupling"], motion["torque.coupling"])
         w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
         self.assertAlmostEqual(motion["torque.coupling"], STEP / 2 * (1 - math.cos(0.2 * w)), delta=1e-5 * STEP)
-
-
-class Threads(unittest.TestCase):
-    def test_python_runs_on_while_a_machine_is_computed(self):
-        ticks = []
-        done = threading.Event()
-        worker = threading.Thread(target=lambda: (kurbel.run(PRESS, plots=False), done.set()))
-        worker.start()
-        while not done.is_set():
-            ticks.append(time.monotonic())
-            time.sleep(0.002)
-        worker.join()
-        self.assertGreater(len(ticks), 5)
-
-    def test_two_runs_overlap(self):
-        spans = []
-
-        def compute():
-            begin = time.monotonic()
-            kurbel.run(PRESS, plots=False)
-            spans.append((begin, time.monotonic()))
-        threads = [threading.Thread(target=compute) for _ in range(2)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertLess(max(begin for begin, _ in spans), min(end for _, end in spans))
-
-    def test_ctrl_c_ends_a_run(self):
-        program = ("import kurbel, sys\nprint('on', flush=True)\n"
-                   f"try:\n  kurbel.run({PRESS!r}, until=1e5)\n"
-                   "except KeyboardInterrupt:\n  print('ended')\n")
-        child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-        child.stdout.readline()
-        time.sleep(0.5)
-        child.send_signal(signal.SIGINT)
-        begin = time.monotonic()
-        self.assertEqual(child.communicate(timeout=60)[0], "ended\n")
-        self.assertLess(time.monotonic() - begin, 20)
 
 
 class Sweeps(unittest.TestCase):

@@ -176,7 +176,7 @@ TEST(ForcesInALinkage, PushTheWayThatTheirColumnsName) {
     options.speed = 40;
     const LinkageStudy fast = find_linkage_forces(scene, options);
     const std::string csv = findings_of(fast).csv[0].text(), header = csv.substr(0, csv.find('\n'));
-    const auto left = [](const LinkagePosition& p) {
+    const auto left = [](const PositionForces& p) {
       Force2 sum = p.forces.shaking_force;
       for (const JointForces& j : p.forces.joints)
         if (std::string(j.from) == "frame") sum = sum + j.force;

@@ -131,7 +131,7 @@ TEST(ForcesInALinkage, HasPeaksThatNoPositionsMove) {
   }
   EXPECT_EQ(a.torque.peak.value, b.torque.peak.value);
   // A peak is none of the samples': the search finds no less than any position shows.
-  for (const LinkagePosition& p : b.rows)
+  for (const PositionForces& p : b.rows)
     EXPECT_LE(p.forces.joints[0].force.magnitude(), b.reactions[0].peak.value * (1 + 1e-12));
 }
 
