@@ -43,8 +43,10 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
                      "multibody one of Simbody's integrators");
   command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
-  command.add_flag("--no-trials", arguments.no_trials,
-                   "skip the runs that try, one by one, the effects that are off (made behind short runs only)");
+  command.add_flag(
+      "--no-trials", arguments.no_trials,
+      "skip the runs of the rigid machine and those that try, one by one, the effects that are off (made behind short "
+      "runs only)");
 }
 
 SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
@@ -175,7 +177,8 @@ const Verb run_verb{
      .does = "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
              "all of them), writes `report.html`, `summary.json` and "
              "`trajectory.csv` into `results/SCENE/run`; short "
-             "runs try the effects that are off, and tell which would move a key figure",
+             "runs try the effects that are off, and tell which would move a key figure, and what the rigid machine "
+             "would tell, which stands grey behind",
      .set_up = set_up_run,
      .more = {
          "scene.toml --explain | what was merged, the coordinates and their inertias, and why",
