@@ -66,6 +66,15 @@ TEST(State, OfEveryExampleSceneGoesOnFromTextToTheSameBits) {
   }
 }
 
+// In the pause of a starter, which its mode alone remembers, and after a second start.
+TEST(State, OfAStarterGoesOnFromItsPauseAndFromASecondStart) {
+  Scene fan = test::scene_file("scenes/fan_star_delta.toml");
+  expect_the_same_bits(fan, 11.7 / 20, "in its pause, from 11.686 s to 11.746 s");
+  fan.sequence.steps = {{.when = SequenceStep::When::at, .value = 5, .set = {"motor"}, .to = 0},
+                        {.when = SequenceStep::When::at, .value = 6, .set = {"motor"}, .to = 1}};
+  expect_the_same_bits(fan, 0.4, "in its second start");
+}
+
 // KURBEL_STATES=1000: as many as one likes.
 int states_asked() {
   const char* text = std::getenv("KURBEL_STATES");
