@@ -34,11 +34,11 @@ effects = {{ gear_losses = true }}
 
 // Above the rated frequency the torque falls with the square of the flux; the ramp counts from where it is switched on.
 TEST(FrequencyConverter, SwitchedOnLaterRisesFromThereAndWeakensTheField) {
-  const FrequencyConverter converter{.switched_on = 3, .ramp = 4, .target_speed = 200, .synchronous_speed = 150};
-  EXPECT_DOUBLE_EQ(converter.rated_frequency_at(), 6);
-  const Supply rising = converter.supply(FrequencyConverter::constant_flux, 5),
-               weak = converter.supply(FrequencyConverter::weak_field, 6.5),
-               there = converter.supply(FrequencyConverter::at_target, 9);
+  const FrequencyConverter converter{.ramp = 4, .target_speed = 200, .synchronous_speed = 150};
+  EXPECT_DOUBLE_EQ(converter.rated_frequency_at(), 3);
+  const Supply rising = converter.supply(FrequencyConverter::constant_flux, 2),
+               weak = converter.supply(FrequencyConverter::weak_field, 3.5),
+               there = converter.supply(FrequencyConverter::at_target, 6);
   EXPECT_DOUBLE_EQ(rising.factor, 1);
   EXPECT_DOUBLE_EQ(rising.lag, 50);
   EXPECT_DOUBLE_EQ(weak.factor, std::pow(150.0 / 175, 2));

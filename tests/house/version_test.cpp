@@ -1,4 +1,5 @@
 // version_test.cpp — the version is that of project() in CMakeLists.txt, and is written nowhere else but on the manual page.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +57,8 @@ TEST(Version, IsWrittenOnceAndOnTheManualPage) {
 
 TEST(Version, TheProgramSaysIt) {
   const std::string out = testing::TempDir() + "version.txt";
-  ASSERT_EQ(std::system((std::string(KURBEL_EXECUTABLE) + " --version > " + out).c_str()), 0);
+  const std::string command = fmt::format("{} --version > {}", KURBEL_EXECUTABLE, out);
+  ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(text_of(out), "kurbel " + version_of_project() + "\n");
 }
 

@@ -9,6 +9,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady_findings.h"
 #include "studies/steady/steady_ratings.h"
+#include "tests/published/published.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
