@@ -1,5 +1,6 @@
 // module.cpp — kurbel._kurbel: the facade as Python's types. What is Python's own (dicts, pandas, sweeps) stands in the
 // package beside it.
+#include <fmt/format.h>
 #include <kurbel/kurbel.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -87,7 +88,9 @@ void bind_machine(py::module_& m) {
       .def_property_readonly("components", &Machine::components)
       .def_property_readonly("until", &Machine::until, "end of its run [s]")
       .def_property_readonly("accuracy", &Machine::accuracy, "asked of every figure, over its scale")
-      .def("explain", &Machine::explain, "What is merged, the coordinates and their inertias.");
+      .def("explain", &Machine::explain, "What is merged, the coordinates and their inertias.")
+      .def("__repr__",
+           [](const Machine& m) { return fmt::format("<Machine {}: {}>", m.file(), fmt::join(m.components(), ", ")); });
 }
 
 void bind_study(py::module_& m) {
@@ -118,13 +121,17 @@ void bind_run(py::module_& m) {
       .def_readonly("unit", &FigureValue::unit, "\"N*m\"; empty: a plain number")
       .def_readonly("error", &FigureValue::error, "measured by further runs, in `unit`; None: not measured")
       .def_readonly("at", &FigureValue::at, "the moment that it belongs to [s], or None")
-      .def("__float__", [](const FigureValue& f) { return f.value; });
+      .def("__float__", [](const FigureValue& f) { return f.value; })
+      .def("__repr__", [](const FigureValue& f) {
+        const std::string error = f.error ? fmt::format(" ± {:.2g}", *f.error) : "";
+        return fmt::format("<Figure {} = {:.10g}{}{}{}>", f.name, f.value, error, f.unit.empty() ? "" : " ", f.unit);
+      });
   py::class_<Happening>(m, "Event", "Something that happened in a run.")
       .def_readonly("t", &Happening::t, "[s]")
       .def_readonly("component", &Happening::component)
       .def_readonly("what", &Happening::what)
       .def("__repr__",
-           [](const Happening& h) { return "<" + std::to_string(h.t) + " s: " + h.component + ": " + h.what + ">"; });
+           [](const Happening& h) { return fmt::format("<Event at {:.6g} s: {}: {}>", h.t, h.component, h.what); });
   py::class_<Run>(m, "RunOutput")
       .def_property_readonly("complete", &Run::complete)
       .def_property_readonly("diagnosis", &Run::diagnosis)
@@ -162,6 +169,7 @@ void bind_motion(py::module_& m) {
       .def_property_readonly("time", &SavedState::time, "[s]")
       .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, own states: Motion.state_names")
       .def_property_readonly("text", &SavedState::text, "JSON, exact")
+      .def("__repr__", [](const SavedState& s) { return fmt::format("<State at {:.10g} s>", s.time()); })
       .def(
           "__eq__", [](const SavedState& a, const SavedState& b) { return a == b; }, py::arg("other"),
           py::is_operator());
@@ -180,7 +188,8 @@ void bind_motion(py::module_& m) {
       .def_property_readonly("units", &Motion::units, "SI, in the order of the names")
       .def_property_readonly("state_names", &Motion::state_names)
       .def_property_readonly("values", &Motion::values, "of all names, now")
-      .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.");
+      .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.")
+      .def("__repr__", [](const Motion& m) { return fmt::format("<Motion at {:.10g} s>", m.time()); });
 }
 
 }  // namespace

@@ -52,6 +52,15 @@ TEST(Facade, AFaultOfASceneHasItsPlace) {
     EXPECT_EQ(bad.faults()[0].line, 7);
     EXPECT_EQ(std::string(bad.what()).substr(0, 11), "two.toml:7:");
   }
+  // A file that is not there is one fault, without a line.
+  try {
+    Machine::from_file("nowhere/two.toml");
+    FAIL() << "was read";
+  } catch (const BadScene& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_EQ(bad.faults()[0].line, 0);
+    EXPECT_NE(bad.faults()[0].text.find("no such file"), std::string::npos);
+  }
   // Of a setting it is told in the setting.
   EXPECT_NE(message_of([] {
               Machine::from_text(two_masses).with({{"fan.inertia", "-1 kg*m2"}});
