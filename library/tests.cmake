@@ -15,6 +15,8 @@ add_way_in(PkgConfig "C++, by pkg-config")
 if(KURBEL_PYTHON)
   add_way_in(Python Python)
   add_way_in(Debian Debian)
+  # Both look whether there is something to build.
+  set_tests_properties(Installed.Python Installed.Debian PROPERTIES RESOURCE_LOCK build)
 endif()
 # Every public name has its words. `cmake --build build/release --target reference` makes the same pages.
 add_test(NAME Reference.EveryPublicNameIsDocumented COMMAND ${PROJECT_SOURCE_DIR}/scripts/reference ${PROJECT_BINARY_DIR}/reference)
