@@ -50,7 +50,13 @@ void refuse_name(const std::string& what, const std::string& name, const std::ve
 }
 
 Machine Machine::from_file(const std::string& path, const Settings& settings) {
-  return Machine(read(read_text_file(path, max_scene_bytes), path, as_lines(settings)));
+  std::string text;
+  try {
+    text = read_text_file(path, max_scene_bytes);
+  } catch (const SceneError& error) {
+    throw bad_scene(error);
+  }
+  return Machine(read(text, path, as_lines(settings)));
 }
 
 Machine Machine::from_text(const std::string& text, const std::string& file, const Settings& settings) {

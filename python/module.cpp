@@ -1,5 +1,6 @@
 // module.cpp — kurbel._kurbel: the facade as Python's types. What is Python's own (dicts, pandas, sweeps) stands in the
 // package beside it.
+#include <fmt/format.h>
 #include <kurbel/kurbel.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -43,6 +44,9 @@ auto computed(const Ask& ask) {
   return get();
 }
 
+// What is read and compiled at once: Python's other threads go on meanwhile.
+constexpr py::call_guard<py::gil_scoped_release> without_lock;
+
 // In the memory of the run, which the array keeps; nobody may write there.
 py::array_t<double> array_of(const TimeSeries& series) {
   auto* const kept = new std::shared_ptr<const void>(series.kept());
@@ -75,11 +79,11 @@ void translate(std::exception_ptr thrown) {
 
 void bind_machine(py::module_& m) {
   py::class_<Machine>(m, "Machine", "A machine as its scene describes it, read and found to be sound. Never changes.")
-      .def_static("from_file", &Machine::from_file, py::arg("path"), py::arg("settings") = Settings{},
+      .def_static("from_file", &Machine::from_file, without_lock, py::arg("path"), py::arg("settings") = Settings{},
                   "Reads a scene's file. Raises SceneError with all faults at once.")
-      .def_static("from_text", &Machine::from_text, py::arg("text"), py::arg("file") = "scene.toml",
+      .def_static("from_text", &Machine::from_text, without_lock, py::arg("text"), py::arg("file") = "scene.toml",
                   py::arg("settings") = Settings{}, "Reads a scene's text; data files are looked for beside `file`.")
-      .def("with_settings", &Machine::with, py::arg("settings"), "The same with further settings put in.")
+      .def("with_settings", &Machine::with, without_lock, py::arg("settings"), "The same with further settings put in.")
       .def_property_readonly("title", &Machine::title)
       .def_property_readonly("file", &Machine::file)
       .def_property_readonly("text", &Machine::text, "the scene's text with its settings put in")
@@ -87,7 +91,9 @@ void bind_machine(py::module_& m) {
       .def_property_readonly("components", &Machine::components)
       .def_property_readonly("until", &Machine::until, "end of its run [s]")
       .def_property_readonly("accuracy", &Machine::accuracy, "asked of every figure, over its scale")
-      .def("explain", &Machine::explain, "What is merged, the coordinates and their inertias.");
+      .def("explain", &Machine::explain, without_lock, "What is merged, the coordinates and their inertias.")
+      .def("__repr__",
+           [](const Machine& m) { return fmt::format("<Machine {}: {}>", m.file(), fmt::join(m.components(), ", ")); });
 }
 
 void bind_study(py::module_& m) {
@@ -118,13 +124,17 @@ void bind_run(py::module_& m) {
       .def_readonly("unit", &FigureValue::unit, "\"N*m\"; empty: a plain number")
       .def_readonly("error", &FigureValue::error, "measured by further runs, in `unit`; None: not measured")
       .def_readonly("at", &FigureValue::at, "the moment that it belongs to [s], or None")
-      .def("__float__", [](const FigureValue& f) { return f.value; });
+      .def("__float__", [](const FigureValue& f) { return f.value; })
+      .def("__repr__", [](const FigureValue& f) {
+        const std::string error = f.error ? fmt::format(" ± {:.2g}", *f.error) : "";
+        return fmt::format("<Figure {} = {:.10g}{}{}{}>", f.name, f.value, error, f.unit.empty() ? "" : " ", f.unit);
+      });
   py::class_<Happening>(m, "Event", "Something that happened in a run.")
       .def_readonly("t", &Happening::t, "[s]")
       .def_readonly("component", &Happening::component)
       .def_readonly("what", &Happening::what)
       .def("__repr__",
-           [](const Happening& h) { return "<" + std::to_string(h.t) + " s: " + h.component + ": " + h.what + ">"; });
+           [](const Happening& h) { return fmt::format("<Event at {:.6g} s: {}: {}>", h.t, h.component, h.what); });
   py::class_<Run>(m, "RunOutput")
       .def_property_readonly("complete", &Run::complete)
       .def_property_readonly("diagnosis", &Run::diagnosis)
@@ -162,25 +172,27 @@ void bind_motion(py::module_& m) {
       .def_property_readonly("time", &SavedState::time, "[s]")
       .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, own states: Motion.state_names")
       .def_property_readonly("text", &SavedState::text, "JSON, exact")
+      .def("__repr__", [](const SavedState& s) { return fmt::format("<State at {:.10g} s>", s.time()); })
       .def(
           "__eq__", [](const SavedState& a, const SavedState& b) { return a == b; }, py::arg("other"),
           py::is_operator());
   py::class_<Motion>(m, "Motion", "A machine in motion under its user's hands. For one thread at a time.")
-      .def(py::init<const Machine&, const std::string&, double>(), py::arg("machine"), py::arg("effects") = "",
-           py::arg("tolerance") = 1e-9)
+      .def(py::init<const Machine&, const std::string&, double>(), without_lock, py::arg("machine"),
+           py::arg("effects") = "", py::arg("tolerance") = 1e-9)
       .def_property_readonly("time", &Motion::time, "[s]")
       .def(
           "go_to",
           [](Motion& motion, double time) { computed([&](const Watcher& watcher) { motion.go_to(time, watcher); }); },
           py::arg("time"), "On to a time [s], through all events on the way. Interrupted, it stands where it stood.")
       .def_property_readonly("state", &Motion::state)
-      .def("restore", &Motion::restore, py::arg("state"), "Back to a state of this machine.")
+      .def("restore", &Motion::restore, without_lock, py::arg("state"), "Back to a state of this machine.")
       .def("state_from", &Motion::state_from, py::arg("text"), "A state of this machine from its text.")
       .def_property_readonly("names", &Motion::names, "of all that can be looked at")
       .def_property_readonly("units", &Motion::units, "SI, in the order of the names")
       .def_property_readonly("state_names", &Motion::state_names)
       .def_property_readonly("values", &Motion::values, "of all names, now")
-      .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.");
+      .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.")
+      .def("__repr__", [](const Motion& m) { return fmt::format("<Motion at {:.10g} s>", m.time()); });
 }
 
 }  // namespace

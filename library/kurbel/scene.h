@@ -38,8 +38,8 @@ struct MachineParts;
 // A value: copies share what is read, and nothing of it ever changes. May be used by several threads at once.
 class Machine {
  public:
-  // Of a scene's file. Throws BadScene with all faults at once, std::invalid_argument for a file that cannot be opened.
-  // Data files of a scene are looked for beside it, nowhere else.
+  // Of a scene's file. Throws BadScene with all faults at once, and for a file that cannot be read. Data files of a
+  // scene are looked for beside it, nowhere else.
   static Machine from_file(const std::string& path, const Settings& settings = {});
   // Of a scene's text. `file` is its name in messages and need not exist; data files are looked for beside it. Throws
   // BadScene with all faults at once.

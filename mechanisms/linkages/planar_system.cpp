@@ -148,7 +148,7 @@ Reduction PlanarSystem::reduce_through(State& state, double phi) const {
   for (const Taylor& t : to.coordinates) q.push_back(double(t.value()));
   if (std::fabs(to.sine) > hardly_closed) return reduce_at(state, phi, q);
   KnownDerivatives known{SimTK::Vector(int(q.size()) + 1, 0.0), SimTK::Vector(int(q.size()) + 1, 0.0),
-                    SimTK::Vector(int(q.size()) + 1, 0.0)};
+                         SimTK::Vector(int(q.size()) + 1, 0.0)};
   known.q1[0] = 1;
   state.updQ()[0] = phi;
   for (int k = 1; k <= int(q.size()); ++k) {

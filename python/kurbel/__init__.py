@@ -6,14 +6,15 @@
     r.trajectory["torque.main_coupling"]      # numpy, in the run's own memory [N*m]
 
 A scene is the path of a file, a text (with a line end in it), a mapping as tomllib hands out (a dict), or a Machine.
-All numbers are in SI units, angles in rad, speeds in rad/s. What is wrong with a scene raises SceneError, a ValueError whose `places` tell file, line,
-column and text of every fault. A run that cannot go on is no exception: `complete` is False, `diagnosis` says why.
+All numbers are in SI units, angles in rad, speeds in rad/s. What is wrong with a scene raises SceneError, a ValueError
+whose `places` tell file, line, column and text of every fault. A run that cannot go on is no exception: `complete` is
+False, `diagnosis` says why.
 """
 
 from ._kurbel import Event, Figure, Machine, Motion, SceneError, State, __version__, option_names, study_names
 from ._results import Run, Study, Trajectory
 from ._sweep import Sweep, sweep
-from ._text import machine
+from ._text import choices_of, machine
 from . import _kurbel
 
 __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State", "Study", "Sweep", "Trajectory",
@@ -24,20 +25,20 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
     """Simulates a scene: figures confirmed by further runs, trajectory, page.
 
     set       values put beside the scene: {"main_coupling.stiffness": "1 MN*m/rad"}
-    effects   "none", "all", or names joined by commas, in place of the scene's
+    effects   "none", "all", or names, joined by commas or as a list, in place of the scene's
     method    "auto", "dop853", …
     accuracy  of every figure over its scale
     until     end of the simulated time [s]
     errors    measure them by further runs
     plots     follow what the page draws
     """
-    return Run(_kurbel.run(machine(scene, set=set), effects=effects, method=method, accuracy=accuracy, until=until,
-                           errors=errors, plots=plots))
+    choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, errors=errors, plots=plots)
+    return Run(_kurbel.run(machine(scene, set=set), **choices))
 
 
 def motion(scene, *, set=None, effects="", tolerance=1e-9):
     """A machine to be stepped: go_to(t), motion["torque.main_coupling"], state, restore(state)."""
-    return Motion(machine(scene, set=set), effects, tolerance)
+    return Motion(machine(scene, set=set), **choices_of(effects=effects, tolerance=tolerance))
 
 
 def study(name, scene, *, set=None, **options):

@@ -97,6 +97,18 @@ class Trajectory:
         frame.attrs["units"] = dict(self.units)
         return frame
 
+    def __repr__(self):
+        return f"<Trajectory: {len(self)} quantities at {len(self.time)} times>"
+
+
+class Figures(dict):
+    """Figures by their names; what is none of them is refused with those like it."""
+
+    def __missing__(self, name):
+        import difflib
+        like = " or ".join(map(repr, difflib.get_close_matches(str(name), self, n=3, cutoff=0.5)))
+        raise KeyError(f"the run has no {name!r}" + (f" — did you mean {like}?" if like else ""))
+
 
 class Run(Study):
     """One simulation: figures with errors, what was recorded, events."""
@@ -104,7 +116,7 @@ class Run(Study):
     def __init__(self, output):
         super().__init__(output.study)
         self._run = output
-        self.figures = output.figures
+        self.figures = Figures(output.figures)
         self.trajectory = Trajectory(output)
 
     @property

@@ -1,7 +1,7 @@
 """Variants of a machine, computed by whatever has `submit` or `map`: threads, processes, a Dask cluster."""
 
 from . import _kurbel
-from ._text import machine
+from ._text import choices_of, machine
 
 
 def _row(text, file, settings, figures, choices):
@@ -32,6 +32,9 @@ class Sweep:
         import numpy
         return numpy.array([row[figure][0] if figure in row else numpy.nan for row in self.figures])
 
+    def __repr__(self):
+        return f"<Sweep of {', '.join(self.vary)}: {len(self)} rows, {len(self.failures)} failed>"
+
     def to_pandas(self):
         import pandas
         columns = [text.split("=")[0] for text in self.vary]
@@ -52,7 +55,7 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), set=None, executor=
     """
     base = machine(scene, set=set)
     vary = [vary] if isinstance(vary, str) else list(vary)
-    figures = tuple(figures)
+    figures, choices = tuple(figures), choices_of(**choices)
     rows = _kurbel.rows_of(vary, design, seed)
     settings = _kurbel.settings_of(vary, design, seed)
     text, file = base.text, base.file

@@ -1,5 +1,6 @@
 """Scenes from whatever describes them: files, texts, mappings."""
 
+import errno
 import os
 from collections.abc import Mapping
 
@@ -50,8 +51,21 @@ def settings_of(set):
     return [(path, value if isinstance(value, str) else _value(value)) for path, value in (set or {}).items()]
 
 
+def choices_of(**given):
+    """Choices of a run as the module takes them: effects by commas, numbers in SI."""
+    for name, value in given.items():
+        if name in ("accuracy", "until", "tolerance") and isinstance(value, str):
+            raise TypeError(f"{name}={value!r}: must be a number in SI units"
+                            + ("" if name == "tolerance" else f"; or set={{'run.{name}': {value!r}}}"))
+    if isinstance(given.get("effects"), (list, tuple)):
+        given["effects"] = ",".join(given["effects"])
+    return given
+
+
 def machine(scene, *, set=None):
-    """A machine from a file's path, a text with a line end in it, a mapping (a dict), or a machine. Raises SceneError."""
+    """A machine from a file's path, a text with a line end in it, a mapping (a dict), or a machine.
+
+    Raises SceneError for what is wrong with it, FileNotFoundError for a path that leads nowhere."""
     settings = settings_of(set)
     if isinstance(scene, Machine):
         return scene.with_settings(settings) if settings else scene
@@ -59,4 +73,9 @@ def machine(scene, *, set=None):
         return Machine.from_text(text_of(scene), "dict", settings)
     if isinstance(scene, str) and "\n" in scene:
         return Machine.from_text(scene, "text", settings)
-    return Machine.from_file(os.fspath(scene), settings)
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(f"a scene is the path of a file, a text, a mapping or a machine, not {type(scene).__name__}")
+    path = os.fspath(scene)
+    if not os.path.exists(path):
+        raise FileNotFoundError(errno.ENOENT, "no such scene (a path; a scene as text has line ends in it)", path)
+    return Machine.from_file(path, settings)

@@ -54,9 +54,9 @@ struct LinkageCycle {
   MeanFigure mean_speed;           // of the crank, over the time [rad/s]
   double least_speed = 0, greatest_speed = 0, closure = 0;
   double speed_error = 0, closure_error = 0;  // of the least and the greatest [rad/s]; of the closure
-  std::vector<PositionForces> positions;     // 720 of a turn, evenly, both ends, whatever is asked for
-  std::vector<PositionForces> rows;          // those asked for, both ends
-  std::vector<PositionForces> curve;         // positions, both sides of every load edge, and the peaks
+  std::vector<PositionForces> positions;      // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<PositionForces> rows;           // those asked for, both ends
+  std::vector<PositionForces> curve;          // positions, both sides of every load edge, and the peaks
   std::vector<LinkageFigure> reactions;       // of each joint; of a slide its normal force, then its moment
   LinkageFigure torque, shaking_force, shaking_moment;
   std::vector<LinkOfCycle> links;

@@ -52,6 +52,15 @@ TEST(Facade, AFaultOfASceneHasItsPlace) {
     EXPECT_EQ(bad.faults()[0].line, 7);
     EXPECT_EQ(std::string(bad.what()).substr(0, 11), "two.toml:7:");
   }
+  // A file that is not there is one fault, without a line.
+  try {
+    Machine::from_file("nowhere/two.toml");
+    FAIL() << "was read";
+  } catch (const BadScene& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_EQ(bad.faults()[0].line, 0);
+    EXPECT_NE(bad.faults()[0].text.find("no such file"), std::string::npos);
+  }
   // Of a setting it is told in the setting.
   EXPECT_NE(message_of([] {
               Machine::from_text(two_masses).with({{"fan.inertia", "-1 kg*m2"}});
@@ -91,6 +100,10 @@ TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
     const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false});
     EXPECT_EQ(run.trajectory().rows(), 100u);
     EXPECT_FALSE(run.study().json().empty());
+    Motion motion(machine);
+    motion.go_to(1e-3);
+    motion.restore(motion.state_from(motion.state().text()));
+    EXPECT_EQ(motion.values().size(), motion.names().size());
   };
   for (int i = 0; i < 100; ++i) cycle();
   const double before = resident();
@@ -116,6 +129,30 @@ TEST(Facade, AMotionGoesBackAndOnToTheLastBit) {
   EXPECT_THROW(other.go_to(0.1), std::invalid_argument);
   // The text of another machine is none of this one.
   EXPECT_THROW(Motion(machine, "none").restore(kept), std::invalid_argument);
+}
+
+TEST(Facade, AMotionThatIsInterruptedStandsWhereItStood) {
+  const Machine machine = Machine::from_text(two_masses);
+  Motion motion(machine), other(machine);
+  motion.go_to(0.1);
+  const SavedState kept = motion.state();
+  // At work for ever, were it not for the third word on its progress, which comes with 64 steps each.
+  std::atomic<bool> interrupted{false};
+  std::vector<double> told;
+  const Watcher watcher{&interrupted, [&](const std::string&, double fraction) {
+                          told.push_back(fraction);
+                          interrupted = told.size() == 3;
+                        }};
+  EXPECT_NE(message_of([&] { motion.go_to(1e6, watcher); }).find("interrupted"), std::string::npos);
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_TRUE(0 < told[0] && told[0] < told[1] && told[1] < told[2] && told[2] < 1e-3) << told[0];
+  EXPECT_TRUE(motion.state() == kept);
+  // And goes on as if nothing had been.
+  motion.go_to(0.2);
+  other.restore(kept);
+  other.go_to(0.2);
+  EXPECT_TRUE(motion.state() == other.state());
+  EXPECT_NEAR(motion["torque.coupling"], torque_at(0.2), 1e-6);
 }
 
 TEST(Facade, WhatAStudyDoesNotAskForIsRefusedWithWhatItHas) {

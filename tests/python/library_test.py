@@ -53,6 +53,22 @@ class Runs(unittest.TestCase):
                 out.write(text)
             self.assertEqual(kurbel.run(file, errors=False).figures["peak_torque.coupling"].value, figures.value)
 
+    def test_effects_are_names_by_commas_or_a_list(self):
+        peaks = [kurbel.run(TWO_MASSES, effects=effects, errors=False).figures["peak_torque.coupling"].value
+                 for effects in ("elasticity:coupling", ["elasticity:coupling"], "none", ["none"])]
+        self.assertEqual(peaks[0], peaks[1])
+        self.assertEqual(peaks[2], peaks[3])
+        self.assertAlmostEqual(peaks[0] / peaks[2], 2, delta=1e-4)
+
+    def test_what_is_handed_out_says_what_it_is(self):
+        run = kurbel.run(TWO_MASSES, errors=False)
+        motion = kurbel.motion(TWO_MASSES)
+        for thing, said in ((run.figures["peak_torque.coupling"], r"<Figure peak_torque.coupling = 88\.23\d+ N\*m>"),
+                            (kurbel.machine(TWO_MASSES), "<Machine dict: rotor, coupling, fan, motor>"),
+                            (motion, "<Motion at 0 s>"), (motion.state, "<State at 0 s>"),
+                            (run.trajectory, r"<Trajectory: \d+ quantities at \d+ times>")):
+            self.assertRegex(repr(thing), said)
+
     def test_the_page_and_the_summary_are_whole(self):
         run = kurbel.run(TWO_MASSES, errors=False)
         self.assertIn("</html>", run.html)
@@ -123,12 +139,25 @@ class Faults(unittest.TestCase):
         run = kurbel.run(TWO_MASSES, errors=False)
         with self.assertRaisesRegex(KeyError, "torque.coupling"):
             run.trajectory["torque.couplin"]
+        with self.assertRaisesRegex(KeyError, "peak_torque.coupling"):
+            run.figures["peak_torque.couplin"]
+        self.assertIsNone(run.figures.get("peak_torque.couplin"))
         with self.assertRaisesRegex(ValueError, "mid_speed"):
             kurbel.steady(TWO_MASSES, mid_sped="60 rpm")
         with self.assertRaisesRegex(ValueError, "steady"):
             kurbel.study("stedy", TWO_MASSES)
-        with self.assertRaises(TypeError):
-            kurbel.machine({"title": object()})
+        for wrong in ({"title": object()}, 42, None):
+            with self.assertRaisesRegex(TypeError, "scene"):
+                kurbel.machine(wrong)
+        with self.assertRaisesRegex(TypeError, "run.until"):
+            kurbel.run(TWO_MASSES, until="1 s")
+
+    def test_a_path_that_leads_nowhere_is_no_file(self):
+        with self.assertRaises(FileNotFoundError) as raised:
+            kurbel.run("nowhere/press.toml")
+        self.assertEqual(raised.exception.filename, "nowhere/press.toml")
+        with self.assertRaisesRegex(kurbel.SceneError, "folder"):
+            kurbel.machine(SCENES)
 
     def test_a_run_that_breaks_off_says_why_and_raises_nothing(self):
         run = kurbel.run(PRESS, set={"run.budget": "10 ms"}, until=1e4, errors=False)

@@ -14,7 +14,7 @@ class Notebook(unittest.TestCase):
         scenes = os.environ["KURBEL_SCENES"]
         notebook = nbformat.read(os.path.join(scenes, "..", "examples", "press.ipynb"), as_version=4)
         NotebookClient(notebook, timeout=120, kernel_name="python3",
-                       resources={"metadata": {"path": os.path.join(scenes, "..")}}).execute()
+                       resources={"metadata": {"path": os.path.join(scenes, "..", "examples")}}).execute()
         outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
         self.assertFalse([output for output in outputs if output.output_type == "error"])
         self.assertTrue(any("srcdoc=" in "".join(output.get("data", {}).get("text/html", "")) for output in outputs))

@@ -23,21 +23,27 @@ class Threads(unittest.TestCase):
         """Starts a run without end in this thread. Another one acts once it is at work, and then interrupts it: that it
         ends at all proves that all of `act` has happened meanwhile."""
         before = threads()
-        seen = []
+        seen, over = [], threading.Event()
 
         def meanwhile():
             while threads() < before + 2:  # this one, and the one that computes
-                pass
+                if over.is_set():
+                    return
             try:
                 seen.append(act())
             finally:
-                signal.raise_signal(signal.SIGINT)
+                if not over.is_set():
+                    signal.raise_signal(signal.SIGINT)
         worker = threading.Thread(target=meanwhile)
         worker.start()
-        with self.assertRaises(KeyboardInterrupt):
-            run = kurbel.run(PRESS, set=ENDLESS, until=1e5, errors=False, plots=False)
-            self.fail(f"nobody interrupted it: {run.diagnosis}")
-        worker.join()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                run = kurbel.run(PRESS, set=ENDLESS, until=1e5, errors=False, plots=False)
+                over.set()
+                self.fail(f"nobody interrupted it: {run.diagnosis}")
+        finally:
+            over.set()
+            worker.join()
         self.assertEqual(len(seen), 1)
         return seen[0]
 
