@@ -371,6 +371,9 @@ class Search {
 
   void drift() {
     const std::string where = fmt::format("after {} rounds, at {:.4g} s, ", out_.rounds, state_.t);
+    if (settled_rounds_ == 0 && is_settled())
+      return end(Regime::Kind::drifting,
+                 where + fmt::format("\"{}\" has neither come round nor come to rest: it swings to and fro", link()));
     if (settled_rounds_ == 0)
       return end(Regime::Kind::drifting,
                  where + (m_.scene.sequence.repeat ? "the operating sequence still goes round without coming again"

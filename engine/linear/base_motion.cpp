@@ -37,7 +37,6 @@ void follow_pieces(Equations& equations, double t, const std::vector<double>& fr
   }
 }
 
-
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double geared_within = 1e-6;        // of the link's speed: an angle that turns with the link
 constexpr double golden = 0.618033988749895;  // spreads times over the angles
@@ -59,11 +58,11 @@ double common_time(const Model& m) {
 BaseMotion::BaseMotion(std::shared_ptr<const Model> model, LinearisationPoint point)
     : shared_(std::move(model)), m_(*shared_), equations_(shared_, false), point_(std::move(point)) {
   for (const Network::ShaftElement& e : m_.network.elements)
-    if (std::isinf(e.element->cycle))
-      throw std::invalid_argument(
-          fmt::format("the crank of \"{}\" rocks and never comes round, so that there is no mean over its angle to "
-                      "linearise about; follow its motion with kurbel run",
-                      e.component));
+    if (std::isinf(e.element->cycle) && !point_.angle)
+      throw std::invalid_argument(fmt::format(
+          "the crank of \"{}\" rocks and never comes round, so that there is no mean over its angle to "
+          "linearise about; hold it at an angle, e.g. --angle \"0 deg\", or follow its motion with kurbel run",
+          e.component));
   turn_of_joint_.assign(m_.elastic.size(), -1);
   for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
     const Network::Joint& joint = m_.network.joints[kurbel::at(m_.elastic[j].joint)];

@@ -18,7 +18,12 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr double rounding = 1e-11;  // of the largest entry: what is left of a difference of equal ones
 
-void refuse_what_cannot_swing(const Model& m) {
+// With the link held at an angle weights and loads that hang on it hold it, too.
+void refuse_what_cannot_swing(const Model& m, const LinearisationPoint& point) {
+  const auto& elements = m.network.elements;
+  if (point.angle && std::any_of(elements.begin(), elements.end(),
+                                 [](const Network::ShaftElement& e) { return e.element->is.uses_angle; }))
+    return;
   const bool springs = std::any_of(m.elastic.begin(), m.elastic.end(), [&](const ElasticJoint& e) {
     return m.network.joints[at(e.joint)].element->is.has_spring();
   });
@@ -186,12 +191,12 @@ class Lineariser {
 }  // namespace
 
 LinearDrive linearise(BaseMotion& base) {
-  refuse_what_cannot_swing(base.model());
+  refuse_what_cannot_swing(base.model(), base.point());
   return Lineariser(base).drive(base.equations().shared_model());
 }
 
 LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point) {
-  refuse_what_cannot_swing(*model);
+  refuse_what_cannot_swing(*model, point);
   BaseMotion base(std::move(model), point);
   return linearise(base);
 }

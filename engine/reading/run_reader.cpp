@@ -50,6 +50,24 @@ void read_component_start(SceneReading& r, const DocumentEntry& entry) {
   r.scene.run.start.components[entry.key] = start;
 }
 
+// A mechanism whose slider or rocker is named as if it were a shaft; null where that is not what was meant.
+const char* output_named(SceneReading& r, const std::string& name) {
+  for (const char* output : {".slider", ".rocker"})
+    if (name.ends_with(output) && r.find(name.substr(0, name.size() - 7))) return output + 1;
+  return nullptr;
+}
+
+// What goes to and fro has no angle that grows, and stands while the machine moves.
+void refuse_output(SceneReading& r, const DocumentValue& value, const char* output) {
+  const std::string mechanism = value.text.substr(0, value.text.size() - 7);
+  r.refuse(
+      value.at,
+      fmt::format("start: on = {}: a {} tells no motion of the machine: at its dead centres it stands whatever the "
+                  "crank does (v = x' ω with x' = 0), and it passes each place twice a turn; give angle and speed "
+                  "of the crank, on = {}; masses and forces reduced to the {}: kurbel reduce --to {}",
+                  value.describe(), output, in_quotes(mechanism), output, value.text));
+}
+
 void read_start(SceneReading& r, const DocumentValue& value) {
   StartSettings& start = r.scene.run.start;
   start.at = value.at;
@@ -78,7 +96,9 @@ void read_start(SceneReading& r, const DocumentValue& value) {
       start.equilibrium = entry.value.flag;
     } else if (entry.key == "on") {
       start.on = entry.value.text;
-      if (!r.find(start.on) && !r.unreadable.count(start.on))
+      if (const char* output = output_named(r, start.on))
+        refuse_output(r, entry.value, output);
+      else if (!r.find(start.on) && !r.unreadable.count(start.on))
         r.refuse(entry.value.at,
                  fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(),
                              suggestion(start.on, r.component_names()), shortened_list(r.component_names())));

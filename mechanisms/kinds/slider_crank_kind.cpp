@@ -17,34 +17,32 @@ namespace {
 
 using Crank = SliderCrankData;
 
-// Where a crank whose rod is too short rocks: its pin is as far from the slider's line as the rod is long at the ends.
-std::string rocking_of(const SliderCrankData& d) {
-  const double pi = std::acos(-1.0), low = (d.offset - d.rod_length) / d.radius,
-               high = (d.offset + d.rod_length) / d.radius;
-  if (low > 1 || high < -1) return "the rod cannot even reach the slider's line";
-  const auto degrees = [&](double angle) { return fmt::format("{:.4g}°", angle * 180 / pi); };
-  if (high >= 1)
-    return fmt::format("the crank rocks between φ = {} and {}", degrees(std::asin(low)), degrees(pi - std::asin(low)));
-  if (low <= -1)
-    return fmt::format("the crank rocks between φ = {} and {}", degrees(-pi - std::asin(high)),
-                       degrees(std::asin(high)));
-  return fmt::format("the crank rocks between φ = {} and {}", degrees(std::asin(low)), degrees(std::asin(high)));
+// A rod shorter than r + |e| lets the crank rock, if its pin comes within the rod's reach of the slider's line, and clearly
+// so: a stop that is hardly one is a change point that rounding would choose the branch of.
+void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
+  constexpr double hardly = 1e-6;
+  const double reach = d.radius + std::abs(d.offset), near = std::abs(d.offset) - d.radius;
+  const auto close_to = [&](double length) { return std::abs(d.rod_length - length) <= hardly * reach; };
+  if (d.rod_length <= near)
+    faults.push_back({"rod", fmt::format("rod = {}; must be > |offset| - radius = {}, else the rod cannot reach the "
+                                         "slider's line; lengthen the rod or the crank",
+                                         in_mm(d.rod_length), in_mm(near))});
+  else if (!d.changes() && ((close_to(reach) && d.rod_length < reach) || close_to(std::abs(near))))
+    faults.push_back(
+        {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
+                            "upright, so that rounding would choose the branch; lengthen or shorten it clearly",
+                            in_mm(d.rod_length),
+                            std::abs(d.rod_length - (close_to(reach) ? reach : std::abs(near))) / d.rod_length)});
+  else if (d.folds && !d.changes() && !d.rocks())
+    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a rod of at most radius + |offset| = {}; the rod "
+                                            "is {} long: leave the branch out",
+                                            in_mm(reach), in_mm(d.rod_length))});
 }
 
-// The rod must pass both dead centres, and no body may have less inertia than its mass demands.
+// The rod must reach the slider's line, and no body may have less inertia than its mass demands.
 DataFaults faults_of(const SliderCrankData& d) {
   DataFaults faults;
-  const double reach = d.radius + std::abs(d.offset);
-  if (!(d.rod_length > reach) && !d.changes())
-    faults.push_back(
-        {"rod",
-         fmt::format("rod = {}; must be ≥ radius + |offset| = {} + {} = {}, else the crank cannot turn fully "
-                     "({}); lengthen the rod or shorten the crank",
-                     in_mm(d.rod_length), in_mm(d.radius), in_mm(std::abs(d.offset)), in_mm(reach), rocking_of(d))});
-  else if (d.folds && !d.changes())
-    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a change point, rod = radius + |offset| = {}; "
-                                            "the rod is {} long: leave the branch out",
-                                            in_mm(reach), in_mm(d.rod_length))});
+  add_rod_faults(d, faults);
   const double least = d.crank_mass * d.crank_com * d.crank_com;
   if (d.crank_inertia < least * (1 - 1e-12))
     faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
@@ -69,17 +67,21 @@ Fields<Crank> linkage() {
       .add({.name = "rod",
             .unit = "m",
             .domain = positive,
-            .doc = "rod length l, ≥ radius + |offset|; equal to it, crank and rod pass change points",
+            .doc =
+                "rod length l; equal to radius + |offset|, crank and rod pass change points; shorter, the crank rocks "
+                "within its arc, where the run ends if it is reached",
             .required = true},
            &Crank::rod_length)
       .add({.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
            &Crank::offset)
-      .add({.name = "branch",
-            .fallback = "\"follows\"",
-            .doc =
-                "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; folds: "
-                "it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is"},
-           &Crank::folds, {{"follows", false}, {"folds", true}})
+      .add(
+          {.name = "branch",
+           .fallback = "\"follows\"",
+           .doc =
+               "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; folds: "
+               "it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is. Of a shorter rod, "
+               "whose crank rocks: follows: the rod points towards +x, folds: towards −x"},
+          &Crank::folds, {{"follows", false}, {"folds", true}})
       .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
       .add({.name = "crank_com",
             .unit = "m",
@@ -224,6 +226,13 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
                             friction ? "reactions have no bound and friction by them jams the crank"
                                      : "gaps and bending decide which way the rod goes on",
                             friction ? "friction of the joints" : "clearance and rod_flexibility")});
+  if (sound && faults.empty() && d.rocks() && deforms)
+    faults.push_back(
+        {"rod",
+         fmt::format("rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then "
+                     "decide how far it goes, beyond any arc that is known: lengthen the rod, or leave out "
+                     "clearance and rod_flexibility",
+                     in_mm(d.rod_length))});
   std::shared_ptr<const SliderCrankStatics> joints;
   if (sound && faults.empty() && friction) joints = std::make_shared<SliderCrankStatics>(d, mechanism.joints);
   build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),

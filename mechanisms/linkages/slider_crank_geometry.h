@@ -13,6 +13,9 @@
 // At l = r + |e| crank and rod pass upright, a change point, and the motion goes on smoothly (mechanisms/loops). Without
 // offset β = −φ and x = 2 r cos φ (the branch that follows), or β = φ + π and x = 0 (the rod folds onto the crank); with
 // an offset cos β changes its sign once a turn, so that two turns are the cycle, and the branch is how φ = 0 finds it.
+//
+// A crank whose rod is shorter than r + |e| rocks within CrankArc; the rod points towards +x throughout or, where it
+// folds, towards −x.
 #pragma once
 
 #include <cmath>
@@ -26,7 +29,7 @@ namespace kurbel {
 
 struct SliderCrankData {
   double radius = 0;         // r [m], > 0
-  double rod_length = 0;     // l [m], ≥ r + |e|
+  double rod_length = 0;     // l [m], ≥ r + |e|, else the crank rocks
   double offset = 0;         // e [m], the slider moves on the line y = e
   double crank_mass = 0;     // [kg], ≥ 0
   double crank_com = 0;      // from the axis towards the pin [m], < 0: counterweighted
@@ -37,11 +40,13 @@ struct SliderCrankData {
   double slider_mass = 0;    // [kg], ≥ 0
   double gravity = 0;        // [m/s²]
   double stroke_angle = 0;   // of +x above the horizontal [rad]; +y is 90° ahead of +x
-  bool folds = false;        // of l = r + |e|: the rod points towards −x at φ = 0
+  bool folds = false;        // of l ≤ r + |e|: the rod points towards −x, at l = r + |e| so at φ = 0
 
   SliderLoop loop() const { return {radius, rod_length, offset}; }
-  bool changes() const { return loop().changes(); }           // passes change points
-  bool stands_still() const { return folds && offset == 0; }  // the slider, with the rod on the crank
+  bool changes() const { return loop().changes(); }  // passes change points
+  bool rocks() const { return loop().arc().has_value(); }
+  // The slider, with the rod on the crank.
+  bool stands_still() const { return folds && offset == 0 && changes(); }
 };
 
 // A function of φ with its first two derivatives by φ.
@@ -68,9 +73,10 @@ inline void validate(const SliderCrankData& d) {
                            d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
   for (const double value : values) require(std::isfinite(value), "a value", value, "finite");
   require(d.radius > 0, "radius", d.radius, "> 0 m");
-  require(d.rod_length > d.radius + std::fabs(d.offset) || d.changes(), "rod_length", d.rod_length,
-          ">= radius + |offset|");
-  require(!d.folds || d.changes(), "rod_length", d.rod_length, "= radius + |offset| for a rod that folds");
+  require(d.rod_length > 0, "rod_length", d.rod_length, "> 0 m");
+  require(d.rod_length > std::fabs(d.offset) - d.radius, "rod_length", d.rod_length, "> |offset| - radius");
+  require(!d.folds || d.changes() || d.rocks(), "rod_length", d.rod_length,
+          "<= radius + |offset| for a rod that folds");
   require(d.crank_mass >= 0, "crank_mass", d.crank_mass, ">= 0 kg");
   require(d.rod_mass >= 0, "rod_mass", d.rod_mass, ">= 0 kg");
   require(d.slider_mass >= 0, "slider_mass", d.slider_mass, ">= 0 kg");
@@ -131,6 +137,7 @@ class SliderCrankGeometry {
       const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;   // 1 + sin φ
       const T above = is_negative(-sin_phi) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
       cos_beta = sqrt(((l - r - e) + r * below) * ((l - r + e) + r * above)) / l;
+      if (d.folds) cos_beta = -cos_beta;
       const T lever = l * cos_beta, rise = l * sin_beta;
       beta1 = -r * cos_phi / lever;
       const T beta1_squared = beta1 * beta1;

@@ -18,9 +18,10 @@ LinkBody crank_of(const SliderCrankData& d, double shaft_inertia) {
 }
 LinkBody rod_of(const SliderCrankData& d) { return {d.rod_mass, d.rod_com, d.rod_inertia}; }
 
-// β on the closed loop; the right branch has cos β > 0.
+// β on the closed loop; the right branch has cos β > 0, of a rod that folds < 0.
 double rod_angle(const SliderCrankData& d, double phi) {
-  return std::asin((d.offset - d.radius * std::sin(phi)) / d.rod_length);
+  const double beta = std::asin((d.offset - d.radius * std::sin(phi)) / d.rod_length);
+  return d.folds ? std::acos(-1.0) - beta : beta;
 }
 
 }  // namespace
@@ -41,6 +42,7 @@ SliderCrankSystem::SliderCrankSystem(const SliderCrankData& d, double shaft_iner
       const Direction beta = rod_to_line(d.loop(), phi, d.folds);
       return Followed{{beta.series() - Taylor::variable(phi)}, beta.cos.value()};
     };
+  if (d.folds) determinant_sign = -1;
   if (d.stands_still()) stands_at = 0;
   add_weight(d.crank_mass, crank, Vec3(d.crank_com, 0, 0));
   add_weight(d.rod_mass, rod, Vec3(d.rod_com, 0, 0));
@@ -55,6 +57,8 @@ std::vector<double> values_of(const SliderCrankData& d) {
   return {d.radius,  d.rod_length,  d.offset,      d.crank_mass, d.crank_com,    d.crank_inertia, d.rod_mass,
           d.rod_com, d.rod_inertia, d.slider_mass, d.gravity,    d.stroke_angle, double(d.folds)};
 }
+
+std::optional<CrankArc> arc_of(const SliderCrankData& d) { return d.loop().arc(); }
 
 LinkageDrawing drawing_of(const SliderCrankData& d) {
   return {"Slider-crank", d.stroke_angle, {{"link", {1, 2}}, {"slider", {2}}, {"crank", {0, 1}}}, {0}, 2, false};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanisms/linkages/mechanism_bodies.h"
@@ -11,6 +12,7 @@ namespace kurbel {
 
 std::vector<double> values_of(const SliderCrankData& data);  // all of them
 LinkageDrawing drawing_of(const SliderCrankData& data);
+std::optional<CrankArc> arc_of(const SliderCrankData& data);  // of a crank that rocks
 
 // Bodies: crank, rod. Joints: crank axis, crank pin, slider pin. Throws std::invalid_argument for data outside its
 // domain.

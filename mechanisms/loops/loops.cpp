@@ -70,6 +70,16 @@ std::optional<CrankArc> FourBarLoop::arc() const {
   return CrankArc{(inner + outer) / 2, (outer - inner) / 2};
 }
 
+std::optional<CrankArc> SliderLoop::arc() const {
+  const long double low = (e - l) / r, high = (e + l) / r;  // of sin φ
+  const bool below = low > -1, above = high < 1;
+  if (changes() || (!below && !above) || low >= 1 || high <= -1) return {};
+  const double right = std::acos(0.0);
+  const double from = below ? static_cast<double>(std::asin(low)) : -2 * right - static_cast<double>(std::asin(high));
+  const double to = above ? static_cast<double>(std::asin(high)) : 2 * right - from;
+  return CrankArc{(from + to) / 2, (to - from) / 2};
+}
+
 Meeting meet(const FourBarLoop& l, long double phi, bool left) {
   const CosineSums cosine(phi);
   const Triangle t =

@@ -21,7 +21,8 @@ inline bool same_length(long double a, long double b) {
 }
 
 // Angles within which a crank rocks that cannot turn fully: middle ± half [rad]. At its ends coupler and follower lie in
-// one line, the crank stands still while they go on, and I_r(φ) has no bound: it grows as 1/(distance to the end).
+// one line, or a rod stands square to its slider's; the crank stands still while they go on, and I_r(φ) has no bound: it
+// grows as 1/(distance to the end).
 struct CrankArc {
   double middle = 0, half = 0;
   // What is computed of it. At its end I_r is some hundred times what it is in the middle.
@@ -59,6 +60,9 @@ Meeting meet(const FourBarLoop& loop, long double phi, bool left);
 struct SliderLoop {
   long double r, l, e;                                               // r, l > 0 [m]
   bool changes() const { return same_length(l, r + std::fabs(e)); }  // at φ = ±π/2, where crank and rod stand upright
+  // Of a rod too short for a turn: where −l ≤ e − r sin φ ≤ l; with stops on both sides of the line the arc about φ = 0.
+  // Empty: the crank turns, or its pin comes nowhere within the rod's reach of the line.
+  std::optional<CrankArc> arc() const;
 };
 // The rod's direction: towards +x or, `back`, towards −x; of one with change points, so at φ = 0.
 Direction rod_to_line(const SliderLoop& loop, long double phi, bool back);

@@ -42,7 +42,7 @@ double output_at(const MechanismData& data, double phi) { return static_cast<dou
 }  // namespace
 
 CrankCycle::CrankCycle(const MechanismData& data) : arc_(data.arc()), turns_(arc_ ? 1 : turns_of(data)) {
-  if (arc_)
+  if (data.rocks() && arc_)
     follow_output(data, arc_->middle - arc_->reach(), arc_->middle + arc_->reach());
   else if (data.rocks())
     follow_output(data, 0, angle());

@@ -29,7 +29,6 @@ constexpr double degree = std::numbers::pi / 180;
 
 // "; change points at 90° and 270°; …" of a mechanism that has something to say of its cycle.
 std::string words_of(const CrankCycle& cycle) {
-  if (cycle.arc()) return "; its " + words_of(*cycle.arc());
   std::string text;
   for (const double phi : cycle.change_points())
     text += fmt::format("{}{:.6g}°", text.empty() ? "; passes change points at " : ", ", phi * 180 / std::numbers::pi);
@@ -41,25 +40,29 @@ std::string words_of(const CrankCycle& cycle) {
 
 }  // namespace
 
-std::string words_of(const CrankArc& arc) {
-  return fmt::format("crank rocks between φ = {:.4g}° and {:.4g}°, where coupler and rocker lie in one line",
-                     (arc.middle - arc.half) / degree, (arc.middle + arc.half) / degree);
+std::string words_of_arc(const Mechanism& mechanism) {
+  const CrankArc& arc = *mechanism.arc();
+  return fmt::format(
+      "crank rocks between φ = {:.4g}° and {:.4g}°, where {}", (arc.middle - arc.half) / degree,
+      (arc.middle + arc.half) / degree,
+      mechanism.rocks() ? "coupler and rocker lie in one line" : "the rod stands square to the slider's line");
 }
 
 std::string limit_reached(const Mechanism& mechanism, int end) {
   const CrankArc& arc = *mechanism.arc();
   return fmt::format(
-      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while they go on into the "
-      "other branch, and what is reduced to the crank has no bound; let a load, a spring or a brake turn it round "
+      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while the other links go "
+      "on into "
+      "the other branch, and what is reduced to the crank has no bound; let a load, a spring or a brake turn it round "
       "before, or let a link that turns fully be the crank",
-      mechanism.name, (arc.middle + end * arc.reach()) / degree, words_of(arc));
+      mechanism.name, (arc.middle + end * arc.reach()) / degree, words_of_arc(mechanism));
 }
 
 void require_on_arc(const Mechanism& mechanism, double phi) {
   const CrankArc* arc = mechanism.arc();
   if (!arc || std::abs(arc->near(phi) - arc->middle) < arc->reach()) return;
   throw std::runtime_error(fmt::format("\"{}\" cannot stand at φ = {:.4g}°: its {}; give another start angle or phase",
-                                       mechanism.name, arc->near(phi) / degree, words_of(*arc)));
+                                       mechanism.name, arc->near(phi) / degree, words_of_arc(mechanism)));
 }
 
 // I_r is least where the output stands still or near a sample.
@@ -170,7 +173,7 @@ std::string MechanismElement::describe() const {
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';
   return text + (report.converged ? "(relative)" : " the tolerance was not reached") +
-         words_of(mechanism_.reduced->cycle());
+         (mechanism_.arc() ? "; its " + words_of_arc(mechanism_) : words_of(mechanism_.reduced->cycle()));
 }
 
 // A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.

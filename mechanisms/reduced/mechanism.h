@@ -70,8 +70,8 @@ Network extracted_from(Network network, Extraction from);
 // Some mechanism works from tables; without, a second extraction would confirm nothing.
 bool has_tables(const Network& network);
 
-// "crank rocks between φ = 30° and 120°, where coupler and rocker lie in one line"
-std::string words_of(const CrankArc& arc);
+// "crank rocks between φ = 30° and 120°, where coupler and rocker lie in one line", of one that does.
+std::string words_of_arc(const Mechanism& mechanism);
 // Why a motion ends at an end of the arc, −1 or 1, and what to do.
 std::string limit_reached(const Mechanism& mechanism, int end);
 // Throws std::runtime_error where the crank cannot stand at this angle.

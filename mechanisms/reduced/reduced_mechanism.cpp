@@ -41,14 +41,15 @@ std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& nois
 
 // On an arc the channels grow by orders towards the ends: each counts by itself, and where it passes zero by what it is
 // usually, which the inertia in the middle, the arc and the output tell.
-std::vector<ChannelSpec> arc_specs(const ReducedSample& middle, const CrankArc& arc) {
+std::vector<ChannelSpec> arc_specs(const ReducedSample& middle, const CrankArc& arc, double reach) {
   using enum ErrorScale;
   const double inertia = middle.inertia / arc.half;
-  const double ratio = std::max(std::abs(middle.output_velocity_ratio), 0.1), weight = middle.gravity_torque_scale;
+  const double ratio = std::max(std::abs(middle.output_velocity_ratio), 0.1 * reach);
+  const double weight = middle.gravity_torque_scale;
   return {{"inertia", own_value, 0},
           {"inertia_slope", own_value, inertia},
           {"inertia_curvature", own_value, inertia / arc.half},
-          {"output_position", own_value, 1},
+          {"output_position", own_value, reach},
           {"output_velocity_ratio", own_value, ratio},
           {"output_acceleration_ratio", own_value, ratio / arc.half},
           {"gravity_torque", own_value, weight},
@@ -70,16 +71,18 @@ void write_channels(const ReducedSample& sample, std::span<double> values) {
 // Rounding leaves 1e-16 of the inertia in I_r′ and of the weights' torques in M_g even where these vanish identically
 // (masses balanced, weights carried by the guide).
 ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(double phi)>& sampler,
-                                           const CrankCycle& cycle) {
+                                           const CrankCycle& cycle, bool slides) {
   constexpr int n = 16;
   const double part =
       cycle.change_points().empty() && !cycle.arc() ? 1e-4 : 0.1;  // beside those derivatives have fewer digits
   ReducedMechanism::NoiseScales noise;
+  if (slides) noise.reach = 0;
   for (int i = 0; i < n; ++i) {
     const ReducedSample sample = sampler(place_of(cycle, 2 * std::numbers::pi * (i + 0.5) / n));
     noise.inertia += part * sample.inertia / n;
     noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
     noise.output += part * std::abs(sample.output_velocity_ratio) / n;
+    if (slides) noise.reach += std::abs(sample.output_position) / n;
   }
   return noise;
 }
@@ -165,8 +168,8 @@ ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)
             double& output = values[output_position_channel];
             output = cycle_.periodic_part(phi, output);
           },
-          rocks_ ? arc_specs(sampler(cycle_.arc()->middle), *cycle_.arc()) : channel_specs(noise), tolerance,
-          max_pieces, cut)) {}
+          rocks_ ? arc_specs(sampler(cycle_.arc()->middle), *cycle_.arc(), noise.reach) : channel_specs(noise),
+          tolerance, max_pieces, cut)) {}
 
 double ReducedMechanism::on_arc(double phi) const {
   const CrankArc& arc = *cycle_.arc();
@@ -179,7 +182,7 @@ ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, 
   const bool first = extraction == Extraction::first;
   const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
   CrankCycle cycle(data);
-  const auto noise = noise_scales(sampler, cycle);
+  const auto noise = noise_scales(sampler, cycle, !data.rocks());
   return ReducedMechanism(sampler, noise, first ? tolerance : second_tolerance * tolerance, max_pieces,
                           first ? PeriodicTable::Cut() : second_cut, std::move(cycle));
 }

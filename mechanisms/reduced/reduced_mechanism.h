@@ -38,6 +38,7 @@ class ReducedMechanism {
     double inertia = 0;  // for I_r′ and I_r″; ten times it for I_r, which may vanish in a dead centre [kg·m²]
     double gravity_torque = 0;  // for M_g and M_g′ [N·m]
     double output = 0;          // for x″, which an output that goes round evenly does not have [m/rad²]
+    double reach = 1;           // for x on a crank's arc: its mean |x| [m]; 1 rad
   };
 
   // The mechanism at one angle; each pair costs two polynomials.

@@ -65,7 +65,7 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
     Mode mode;
     mode.omega = std::abs(d.lambda);
     mode.lambda = d.lambda;
-    mode.ratio = d.ratio();
+    mode.ratio = std::abs(d.lambda.real()) > d.error ? d.ratio() : 0;
     mode.error = d.error;
     mode.of_own_states = true;
     mode.least = mode.greatest = mode.omega;

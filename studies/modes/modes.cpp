@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/linear/rest_place.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -25,6 +26,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
 constexpr std::size_t cycle_samples = 4096;   // of a round of the steady motion
+constexpr int rounds_of_rocking = 12;         // what swings on then, swings on; each takes up to 64 times as long
 
 class Study {
  public:
@@ -90,11 +92,12 @@ class Study {
   void find_operating_point() {
     const bool plain = !model_->has_contacts() && model_->own_states.empty() && scene_.sequence.steps.empty();
     if (!(options_.speed && plain)) find_regime_cycle();
+    if (!options_.speed && !options_.angle) stay_at_rest();
     LinearisationPoint point{.speed = options_.speed.value_or(samples_ ? samples_->mean->speed : 0),
                              .angle = options_.angle};
     if (samples_) point.regime = samples_->mean;
     if (rest_ && !options_.speed) point.regime = rest_;
-    if (!options_.speed && !point.regime) point.speed = balanced_or_usual_speed();
+    if (!options_.speed && !point.regime && !swings_about_rest()) point.speed = balanced_or_usual_speed();
     BaseMotion base(model_, point);
     if (!point.regime && base.equations().has_followers())
       throw std::invalid_argument(
@@ -124,6 +127,7 @@ class Study {
     options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
     options.budget = scene_.run.budget;
     options.interrupted = options_.watch.interrupted;
+    if (has_rocking_crank(*model_)) options.most_rounds = rounds_of_rocking;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
     regime_.emplace();
     try {
@@ -143,11 +147,28 @@ class Study {
       found_.regime = refused.what();
     }
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
-    if (!samples_ && !rest_)
+    if (!samples_ && !rest_ && !swings_about_rest())
       found_.notes.push_back(fmt::format(
           "no motion that repeats to linearise at: {}; instead everything turns as geared, clutches locked and brakes "
           "released, at the speed said",
           found_.regime));
+  }
+
+  bool swings_about_rest() const {
+    return has_rocking_crank(*model_) || (regime_ && rests_by_its_angle(*model_, *regime_));
+  }
+
+  // What never comes round, or rests by its weights, swings about a rest: there the link is held, not averaged.
+  void stay_at_rest() {
+    if (!regime_ || !swings_about_rest()) return;
+    const RestPlace place = place_of_rest(model_, *regime_);
+    options_.angle = found_.rests_at = place.angle;
+    rest_ = place.regime;
+    samples_.reset();
+    found_.notes.push_back(fmt::format(
+        "small swings about the rest at {:.4g}° of \"{}\": weights and loads that hang on the angle act as springs, "
+        "K = −∂M/∂φ; the farther it swings, the less they hold",
+        place.angle * 180 / pi, found_.link));
   }
 
   void note_unsteady_motion() {
@@ -391,7 +412,7 @@ class Study {
     found_.diagnosis = found_.history->diagnosis;
   }
 
-  const ModesOptions& options_;
+  ModesOptions options_;
   Effects effects_;
   Scene scene_;
   std::shared_ptr<const Model> model_;

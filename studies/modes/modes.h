@@ -56,7 +56,8 @@ struct Mode {
   std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
   double ratio = 1;             // ζ; 1: does not swing
   double error = 0;             // of λ, of ω where none was found [rad/s]
-  bool of_own_states = false;   // it grows out of no undamped mode: states of elements, slopes of motors
+  bool of_own_states =
+      false;  // it grows out of no undamped mode: states of elements, slopes of motors, weights at rest
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
   // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
@@ -139,6 +140,7 @@ struct ModesStudy {
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
+  std::optional<double> rests_at;  // the link's angle about which it swings at rest [rad]
 };
 
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
@@ -41,10 +42,13 @@ std::string first_mode(const Mode& mode) {
 
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
+  const std::string rest =
+      m.rests_at ? fmt::format("about its rest at {:.4g}° of {}", *m.rests_at * 180 / std::numbers::pi, m.link) : "";
   if (m.modes.empty()) {
-    text = "The drive has no mode with twist";
+    text = m.rests_at ? "The machine does not swing " + rest : "The drive has no mode with twist";
   } else {
     text = first_mode(m.modes.front());
+    if (m.rests_at) text += ", " + rest;
     if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
   }
   if (is_forced(m)) {
@@ -338,6 +342,16 @@ FormulaCard rayleigh(const ModesStudy& m) {
           .note = point_text(m) + "."};
 }
 
+// Of one coordinate, by the weights' stiffness.
+FormulaCard about_rest(const ModesStudy& m) {
+  const double stiffness = m.drive.stiffness.coeff(0, 0) + m.drive.other_stiffness.coeff(0, 0);
+  return {.title = "The swing about its rest (theory 9)",
+          .symbols = "ω² = K / I_r, K = −∂M/∂φ",
+          .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s", stiffness, m.drive.inertia[0],
+                                 std::sqrt(stiffness / m.drive.inertia[0])),
+          .note = point_text(m) + "."};
+}
+
 FormulaCard half_width(const ModesStudy& m) {
   const ParametricZone& z = m.zones.back();
   const double zeta = m.modes[at(z.mode - 1)].ratio;
@@ -359,7 +373,8 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
   if (m.modes.empty()) return;
   f.draw(in, [&m] { return mode_plots(m); });
-  f.show(in, rayleigh(m));
+  if (!m.rests_at) f.show(in, rayleigh(m));
+  if (m.rests_at && m.drive.size() == 1) f.show(in, about_rest(m));
   f.show(in, Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }
 

@@ -203,6 +203,7 @@ double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
 }
 
 std::vector<Plot> mode_plots(const ModesStudy& m) {
+  if (m.shaft_names.size() < 2) return {};  // one shaft that swings by weights alone has neither shape nor shares
   return {shape_plot(m), energy_plot(m, false), energy_plot(m, true)};
 }
 

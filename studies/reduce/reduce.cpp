@@ -160,11 +160,20 @@ class Reducer {
       r_.to_output = true;
       r_.to_rocker = slider_->rocks();
       r_.turns_back = least_ratio() < 0.15 * largest_ratio();
+      if (r_.turns_back) note_dead_centres();
       return;
     }
     target_node_ = node_named(model(), to);
     r_.to = to;
     r_.to_ratio = model().node_ratio[at(target_node_)];
+  }
+
+  void note_dead_centres() {
+    r_.notes.push_back(fmt::format(
+        "{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, and figures hold "
+        "between them; its mean velocity over a cycle is zero, so that it has no δ: that of \"{}\" is told by kurbel "
+        "steady",
+        r_.to, r_.link));
   }
 
   // On the link first; then all inertias over the square of the ratio, all torques over the ratio.

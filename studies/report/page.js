@@ -719,7 +719,9 @@
     }
     function linkage(parent, ghost) {
       const ghostly = {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '6 4'};
-      if (!ghost) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]) * scale, class: 'dial'}, parent);
+      // The pin's circle, where it comes round: the view of a crank that rocks ends at its arc.
+      const radius = Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]), spread = list => Math.max(...list) - Math.min(...list);
+      if (!ghost && Math.min(spread(g.x[1]), spread(g.y[1])) > 1.9 * radius) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: radius * scale, class: 'dial'}, parent);
       const parts = g.links.filter(link => !ghost || link.shape !== 'slot').map(link => {
         const filled = link.shape === 'slider' || link.shape === 'block';
         return {link, filled, shape: draw(filled ? 'polygon' : 'polyline', {fill: 'none', ...(ghost ? ghostly : styles[link.shape])}, parent)};

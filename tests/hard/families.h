@@ -24,6 +24,7 @@ std::vector<HardCase> clearance_and_rod_cases();
 std::vector<HardCase> jam_cases();
 std::vector<HardCase> loop_cases();
 std::vector<HardCase> formula_cases();
+std::vector<HardCase> swing_cases();
 
 // Undamped machines of any length, for the growth of errors.
 HardCase free_crank_over(double turns);

@@ -206,14 +206,14 @@ TEST(SliderCrankGeometry, EngineUnderGravityKeepsItsEnergy) {
               9.80665 * 2 * (0.1314280927234432 + 1.848 * 0.1 + 6.047565858160353 * 0.1), 1e-13);
 }
 
-TEST(SliderCrankGeometry, RefusesWhatCannotTurn) {
+TEST(SliderCrankGeometry, RefusesWhatCannotMove) {
   SliderCrankData d = reference_mechanism();
-  d.offset = -0.26;  // rod = radius + |offset| goes on through its change points
+  d.offset = -0.45;  // the rod is hardly as long as the crank's pin comes near
   try {
     SliderCrankGeometry geometry(d);
     FAIL() << "accepted a rod too short";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "slider-crank: rod_length = 0.35; must be >= radius + |offset|");
+    EXPECT_STREQ(error.what(), "slider-crank: rod_length = 0.35; must be > |offset| - radius");
   }
   d = reference_mechanism();
   d.slider_mass = -1;
