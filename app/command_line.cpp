@@ -253,4 +253,27 @@ int present(const StudyOutput& study, const StudyOptions& options, bool all) {
   return stopped ? exit_interrupted : exit_run_failed;
 }
 
+void add_sheet_options(CLI::App& command, SheetOptions& options) {
+  command.add_flag("--sheet", options.wanted,
+                   "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
+                   "scales, to be printed");
+  command.add_option("--paper", options.paper, "of the sheet, landscape: A4 (default) or A3");
+}
+
+Paper paper_of(const SheetOptions& options, const StudyOptions& study) {
+  if (!options.wanted && !options.paper.empty())
+    throw std::invalid_argument(fmt::format("--paper {}: is that of the sheet; add --sheet", options.paper));
+  if (options.wanted && study.no_files)
+    throw std::invalid_argument("--sheet with --no-files: the sheet is a file; leave out one of the two");
+  return paper_named(options.paper.empty() ? "A4" : options.paper);
+}
+
+int present_with_sheet(StudyOutput output, std::string html, const StudyOptions& options) {
+  output.csv.push_back({"sheet.html", [html = std::move(html)] { return html; }});
+  const int code = present(output, options);
+  if (output.complete && !options.json && !options.quiet)
+    say(fmt::format("sheet: {}\n", (results_of(options) / "sheet.html").string()));
+  return code;
+}
+
 }  // namespace kurbel::app

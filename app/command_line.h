@@ -12,6 +12,7 @@
 #include "engine/analysis/moment.h"
 #include "engine/scene/scene.h"
 #include "studies/run/simulate.h"
+#include "studies/sheet/paper.h"
 
 namespace kurbel {
 struct StudyOutput;
@@ -83,8 +84,19 @@ double quantity_of(const std::string& option, const std::string& text, const std
 // std::invalid_argument for anything else.
 Moment moment_of(const std::string& at, std::optional<double>& speed);
 
+// Of commands that can write the classical sheet of positions, sheet.html beside the report.
+struct SheetOptions {
+  bool wanted = false;
+  std::string paper;  // "A4", "A3"; empty: A4
+};
+void add_sheet_options(CLI::App& command, SheetOptions& options);
+// Throws std::invalid_argument for a paper that there is not, and where files are asked for and forbidden.
+Paper paper_of(const SheetOptions& options, const StudyOptions& study);
+
 // Prints, writes the files unless asked not to, and returns the exit code.
 // `all`: the long form where there is a short one, too.
 int present(const StudyOutput& output, const StudyOptions& options, bool all = false);
+// The same with a sheet among the files.
+int present_with_sheet(StudyOutput output, std::string html, const StudyOptions& options);
 
 }  // namespace kurbel::app

@@ -9,6 +9,7 @@
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "studies/forces/forces_findings.h"
+#include "studies/handout/forces_sheet.h"
 
 namespace kurbel::app {
 namespace {
@@ -18,9 +19,18 @@ struct ForcesArguments {
   std::string speed, mechanism, effects;
   int positions = 12;
   bool no_run = false;
+  SheetOptions sheet;
 };
 
+int forces_with_sheet(const Scene& scene, const ForcesOptions& options, const ForcesArguments& arguments) {
+  const Paper paper = paper_of(arguments.sheet, arguments.study);
+  const ForcesSheet sheet = sheet_of(scene, options, paper, arguments.study.author);
+  return present_with_sheet(sheet.linkage ? output_of(*sheet.linkage) : output_of(*sheet.slider_crank), sheet.html(),
+                            arguments.study);
+}
+
 int forces(const ForcesArguments& arguments) {
+  paper_of(arguments.sheet, arguments.study);  // refused before anything runs
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
   ForcesOptions options;
@@ -32,6 +42,7 @@ int forces(const ForcesArguments& arguments) {
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
   options.watch = watch_of(arguments.study, progress);
+  if (arguments.sheet.wanted) return forces_with_sheet(scene, options, arguments);
   if (chosen_mechanism(scene, options.mechanism).kind->name != "slider-crank")
     return present(output_of(find_linkage_forces(scene, options)), arguments.study);
   return present(output_of(find_forces(scene, options)), arguments.study);
@@ -50,6 +61,7 @@ void set_up(CLI::App& command, int& code) {
                      "of the machine in the second problem: none, all, or as in [effects] (default: the scene's, with "
                      "friction in the joints where they have any)");
   command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
+  add_sheet_options(command, arguments->sheet);
   command.callback([&code, arguments] { code = forces(*arguments); });
 }
 
@@ -61,7 +73,7 @@ const Verb verb{
              "its links",
      .does = "kinetostatics of any mechanism: reactions in every joint, balancing torque, shaking forces, motion and "
              "inertia forces of every link, its share in I_r; a slider-crank's joint friction and counterweights "
-             "(`--speed`, `--positions`, `--mechanism`)",
+             "(`--speed`, `--positions`, `--mechanism`); a sheet of the positions to be printed (`--sheet`)",
      .set_up = set_up}};
 
 }  // namespace

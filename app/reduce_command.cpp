@@ -5,6 +5,7 @@
 
 #include "app/command_line.h"
 #include "app/verb.h"
+#include "studies/handout/reduce_sheet.h"
 #include "studies/reduce/reduce.h"
 
 namespace kurbel::app {
@@ -13,10 +14,27 @@ namespace {
 struct ReduceArguments {
   StudyOptions study;
   ReduceOptions options;
-  std::string speed, basis, at;
+  std::string speed, basis, at, delta;
+  SheetOptions sheet;
+  ReduceSheetRequest request;
 };
 
+int reduce_with_sheet(const Scene& scene, ReduceArguments& arguments) {
+  ReduceSheetRequest& request = arguments.request;
+  request.author = arguments.study.author;
+  if (!arguments.delta.empty())
+    request.delta = quantity_of("--delta", arguments.delta, "a plain number", "0.05", any_number);
+  const ReduceSheet sheet = sheet_of(scene, arguments.options, request);
+  return present_with_sheet(output_of(sheet.reduction), sheet.html(), arguments.study);
+}
+
 int reduce_scene(ReduceArguments arguments) {
+  arguments.request.paper = paper_of(arguments.sheet, arguments.study);
+  for (const auto& [option, value] :
+       {std::pair("--delta", arguments.delta), {"--flywheel", arguments.request.flywheel}})
+    if (!arguments.sheet.wanted && !value.empty())
+      throw std::invalid_argument(
+          fmt::format("{} {}: is of the sheet's flywheel; add --sheet, or ask kurbel size", option, value));
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
   arguments.options.at = moment_of(arguments.at, arguments.options.speed);
@@ -26,6 +44,7 @@ int reduce_scene(ReduceArguments arguments) {
     throw std::invalid_argument(fmt::format("--basis \"{}\": must be classical or regime", arguments.basis));
   if (!arguments.basis.empty())
     arguments.options.basis = arguments.basis == "classical" ? ReduceBasis::classical : ReduceBasis::regime;
+  if (arguments.sheet.wanted) return reduce_with_sheet(scene, arguments);
   return present(output_of(reduce(scene, arguments.options)), arguments.study);
 }
 
@@ -45,6 +64,11 @@ void set_up(CLI::App& command, int& code) {
                      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
                      "speed such as \"60 rpm\"");
   command.add_option("--orders", arguments->options.orders, "harmonics up to this order (default: 12)");
+  add_sheet_options(command, arguments->sheet);
+  command.add_option("--delta", arguments->delta,
+                     "of the sheet's flywheel: demanded δ, e.g. 1/80 (default: what the machine has with its own)");
+  command.add_option("--flywheel", arguments->request.flywheel,
+                     "of the sheet: component to size (default: the scene's flywheel, else one on the crank)");
   command.callback([&code, arguments] { code = reduce_scene(*arguments); });
 }
 
@@ -52,7 +76,8 @@ const Verb verb{{.place = 30,
                  .name = "reduce",
                  .arguments = "scene.toml",
                  .help = "inertia, torques and drive reduced to one shaft or slider",
-                 .does = "inertia, torques and the drive's elastic chain on any shaft or slider (`--to`), harmonics",
+                 .does = "inertia, torques and the drive's elastic chain on any shaft or slider (`--to`), harmonics; a "
+                         "sheet of the positions to be printed (`--sheet`)",
                  .set_up = set_up}};
 
 }  // namespace

@@ -274,6 +274,11 @@ void check(const ForcesOptions& options) {
     throw std::invalid_argument(fmt::format("--speed {}: must be a speed ≠ 0, e.g. \"300 rpm\"", *options.speed));
 }
 
+PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed) {
+  return {loads.cycle(), speed, loads.edges(speed < 0 ? -1 : 1),
+          [&loads, speed](double phi) { return loads.force(phi, speed); }};
+}
+
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
   MotionAlong along;
   along.cycle = loads.cycle();

@@ -114,6 +114,8 @@ struct MotionAlong {
 
   double mean_speed() const;  // by time
 };
+// What is told of it to those who ask for more positions.
+PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed);
 // At this speed throughout.
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions);
 

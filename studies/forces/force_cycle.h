@@ -17,10 +17,10 @@ class CycleBuilder {
   void finish();
   // Between what was added, too.
   CyclePosition at(double phi) const { return at(phi, motion_between(motion_, phi)); }
+  CyclePosition at(double phi, CrankMotion motion) const;
   const std::vector<CyclePosition>& samples() const { return samples_; }
 
  private:
-  CyclePosition at(double phi, CrankMotion motion) const;
   void find_extremes();
   void call_rounding_zero();
   void collect_curves();

@@ -206,6 +206,14 @@ class Study {
       out_.notes.push_back(
           fmt::format("loads of {} count as the operating sequence leaves them: switched off", out_.mechanism));
     out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
+    if (options_.also) look_further(speed.value);
+  }
+
+  void look_further(double speed) {
+    ForceCycle none;
+    const CycleBuilder builder(*statics_, *loads_, none);
+    for (const double phi : options_.also(prescribed_cycle(*loads_, speed)))
+      out_.also.push_back(builder.at(phi, {speed, 0}));
   }
 
   void tell_friction_left_out(const SliderCrankJoints& given) {

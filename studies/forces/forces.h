@@ -20,6 +20,13 @@
 
 namespace kurbel {
 
+// The first problem, for those who ask for more of its positions.
+struct PrescribedCycle {
+  double length = 0, speed = 0;            // of the crank [rad], [rad/s]
+  std::vector<double> edges;               // angles where forces jump or bend [rad]
+  std::function<double(double phi)> load;  // on the output [N] or [N·m]
+};
+
 struct ForcesOptions {
   int positions = 12;           // of a turn that tables show, ≥ 4
   std::optional<double> speed;  // of the crank in the first problem [rad/s], ≠ 0; default: start speed, else rated
@@ -27,6 +34,8 @@ struct ForcesOptions {
   // Of the second problem's machine; default: the scene's, with the joints' friction where they have any.
   std::optional<Effects> effects = {};
   bool simulate = true;  // the second problem, too
+  // Further angles of the first problem that are looked at [rad], chosen when its loads are known.
+  std::function<std::vector<double>(const PrescribedCycle&)> also = {};
   Watch watch = {};
 };
 
@@ -132,6 +141,7 @@ struct Forces {
   double reciprocating_mass = 0;  // of slider and the rod's share in the slider pin [kg]
   std::optional<ForceCycle> prescribed, simulated;
   std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
+  std::vector<CyclePosition> also;            // of the first problem, at the further angles that were asked for
   std::vector<Counterweight> counterweights;  // the first: as it is
   UnboundedReactions unbounded;
   std::vector<std::string> notes;

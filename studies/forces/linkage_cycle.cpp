@@ -48,16 +48,7 @@ class Builder {
   }
 
  private:
-  PositionForces at(double phi, CrankMotion motion) {
-    phi = beside_change_point(data_, phi);
-    PositionForces p;
-    p.forces = forces_in(data_.linkage(phi), {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)});
-    p.power = {.crank = p.forces.torque * motion.omega,
-               .load = p.forces.load_power,
-               .weight = p.forces.weight_power,
-               .kinetic_rate = p.forces.kinetic_rate};
-    return p;
-  }
+  PositionForces at(double phi, CrankMotion motion) { return linkage_position(data_, loads_, phi, motion); }
   void add(const Abscissa& where, CrankMotion motion);
   void find_speeds();
   void find_scales();
@@ -281,6 +272,17 @@ void add_difference(const Figure& other, double times, Figure& figure) {
 
 }  // namespace
 
+PositionForces linkage_position(const MechanismData& data, OutputLoads& loads, double phi, CrankMotion motion) {
+  phi = beside_change_point(data, phi);
+  PositionForces p;
+  p.forces = forces_in(data.linkage(phi), {phi, motion.omega, motion.alpha, loads.force(phi, motion.omega)});
+  p.power = {.crank = p.forces.torque * motion.omega,
+             .load = p.forces.load_power,
+             .weight = p.forces.weight_power,
+             .kinetic_rate = p.forces.kinetic_rate};
+  return p;
+}
+
 LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion) {
   LinkageCycle cycle;
   cycle.cycle = motion.cycle;
@@ -393,6 +395,9 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
         fmt::format("loads of {} count as the operating sequence leaves them: switched off", out.mechanism));
   mark_unbounded(out.unbounded, *out.prescribed);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
+  if (options.also)
+    for (const double phi : options.also(prescribed_cycle(loads, speed.value)))
+      out.also.push_back(linkage_position(data, loads, phi, {speed.value, 0}));
   if (!options.simulate) return out;
   options.watch.say("second problem: the motion that the machine keeps");
   const auto motion = machine.solve(loads, {out.notes, out.complete, out.diagnosis});

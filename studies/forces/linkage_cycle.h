@@ -70,6 +70,8 @@ struct LinkageCycle {
   std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
 };
 
+// At one angle of the crank; of a mechanism that passes change points, beside them.
+PositionForces linkage_position(const MechanismData& data, OutputLoads& loads, double phi, CrankMotion motion);
 // Along one motion. Throws std::runtime_error where the mechanism has no finite reactions.
 LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion);
 // Where a mechanism that passes change points has reactions without bound, at this speed of its crank.
@@ -88,6 +90,7 @@ struct LinkageStudy {
   SpeedUnit speed_unit;
   bool rocks = false;  // the output is an angle
   std::optional<LinkageCycle> prescribed, simulated;
+  std::vector<PositionForces> also;  // of the first problem, at the further angles that were asked for
   UnboundedReactions unbounded;
   std::vector<std::string> notes;
   bool complete = true;

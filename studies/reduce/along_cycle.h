@@ -15,7 +15,8 @@ namespace kurbel {
 // `target`: node that all is reduced to, whose speed is the first of the cycle's others; −1: the link.
 class AlongCycle {
  public:
-  AlongCycle(const RegimeCycle& cycle, int target) : c_(cycle), slope_(cycle.inertia.derivative()) {
+  AlongCycle(const RegimeCycle& cycle, int target)
+      : c_(cycle), slope_(cycle.inertia.derivative()), speed_slope_(cycle.speed.derivative()) {
     if (target < 0) return;
     const Piecewise& speed = c_.speed;
     ratio_ =
@@ -44,12 +45,17 @@ class AlongCycle {
     if (!ratio_) return {1, 0};
     return {ratio_->value(way(phi)), c_.sense * ratio_slope_->value(way(phi))};
   }
+  // ω and ε = ω dω/dφ of the link.
+  std::pair<double, double> motion(double phi) const {
+    const double s = way(phi), speed = c_.speed.value(s);
+    return {c_.sense * speed, c_.sense * speed * speed_slope_.value(s)};
+  }
   double mean_ratio() const { return ratio_ ? ratio_->mean() : 1; }
   const RegimeCycle& cycle() const { return c_; }
 
  private:
   const RegimeCycle c_;
-  Piecewise slope_;
+  Piecewise slope_, speed_slope_;
   std::optional<Piecewise> ratio_, ratio_slope_;
   std::vector<double> share_;
 };

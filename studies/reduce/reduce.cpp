@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -78,6 +79,8 @@ class Reducer {
     add_spectra();
     r_.chain = elastic_chain(m, target_node_);
     add_notes();
+    if (options_.also)
+      for (const double phi : options_.also(r_)) r_.also.push_back(position(-1, phi));
     return std::move(r_);
   }
 
@@ -121,6 +124,7 @@ class Reducer {
     }
     looser_ = looser_regime_cycle(regime, nodes);
     r_.cycle = along_->cycle().way();
+    r_.sense = along_->cycle().sense;
     r_.to_ratio = along_->mean_ratio();
     r_.speed = along_->cycle().mid_speed();
     r_.speed_source = "along the steady cycle that the scene's own start leads to: its mid speed";
@@ -184,6 +188,7 @@ class Reducer {
     ReducedPosition p;
     p.number = number;
     p.phi = phi;
+    std::tie(p.omega, p.alpha) = along_ ? along_->motion(phi) : std::pair(r_.speed, 0.0);
     double ratio = r_.to_ratio, second = 0;
     if (along_) {
       const RatioAt turning = along_->ratio(phi);

@@ -1,6 +1,7 @@
 // reduce.h — a machine reduced to one link: inertia, torques, harmonics, and the drive's elastic chain (theory 2, 5).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,6 +19,8 @@ enum class ReduceBasis {
   regime      // the steady cycle that the machine has with the scene's effects
 };
 
+struct MachineReduction;
+
 struct ReduceOptions {
   int positions = 12;           // of the cycle, ≥ 1
   std::string to;               // "gearbox.in", "flywheel", "press.slider", "screen.rocker"; empty: the reduction link
@@ -25,6 +28,8 @@ struct ReduceOptions {
   int orders = 12;              // of the harmonics, per turn of the reduction link
   Moment at = {};               // the machine as it is then; default: when all is switched
   std::optional<ReduceBasis> basis = {};  // default: classical, where the rigid machine carries all but elasticity
+  // Further angles that are looked at [rad], 0 ≤ φ < cycle, chosen when all else is known.
+  std::function<std::vector<double>(const MachineReduction&)> also = {};
 };
 
 // The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N. Along a steady
@@ -32,6 +37,7 @@ struct ReduceOptions {
 struct ReducedPosition {
   int number = 0;
   double phi = 0;                                                           // of the reduction link [rad]
+  double omega = 0, alpha = 0;                                              // of the link [rad/s], [rad/s²]
   double inertia = 0, drive_inertia = 0, mechanism_inertia = 0, slope = 0;  // I_r = I_drive + I_em, I_r′
   double drive = 0, load = 0;                                               // M_d, M_c
   std::vector<double> share;                                                // per account, positive when it drives
@@ -86,10 +92,12 @@ struct MachineReduction {
   SpeedUnit speed_unit;
   ReduceBasis basis = ReduceBasis::classical;
   double cycle = 0;                   // of the link [rad]
+  double sense = 1;                   // ±1, of its motion
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"
   std::vector<ReducedPosition> positions;
   std::vector<ReducedPosition> curve;    // dense, for plots
+  std::vector<ReducedPosition> also;     // at the further angles that were asked for
   std::vector<Spectrum> spectra;         // on the link: I_r, M_d − M_c
   Chain chain;                           // on the chosen shaft, or on the link
   double mean_drive = 0, mean_load = 0;  // on the link [N·m]

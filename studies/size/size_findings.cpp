@@ -8,6 +8,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
+#include "studies/sheet/scales.h"
 #include "studies/size/size.h"
 #include "studies/size/size_plots.h"
 
@@ -183,14 +184,6 @@ Rows positions_table(const Sizing& s) {
       .only_for_people("A_c [J]", clean(s.diagram.load_work, energy))
       .only_for_people("ΔT [J]", clean(s.diagram.excess, energy))
       .only_for_people("I_em [kg·m²]", clean(s.cycle.mechanism.value, 0));
-}
-
-// The next of 1, 2, 2.5, 5, 10 … that is not below.
-double round_scale(double value) {
-  const double decade = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 2.5, 5.0, 10.0})
-    if (step * decade >= value * (1 - 1e-12)) return step * decade;
-  return 10 * decade;
 }
 
 // Scales of diagrams on a sheet, per millimetre (theory 3).

@@ -1,0 +1,19 @@
+// energy_mass_sheet.h — ΔT over φ, I_em over φ and the energy–mass curve with its tangents, in one projection: as
+// Wittenbauer's diagram is drawn on paper.
+#pragma once
+
+#include "studies/handout/reduce_sheet.h"
+#include "studies/sheet/scales.h"
+
+namespace kurbel {
+
+// tan ψ = ½ ω² μ_I/μ_T: what a tangent's slope is on paper.
+struct TangentOnPaper {
+  double psi = 0;        // [rad]
+  double intercept = 0;  // on the axis I_em = 0, above ΔT = 0 [mm]
+};
+TangentOnPaper on_paper(const Tangent& tangent, double energy_of_origin, const Scale& energy, const Scale& inertia);
+
+void add_energy_mass(Sheets& sheets, const ReduceSheet& sheet);
+
+}  // namespace kurbel

@@ -1,0 +1,33 @@
+// mechanism_sheets.h — the sheets that every study's mechanism has: its plan in all positions, tables and diagrams of
+// position, velocity and acceleration.
+#pragma once
+
+#include <vector>
+
+#include "studies/sheet/kinematics.h"
+#include "studies/sheet/paper.h"
+
+namespace kurbel {
+
+// How the link moves at each position, and between them over the cycle, for the curves.
+struct LinkAt {
+  double phi = 0, omega = 0, alpha = 0;  // [rad], [rad/s], [rad/s²]
+};
+struct SheetMotion {
+  SheetCycle cycle;
+  std::vector<SheetPosition> positions;
+  std::vector<LinkAt> at, between;  // at each position; ascending ways over the cycle, both ends
+  std::vector<double> way;          // of those between
+};
+
+// At a speed that stays the same.
+SheetMotion even_motion(const SheetCycle& cycle, std::vector<SheetPosition> positions, double omega);
+
+void add_mechanism(Sheets& sheets, const MechanismOnSheet& mechanism, const SheetMotion& motion,
+                   const std::string& speed_in_words);
+
+// Labels of the positions, and which of them are letters or edges of a load.
+std::vector<std::string> labels_of(const std::vector<SheetPosition>& positions);
+std::vector<bool> stressed(const std::vector<SheetPosition>& positions);
+
+}  // namespace kurbel

@@ -1,0 +1,66 @@
+// positions.h — the positions of a cycle that a sheet shows: numbered from a dead centre, and lettered where the load
+// begins, ends or is greatest, so that a blow between two numbers is not skipped.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kurbel {
+
+struct SheetPosition {
+  std::string label;  // "0" … "11"; "a", "b" …
+  double way = 0;     // from position 0 in the sense of the motion [rad]
+  double phi = 0;     // of the link, 0 ≤ φ < cycle [rad]
+  bool numbered = true;
+  bool edge = false;      // of a load: what acts before and after may differ
+  bool greatest = false;  // the load is greatest there
+};
+
+// One cycle of the link, from position 0 on.
+struct SheetCycle {
+  double length = 0;   // [rad]
+  double origin = 0;   // φ of position 0 [rad]
+  double sense = 1;    // ±1, of the motion
+  int positions = 12;  // numbered, evenly
+
+  double phi_at(double way) const;  // within the cycle
+  double way_at(double phi) const;  // within the cycle
+};
+
+// Edges and the place of the greatest load are angles of the link; those at a number, and the cycle's begin, get no letter.
+// Of more edges than there are letters for, those are left out that `weight` (one each) says least of.
+std::vector<SheetPosition> sheet_positions(const SheetCycle& cycle, const std::vector<double>& edges,
+                                           std::optional<double> greatest = {}, const std::vector<double>& weight = {});
+
+inline constexpr std::size_t most_letters = 14;
+
+// Where the positions are looked at: before, at and after each, `beside_edge` apart [rad].
+inline constexpr double beside_edge = 1e-7;
+std::vector<double> looked_at(const SheetCycle& cycle, const std::vector<SheetPosition>& positions);
+
+// A position as a row of a table: at what jumps there, one before it ("a⁻") and one after it ("a⁺").
+template <class Values>
+struct SheetRow {
+  std::string label;
+  const SheetPosition* position;
+  const Values* values;
+};
+template <class Values, class Jumps>
+std::vector<SheetRow<Values>> sheet_rows(const std::vector<SheetPosition>& positions, const std::vector<Values>& looks,
+                                         const Jumps& jumps) {
+  std::vector<SheetRow<Values>> rows;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const SheetPosition& p = positions[k];
+    const Values* look = &looks[3 * k];
+    if (p.edge && jumps(look[0], look[2])) {
+      rows.push_back({p.label + "⁻", &p, &look[0]});
+      rows.push_back({p.label + "⁺", &p, &look[2]});
+    } else {
+      rows.push_back({p.label, &p, &look[1]});
+    }
+  }
+  return rows;
+}
+
+}  // namespace kurbel

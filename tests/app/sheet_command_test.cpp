@@ -1,0 +1,72 @@
+// sheet_command_test.cpp — kurbel reduce --sheet and kurbel forces --sheet on the command line: the file, exit codes, words.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace kurbel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Said {
+  int code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Said kurbel(const std::string& arguments) {
+  FILE* const pipe = popen((std::string(KURBEL_EXECUTABLE) + " " + arguments + " 2>&1").c_str(), "r");
+  Said said;
+  std::array<char, 4096> part{};
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+const std::string scenes = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
+
+TEST(SheetCommand, TheSheetIsAFileOfTheResultSet) {
+  const fs::path folder = fs::temp_directory_path() / ("kurbel_sheet_" + std::to_string(getpid()));
+  for (const std::string command : {"reduce", "forces --no-run"}) {
+    const Said said =
+        kurbel(command + " " + scenes + "crank_press.toml --sheet --author 'N. N. <x>' --out " + folder.string());
+    EXPECT_EQ(said.code, 0) << said.text;
+    EXPECT_NE(said.text.find("sheet: " + (folder / "sheet.html").string()), std::string::npos) << said.text;
+    std::ifstream page(folder / "sheet.html"), manifest(folder / "set.sha256");
+    const std::string html((std::istreambuf_iterator<char>(page)), {}),
+        set((std::istreambuf_iterator<char>(manifest)), {});
+    EXPECT_NE(html.find("N. N. &lt;x&gt;"), std::string::npos);
+    EXPECT_NE(set.find("sheet.html"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "report.html"));
+    fs::remove_all(folder);
+  }
+}
+
+TEST(SheetCommand, WhatCannotBeDrawnEndsWithTwoInWordsAndWritesNothing) {
+  const fs::path folder = fs::temp_directory_path() / ("kurbel_no_sheet_" + std::to_string(getpid()));
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Said said =
+        kurbel(arguments + (arguments.find("--no-files") == std::string::npos ? " --out " + folder.string() : ""));
+    EXPECT_EQ(said.code, 2) << arguments;
+    EXPECT_NE(said.text.find(words), std::string::npos) << said.text;
+    EXPECT_FALSE(fs::exists(folder)) << arguments;
+  };
+  const std::string press = scenes + "crank_press.toml";
+  refused("reduce " + scenes + "belt_conveyor.toml --sheet", "has none on its lines that moves");
+  refused("reduce " + press + " --sheet --to press.slider", "leave out one of the two");
+  refused("reduce " + press + " --sheet --paper A5", "must be A4 or A3");
+  refused("reduce " + press + " --paper A3", "add --sheet");
+  refused("reduce " + press + " --delta 0.05", "add --sheet, or ask kurbel size");
+  refused("reduce " + press + " --sheet --delta 3", "must be > 0 and < 2");
+  refused("reduce " + press + " --sheet --no-files", "leave out one of the two");
+  refused("forces " + press + " --sheet --positions 40", "a sheet has 4 … 36 of a turn");
+}
+
+}  // namespace
+}  // namespace kurbel
