@@ -55,7 +55,8 @@ class TimeSeries {
   std::size_t size_ = 0, stride_ = 1;
 };
 
-// Quantities at equidistant times. Empty of a multibody run.
+// Quantities over time: at equidistant times and, between them, at the peaks that are figures. The rows of trajectory.csv.
+// Empty of a multibody run.
 class Trajectory {
  public:
   Trajectory() = default;
