@@ -78,7 +78,7 @@ void check_goes_round(const Mechanism& m) {
   if (m.arc())
     throw std::invalid_argument(
         fmt::format("--sheet: \"{}\" goes through no positions of a whole turn: its {}; leave the option out", m.name,
-                    words_of(*m.arc())));
+                    words_of_arc(m)));
 }
 
 std::vector<MechanismOnSheet> mechanisms_of(const Model& model) {
