@@ -107,15 +107,30 @@ std::string svg_fault(const std::string& path) {
   return "";
 }
 
+// Why a list names no formats; empty: it does.
+std::string format_fault(const std::string& list) {
+  try {
+    table_formats(list);
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
 }  // namespace
 
 void add_study_options(CLI::App& command, StudyOptions& options) {
   options.study = command.get_name();
   add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
-                     "folder for report.html, summary.json and tables as CSV, replaced as a whole (default: "
+                     "folder for report.html, summary.json and tables, replaced as a whole (default: "
                      "results/SCENE/" +
                          options.study + ")");
+  command
+      .add_option("--format", options.format,
+                  "files of the tables, joined by commas: csv, mat (Modelica's layout of results), xlsx (one workbook, "
+                  "with figures and events); default: csv")
+      ->check(format_fault);
   command.add_flag("--no-files", options.no_files, "print only");
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,
@@ -217,7 +232,8 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
       .plots = options.plots,
       .interrupted = stopped,
       .made_by = fmt::format("kurbel {} {}", options.study, options.scene),
-      .head = {.brand_svg = options.brand.empty() ? "" : text_of_file(options.brand), .author = options.author}};
+      .head = {.brand_svg = options.brand.empty() ? "" : text_of_file(options.brand), .author = options.author},
+      .formats = table_formats(options.format)};
   const std::filesystem::path folder = write_output(output, results_of(options), how);
   if (!options.json && !options.quiet) {
     say(fmt::format("results: {}\n", (folder / "summary.json").string()));

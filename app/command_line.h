@@ -15,7 +15,7 @@
 
 namespace kurbel {
 struct StudyOutput;
-}
+}  // namespace kurbel
 
 namespace kurbel::app {
 
@@ -33,7 +33,8 @@ void catch_signals();
 struct StudyOptions {
   std::string study;  // the command: its results go into a folder of this name within the scene's
   std::string scene, out;
-  std::string brand, author;  // of the page: a logo as SVG, a name
+  std::string brand, author;   // of the page: a logo as SVG, a name
+  std::string format = "csv";  // of the tables: "csv,mat,xlsx"
   bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
   bool allow_files = false;
   std::vector<std::string> set;  // beside the scene: "main_coupling.stiffness=1 MN*m/rad"

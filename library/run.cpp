@@ -6,6 +6,7 @@
 #include "library/machine_parts.h"
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
+#include "studies/tables/trajectory_rows.h"
 
 namespace kurbel {
 
@@ -32,8 +33,8 @@ Trajectory trajectory_of(const Result& result) {
     names.push_back(channel.name.text);
     units.push_back(channel.unit);
   }
-  return {result.trajectory, &result.trajectory->time(), &result.trajectory->values(), std::move(names),
-          std::move(units)};
+  const auto rows = std::make_shared<const TrajectoryRows>(rows_of(*result.trajectory));
+  return {rows, &rows->time, &rows->values, std::move(names), std::move(units)};
 }
 
 SimulateOptions options_of(const RunChoices& choices, const Scene& scene) {

@@ -248,6 +248,8 @@ std::vector<std::pair<std::string, std::string>> Study::tables() const {
   return all;
 }
 
-void Study::write(const std::string& folder) const { write_output(parts_->output, folder); }
+void Study::write(const std::string& folder, const std::string& formats) const {
+  write_output(parts_->output, folder, {.formats = table_formats(formats)});
+}
 
 }  // namespace kurbel

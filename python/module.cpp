@@ -100,7 +100,8 @@ void bind_study(py::module_& m) {
       .def_property_readonly("diagnosis", &Study::diagnosis, "why it is not complete, in words")
       .def_property_readonly("unconfirmed", &Study::unconfirmed, "why the accuracy asked for is not sure; empty: it is")
       .def_property_readonly("tables", &Study::tables, "(name, text) of the CSV files")
-      .def("write", &Study::write, py::arg("folder"), "summary.json, report.html and tables, whole or not there.");
+      .def("write", &Study::write, py::arg("folder"), py::arg("formats") = "csv",
+           "summary.json, report.html and tables, whole or not there. Formats of the tables: \"csv,mat,xlsx\".");
   m.def(
       "study",
       [](const std::string& name, const Machine& machine, const Options& options) {

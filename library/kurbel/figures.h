@@ -53,7 +53,7 @@ class TimeSeries {
   std::size_t size_ = 0, stride_ = 1;
 };
 
-// Quantities at equidistant times.
+// Quantities over time: at equidistant times and, between them, at the peaks that are figures. The rows of trajectory.csv.
 class Trajectory {
  public:
   Trajectory() = default;

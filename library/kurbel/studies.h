@@ -31,8 +31,9 @@ class Study {
   std::string diagnosis() const;    // … or why not
   std::string unconfirmed() const;  // why the accuracy asked for is not sure; empty: it is
   std::vector<std::pair<std::string, std::string>> tables() const;  // CSV files by their names
-  // summary.json, report.html and the tables into a folder, as one result set: whole or not there.
-  void write(const std::string& folder) const;
+  // summary.json, report.html and the tables into a folder, as one result set: whole or not there. Formats of the tables,
+  // joined by commas: "csv,mat,xlsx". Throws std::invalid_argument for others.
+  void write(const std::string& folder, const std::string& formats = "csv") const;
 
  private:
   std::shared_ptr<const StudyParts> parts_;

@@ -50,7 +50,7 @@ class Study:
     complete: bool
     diagnosis: str
     tables: dict[str, str]
-    def write(self, folder: str | PathLike[str]) -> None: ...
+    def write(self, folder: str | PathLike[str], formats: str = "csv") -> None: ...
 
 class Trajectory:
     units: dict[str, str]

@@ -43,9 +43,9 @@ class Study:
         """CSV files by their names."""
         return dict(self._output.tables)
 
-    def write(self, folder):
-        """summary.json, report.html and the tables into a folder, whole or not there."""
-        self._output.write(str(folder))
+    def write(self, folder, formats="csv"):
+        """summary.json, report.html and the tables into a folder, whole or not there. Formats of the tables: "csv,mat,xlsx"."""
+        self._output.write(str(folder), formats)
 
     def _repr_html_(self):
         import html
@@ -57,7 +57,8 @@ class Study:
 
 
 class Trajectory:
-    """Quantities over equidistant times, by their names. Arrays lie in the run's memory and keep it."""
+    """Quantities over time, by their names: the rows of trajectory.csv, at equidistant times and at peaks between them.
+    Arrays lie in the run's memory and keep it."""
 
     def __init__(self, output):
         self._output = output

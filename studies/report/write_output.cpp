@@ -11,7 +11,8 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
   const bool whole = output.complete && !options.interrupted;
   const std::filesystem::path place = whole ? folder : incomplete_place(folder);
   ResultSet set(place);
-  for (const CsvFile& csv : output.csv) set.add(csv.name, csv.text());
+  make_table_files(output, options.formats,
+                   [&](const std::string& name, const std::string& bytes) { set.add(name, bytes); });
   set.add("summary.json", output.json + "\n");
   const Report report = output.report();
   set.add("report.html", html_of(report, options.head));

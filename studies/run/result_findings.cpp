@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "studies/answers/work_periods.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/trace.h"
+#include "studies/tables/trajectory_rows.h"
 
 namespace kurbel {
 namespace {
@@ -233,18 +235,11 @@ std::string trajectory_csv(const Result& r) {
   text += "time [s]";
   for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name.text, channel.unit);
   text += "\n";
-  const auto add = [&](double time, std::span<const double> values) {
-    text += fmt::format("{}", time);
-    for (const double value : values) text += fmt::format(",{:.12g}", value);
-    text += "\n";
-  };
-  auto peak = t.peaks().begin();
-  for (std::size_t row = 0; row < t.time().size(); ++row) {
-    for (; peak != t.peaks().end() && peak->time < t.time()[row]; ++peak) add(peak->time, peak->values);
-    if (peak != t.peaks().end() && peak->time == t.time()[row]) ++peak;
-    add(t.time()[row], std::span(t.values()).subspan(row * t.channels().size(), t.channels().size()));
-  }
-  for (; peak != t.peaks().end(); ++peak) add(peak->time, peak->values);
+  for_each_row(t, [&](double time, std::span<const double> values) {
+    fmt::format_to(std::back_inserter(text), "{}", time);
+    for (const double value : values) fmt::format_to(std::back_inserter(text), ",{}", value);
+    text += '\n';
+  });
   return text;
 }
 

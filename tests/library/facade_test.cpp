@@ -89,7 +89,7 @@ TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
     const Machine machine =
         Machine::from_text(two_masses, "two.toml", {{"run.until", "20 ms"}, {"run.samples", "100"}});
     const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false});
-    EXPECT_EQ(run.trajectory().rows(), 100u);
+    EXPECT_GE(run.trajectory().rows(), 100u);  // and rows at peaks
     EXPECT_FALSE(run.study().json().empty());
   };
   for (int i = 0; i < 100; ++i) cycle();

@@ -1,0 +1,140 @@
+// mat_file.cpp — by libmatio, into memory.
+#include "studies/tables/mat_file.h"
+
+#include <fmt/format.h>
+#include <matio.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include "studies/dictionary/dictionary.h"
+#include "studies/files/memory_file.h"
+
+namespace kurbel {
+namespace {
+
+struct Closed {
+  void operator()(mat_t* file) const { Mat_Close(file); }
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatFile = std::unique_ptr<mat_t, Closed>;
+
+[[noreturn]] void fail() { throw std::runtime_error("cannot write a MAT file: no memory for it"); }
+
+// By columns, as MAT files are.
+template <class T>
+void write(mat_t* file, const char* name, matio_classes kind, matio_types type, std::size_t rows, std::size_t columns,
+           std::vector<T>& values) {
+  std::size_t extent[2] = {rows, columns};
+  const std::unique_ptr<matvar_t, Closed> variable(
+      Mat_VarCreate(name, kind, type, 2, extent, values.data(), MAT_F_DONT_COPY_DATA));
+  if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0) fail();
+}
+
+// UTF-8 as the 16-bit letters of MAT files; what has no such letter is a question mark.
+std::u16string letters_of(const std::string& text) {
+  std::u16string letters;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+    const unsigned first = byte(i);
+    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    unsigned letter = first;
+    if (length == 2) letter = (first & 0x1FU) << 6 | (byte(i + 1) & 0x3FU);
+    if (length == 3) letter = (first & 0x0FU) << 12 | (byte(i + 1) & 0x3FU) << 6 | (byte(i + 2) & 0x3FU);
+    letters += length == 4 ? u'?' : static_cast<char16_t>(letter);
+    i += length;
+  }
+  return letters;
+}
+
+// Texts of one width, padded with blanks: each a column, or each a row.
+void write_texts(mat_t* file, const char* name, const std::vector<std::string>& texts, bool as_columns) {
+  std::vector<std::u16string> all;
+  std::size_t width = 1;
+  for (const std::string& text : texts) width = std::max(width, all.emplace_back(letters_of(text)).size());
+  std::vector<std::uint16_t> letters(width * texts.size(), u' ');
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < all[i].size(); ++k)
+      letters[as_columns ? i * width + k : k * texts.size() + i] = static_cast<std::uint16_t>(all[i][k]);
+  write(file, name, MAT_C_CHAR, MAT_T_UTF16, as_columns ? width : texts.size(), as_columns ? texts.size() : width,
+        letters);
+}
+
+// Modelica multiplies units by a point: "kg.m2".
+std::string described(std::string words, std::string unit) {
+  std::replace(unit.begin(), unit.end(), '*', '.');
+  return unit.empty() ? words : words + (words.empty() ? "[" : " [") + unit + "]";
+}
+
+std::string words_of(const std::string& name) {
+  const Definition* definition = definition_of(name);
+  return definition ? std::string(definition->words) : "";
+}
+
+// The lists of what is in the matrices.
+struct Contents {
+  std::vector<std::string> names, descriptions;
+  std::vector<std::int32_t> info;  // four a name
+
+  void add(const std::string& name, const std::string& description, std::int32_t matrix, std::size_t row,
+           std::int32_t beyond) {
+    names.push_back(name), descriptions.push_back(description);
+    info.insert(info.end(), {matrix, static_cast<std::int32_t>(row), 0, beyond});
+  }
+};
+
+}  // namespace
+
+bool fits_mat(const DataTable& table) {
+  constexpr std::size_t most_bytes = 2'000'000'000;
+  return table.rows() * table.columns.size() * sizeof(double) < most_bytes;
+}
+
+std::string mat_file(const DataTable& table, const std::vector<MatConstant>& constants) {
+  constexpr std::int32_t unknown_beyond = -1, constant_beyond = 0;
+  const std::vector<const DataColumn*> columns = table.numbers();
+  if (columns.empty()) return {};
+  const std::size_t rows = table.rows();
+  const DataColumn& abscissa = *columns.front();
+  Contents contents;
+  std::set<std::string> known;
+  // What the others are over.
+  contents.add(abscissa.name, described(words_of(abscissa.name), abscissa.unit), 0, 1, unknown_beyond);
+  known.insert(abscissa.name);
+  // Constants, at both ends.
+  std::vector<double> at_ends[2];
+  for (const bool end : {false, true})
+    at_ends[end].push_back(rows == 0 ? 0 : end ? abscissa.numbers.back() : abscissa.numbers.front());
+  for (const DataColumn* column : columns) known.insert(column->name);
+  for (const MatConstant& c : constants) {
+    if (!known.insert(c.name).second) continue;
+    for (std::vector<double>& values : at_ends) values.push_back(c.value);
+    contents.add(c.name, described(c.words, c.unit), 1, at_ends[0].size(), constant_beyond);
+  }
+  // Quantities.
+  for (std::size_t k = 1; k < columns.size(); ++k)
+    contents.add(columns[k]->name, described(words_of(columns[k]->name), columns[k]->unit), 2, k + 1, unknown_beyond);
+  std::vector<double> data;
+  data.reserve(rows * columns.size());
+  for (std::size_t row = 0; row < rows; ++row)
+    for (const DataColumn* column : columns) data.push_back(column->numbers[row]);
+
+  const MemoryFile memory;
+  MatFile file(Mat_CreateVer(memory.path().c_str(), "MATLAB 5.0 MAT-file, by kurbel: Modelica's layout of results",
+                             MAT_FT_MAT5));
+  if (!file) fail();
+  write_texts(file.get(), "Aclass", {"Atrajectory", "1.1", table.remark, "binTrans"}, false);
+  write_texts(file.get(), "name", contents.names, true);
+  write_texts(file.get(), "description", contents.descriptions, true);
+  write(file.get(), "dataInfo", MAT_C_INT32, MAT_T_INT32, 4, contents.names.size(), contents.info);
+  at_ends[0].insert(at_ends[0].end(), at_ends[1].begin(), at_ends[1].end());
+  write(file.get(), "data_1", MAT_C_DOUBLE, MAT_T_DOUBLE, at_ends[1].size(), 2, at_ends[0]);
+  write(file.get(), "data_2", MAT_C_DOUBLE, MAT_T_DOUBLE, columns.size(), rows, data);
+  if (Mat_Close(file.release()) != 0) fail();
+  return memory.bytes();
+}
+
+}  // namespace kurbel
