@@ -22,6 +22,7 @@
 #include "library/option_values.h"
 #include "studies/files/result_set.h"
 #include "studies/files/spawn.h"
+#include "studies/measured/measurement.h"
 #include "studies/report/write_output.h"
 #include "studies/scenes/kinds.h"
 
@@ -140,6 +141,30 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_flag("--json", options.json, "print the summary as JSON");
   command.add_flag("--quiet", options.quiet, "print only the conclusion in one line, and no progress");
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
+}
+
+void add_measured_options(CLI::App& command, MeasurementRequest& request) {
+  const auto each_by_itself = CLI::MultiOptionPolicy::TakeAll;
+  command.add_option(
+      "--measured", request.file,
+      "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is left "
+      "between them is told as figures");
+  command
+      .add_option(
+          "--map", request.maps,
+          "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit where the "
+          "heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the time; repeatable")
+      ->expected(1)
+      ->multi_option_policy(each_by_itself);
+  command.add_option("--shift", request.shift,
+                     "added to the record's times, e.g. \"0.2 s\"; fit: found by least squares (default: none)");
+  command
+      .add_option(
+          "--offset", request.offsets,
+          "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as the mean "
+          "(default: none); repeatable")
+      ->expected(1)
+      ->multi_option_policy(each_by_itself);
 }
 
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {}

@@ -15,6 +15,7 @@
 #include "studies/sheet/paper.h"
 
 namespace kurbel {
+struct MeasurementRequest;
 struct StudyOutput;
 }  // namespace kurbel
 
@@ -44,6 +45,8 @@ struct StudyOptions {
 std::filesystem::path results_of(const StudyOptions& options);
 void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
 void add_study_options(CLI::App& command, StudyOptions& options);
+// --measured and what belongs to it: a test's record beside the simulation.
+void add_measured_options(CLI::App& command, MeasurementRequest& request);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {

@@ -16,6 +16,7 @@
 #include "engine/run/checkpoint.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
+#include "studies/measured/overlay.h"
 #include "studies/run/run_findings.h"
 #include "studies/trials/trials_findings.h"
 
@@ -29,6 +30,7 @@ struct RunArguments {
   std::string effects, against, method, until, setting, from_state, save_state;
   std::optional<double> accuracy;
   bool no_error = false, no_trials = false, explain = false, all = false;
+  MeasurementRequest measured;
 };
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
@@ -97,6 +99,28 @@ std::string text_of_state(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// Read before anything runs; nothing: none was asked for.
+std::optional<Measurement> measurement_of(const RunArguments& arguments, const Model& model, SimulateOptions& options) {
+  if (!arguments.measured.asked()) return {};
+  const Scene& scene = model.scene;
+  if (scene.run.model != "reduced")
+    throw std::invalid_argument(
+        "--measured: belongs to the reduced model, which records its channels; set model = "
+        "\"reduced\"");
+  Measurement measurement = read_measurement(arguments.measured, channels_of_run(model));
+  if (arguments.from_state.empty()) require_overlap(measurement, 0, options.until.value_or(scene.run.until));
+  options.traces = true;
+  return measurement;
+}
+
+// What is said of a run, with the record over it.
+template <class Study>
+int present(const Study& study, const std::optional<Overlay>& overlay, const RunArguments& arguments) {
+  Findings findings = findings_of(study);
+  if (overlay) show(findings, *overlay);
+  return present(rendered(std::move(findings)), arguments.study, arguments.all);
+}
+
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
   const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
@@ -117,6 +141,7 @@ int run(const RunArguments& arguments) {
   if (!arguments.from_state.empty()) options.go_on_from = text_of_state(arguments.from_state);
   if (scene.run.model != "reduced" && (options.keep_state || !options.go_on_from.empty()))
     throw std::invalid_argument("--from-state and --save-state belong to the reduced model; set model = \"reduced\"");
+  const std::optional<Measurement> measurement = measurement_of(arguments, *model, options);
   Result result;
   try {
     result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
@@ -124,8 +149,14 @@ int run(const RunArguments& arguments) {
     throw std::invalid_argument(fmt::format("--from-state {}: {}", arguments.from_state, unfit.what()));
   }
   if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
-  if (arguments.no_trials) return present(output_of(result), arguments.study, arguments.all);
-  return present(output_of(with_trials(std::move(result), options)), arguments.study, arguments.all);
+  std::optional<Overlay> overlay;
+  if (arguments.no_trials) {
+    if (measurement) overlay = lay_over(*measurement, result);
+    return present(result, overlay, arguments);
+  }
+  WithTrials<Result> tried = with_trials(std::move(result), options);
+  if (measurement) overlay = lay_over(*measurement, tried.study);
+  return present(tried, overlay, arguments);
 }
 
 int compare(const RunArguments& arguments) {
@@ -155,6 +186,7 @@ void set_up_run(CLI::App& command, int& code) {
                      "the cheapest that was exact enough");
   command.add_option("--save-state", arguments->save_state,
                      "writes the state at the end into this file, for --from-state");
+  add_measured_options(command, arguments->measured);
   command.add_option("--from-state", arguments->from_state,
                      "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
   command.callback([&code, arguments] { code = run(*arguments); });
@@ -184,7 +216,9 @@ const Verb run_verb{
          "scene.toml --explain | what was merged, the coordinates and their inertias, and why",
          "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
          "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
-         "time"}}};
+         "time",
+         "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | lays a test's record over the "
+         "plots and tells what is left between them"}}};
 
 const Verb compare_verb{{.place = 20,
                          .name = "compare",

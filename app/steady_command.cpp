@@ -3,10 +3,13 @@
 
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "app/command_line.h"
 #include "app/verb.h"
+#include "studies/measured/overlay.h"
 #include "studies/run/compare.h"
 #include "studies/steady/steady_findings.h"
 
@@ -18,6 +21,7 @@ struct SteadyArguments {
   std::string effects, mid_speed, at;
   int periods = 1;
   bool no_start = false;
+  MeasurementRequest measured;
 };
 
 SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
@@ -53,8 +57,18 @@ int steady(const SteadyArguments& arguments) {
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
   Progress progress(arguments.study.quiet);
-  const SteadyStudy study = kurbel::steady(scene, effects_of(arguments, scene), options_of(arguments, progress));
-  return present(output_of(study), arguments.study);
+  const std::vector<Effects> effects = effects_of(arguments, scene);
+  SteadyOptions options = options_of(arguments, progress);
+  std::optional<Measurement> measurement;
+  if (arguments.measured.asked()) {
+    measurement = read_measurement(arguments.measured, channels_of_cycle(*compile(scene, effects.back())));
+    options.traces = true;
+  }
+  SteadyStudy study = kurbel::steady(scene, effects, options);
+  const std::optional<Overlay> overlay = measurement ? std::optional(lay_over(*measurement, study)) : std::nullopt;
+  Findings findings = findings_of(study);
+  if (overlay) show(findings, *overlay);
+  return present(rendered(std::move(findings)), arguments.study);
 }
 
 void set_up(CLI::App& command, int& code) {
@@ -70,6 +84,7 @@ void set_up(CLI::App& command, int& code) {
       "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
       "speed (default: where its own start leads to)");
   command.add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
+  add_measured_options(command, arguments->measured);
   command.add_flag("--no-start", arguments->no_start,
                    "skip the start from rest and the gearbox ratio that starts fastest");
   command.callback([&code, arguments] { code = steady(*arguments); });
@@ -81,7 +96,9 @@ const Verb verb{{.place = 80,
                  .help = "the steady cycle directly: its figures, its stability, operating points",
                  .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet "
                          "multipliers (is it stable?), operating points, motor use, start time; `--mid-speed \"60 "
-                         "rpm\"` finds the drive torque for a speed",
+                         "rpm\"` finds the drive torque for a speed; `--measured test.csv --map "
+                         "\"T1=torque.main_coupling\"` lays a test's record over the cycle, its time taken modulo the "
+                         "period",
                  .set_up = set_up}};
 
 }  // namespace

@@ -107,8 +107,27 @@ Columns read_csv(const std::string& path, int x_column, int y_column, Messages& 
     columns.x.push_back(*value[0]);
     columns.y.push_back(*value[1]);
     columns.line.push_back(line_number);
+    columns.x_at.push_back(static_cast<int>(cell_at(x_column).data() - line.data()) + 1);
   }
   return columns;
+}
+
+std::vector<CsvHeading> read_headings(const std::string& path) {
+  const std::string text = read_text_file(path, max_csv_bytes);
+  std::string_view rest(text);
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    std::vector<CsvHeading> headings;
+    for (const std::string_view cell : cells_of(line)) {
+      const int at = cell.data() ? static_cast<int>(cell.data() - line.data()) + 1 : 1;
+      headings.push_back({std::string(cell), static_cast<int>(headings.size()) + 1, {line_number, at}});
+    }
+    return headings;
+  }
+  return {};
 }
 
 }  // namespace kurbel

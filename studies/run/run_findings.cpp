@@ -8,6 +8,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/answers/key_figures.h"
+#include "studies/answers/measured_names.h"
 #include "studies/answers/run_answers.h"
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
@@ -225,6 +226,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
   f.brief = brief_of(r);
   f.figures = key_figures_of(r);
   show_motion(f, rigid && drawable({rigid}) ? Results{rigid, &r} : Results{&r});
+  f.chapter(chapter_of_measurement);
   const Chapter figures = f.chapter("Figures");
   f.chapter(chapter_of_rigid);
   f.chapter(chapter_of_trials);

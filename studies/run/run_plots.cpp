@@ -10,8 +10,10 @@
 #include <optional>
 #include <utility>
 
+#include "studies/answers/measured_names.h"
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
+#include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
 
 namespace kurbel {
@@ -57,6 +59,8 @@ std::optional<Plot> over_time(const Results& results, const std::string& channel
   for (const Result* r : results)
     if (const Trace* trace = r->traces->find(channel))
       plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 1, unit.factor));
+  if (const Trace* measured = results.back()->traces->find(measured_trace(channel)))
+    plot.series.push_back(dashed(series_of(*measured, "measured", Role::reference, 1, unit.factor)));
   return plot;
 }
 

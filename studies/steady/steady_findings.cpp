@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/scene/units.h"
+#include "studies/answers/measured_names.h"
 #include "studies/answers/run_answers.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
@@ -179,8 +180,9 @@ std::string cycle_csv(const SteadyCycle& c) {
   for (int i = 0; i <= rows; ++i) angles.push_back(c.model->cycle * i / rows);
   auto csv = csv_of(angles).column("angle [rad]", std::identity());
   for (const Trace& t : whole_cycle(c)->traces)
-    csv.column(
-        fmt::format("{} [{}]", t.name, t.unit), [&t](double angle) { return at_angle(t, angle); }, 10);
+    if (!t.name.starts_with(measured_trace("")))
+      csv.column(
+          fmt::format("{} [{}]", t.name, t.unit), [&t](double angle) { return at_angle(t, angle); }, 10);
   return csv.text();
 }
 
@@ -211,6 +213,12 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
           plot.series.push_back({.name = c.label, .role = role_of(c), .x = t.x, .y = t.y});
           for (double& x : plot.series.back().x) x *= degrees;
         }
+  if (const CycleTraces* last = whole_cycle(s.cycles.back()))
+    for (const Trace& t : last->traces)
+      if (t.name == measured_trace(channel)) {
+        plot.series.push_back(marks({.name = "measured", .role = Role::reference, .x = t.x, .y = t.y}));
+        for (double& x : plot.series.back().x) x *= degrees;
+      }
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));
 }
@@ -359,7 +367,9 @@ Findings findings_of(const SteadyStudy& s) {
                fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
   const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
   for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));
-  const Chapter cycle = f.chapter("Steady cycle"), operation = f.chapter("Operating points (theory 4.15)"),
+  const Chapter cycle = f.chapter("Steady cycle");
+  f.chapter(chapter_of_measurement);
+  const Chapter operation = f.chapter("Operating points (theory 4.15)"),
                 stability = f.chapter("Stability (theory 11.4)"), figures = f.chapter("Figures"),
                 how = f.chapter("How it was found"), notes = f.chapter("Notes");
   const bool any = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });

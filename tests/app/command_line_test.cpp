@@ -107,6 +107,34 @@ TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(file("out/trajectory.csv"));
 }
 
+// A test's record: what is left of the run's own trajectory is nothing; what is wrong with it is told before anything runs.
+TEST_F(CommandLine, AMeasurementIsLaidOverARunOrRefused) {
+  const std::string text = scene("until = \"0.3 s\"\n");
+  ASSERT_EQ(kurbel({"run", text, "--no-error", "--no-trials", "--out", "out", "--format", "csv,xlsx"}).code, 0);
+  EXPECT_TRUE(file("out/results.xlsx"));
+  const std::vector<std::string> with = {"run",        text,         "--no-error", "--no-trials",
+                                         "--no-files", "--measured", "out/trajectory.csv"};
+  const auto asked = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), with.begin(), with.end());
+    return kurbel(more);
+  };
+  const Ended own = asked({"--map", "torque.coupling=torque.coupling", "--json"});
+  EXPECT_EQ(own.code, 0) << own.err;
+  EXPECT_EQ(nlohmann::json::parse(own.out)["measured"]["models"][0]["signals"][0]["rms"], 0);
+  const std::pair<std::vector<std::string>, std::string> bad[] = {
+      {{"--map", "torque.coupling=torque.couplin"}, "did you mean \"torque.coupling\"?"},
+      {{"--map", "torque=torque.coupling"}, "out/trajectory.csv:1:1: no column \"torque\""},
+      {{"--map", "torque.coupling=torque.coupling", "--shift", "5 s"}, "no time in common"},
+      {{}, "say which column is which channel"},
+  };
+  for (const auto& [more, said] : bad) {
+    const Ended refused = asked(more);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find(said), std::string::npos) << refused.err;
+  }
+  EXPECT_NE(kurbel({"run", text, "--format", "ods"}).err.find("allowed: csv, mat, xlsx"), std::string::npos);
+}
+
 // What is set beside a scene does what the same in the file does, is shown, and its faults are placed, however late.
 TEST_F(CommandLine, SettingsBesideASceneAreReadShownAndPlaced) {
   const std::string text = scene("until = \"1 s\"\n");

@@ -53,7 +53,7 @@ def xlsx(path, title):
 class Formats(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.run_of_press = kurbel.run(PRESS, until="0.4 s", errors=False)
+        cls.run_of_press = kurbel.run(PRESS, until=1.0, errors=False)
         cls.folder = tempfile.TemporaryDirectory()
         cls.place = os.path.join(cls.folder.name, "out")
         cls.run_of_press.write(cls.place, formats="csv,mat,xlsx")

@@ -1,0 +1,291 @@
+// measurement.cpp — headings and units, options, and the numbers, with a message for whatever is wrong.
+#include "studies/measured/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "engine/scene/csv.h"
+#include "engine/scene/messages.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t fewest_rows = 4;
+
+// "torque.main_coupling [kN*m]", "T1 [N*m]"
+struct NameWithUnit {
+  std::string name;
+  std::optional<std::string> unit;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+}
+
+NameWithUnit name_with_unit(const std::string& text) {
+  const std::size_t open = text.find('[');
+  if (open == std::string::npos || !text.ends_with(']')) return {trimmed(text), {}};
+  return {trimmed(text.substr(0, open)), trimmed(text.substr(open + 1, text.size() - open - 2))};
+}
+
+// An option "COLUMN=…", the column's heading with or without its unit.
+struct Option {
+  std::string shown, column, value;  // shown: as messages name it
+  int value_at = 1;                  // in its text, from 1
+};
+
+Option split_option(const std::string& name, const std::string& text, const std::string& example) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw std::invalid_argument(fmt::format("{} {}: must be COLUMN=…, e.g. {}", name, in_quotes(text), example));
+  return {fmt::format("{} {}", name, in_quotes(text)), trimmed(text.substr(0, equals)),
+          trimmed(text.substr(equals + 1)), static_cast<int>(equals) + 2};
+}
+
+std::string quoted_list(const std::vector<std::string>& names, std::size_t most = 12) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size() && i < most; ++i) list += (i ? ", " : "") + in_quotes(names[i]);
+  return names.size() > most ? fmt::format("{} … ({} in all)", list, names.size()) : list;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
+  const auto near = nearest(word, names);
+  return near ? fmt::format("; did you mean {}?", in_quotes(*near)) : "";
+}
+
+Dimension dimension_of(const std::string& si_unit) {
+  UnitError error;
+  return parse_unit(si_unit, error)->dimension;
+}
+
+class Reader {
+ public:
+  Reader(const MeasurementRequest& request, const std::vector<KnownChannel>& channels)
+      : request_(request), channels_(channels), headings_(read_headings(request.file)), messages_(request.file) {}
+
+  Measurement read() {
+    out_.file = request_.file;
+    std::vector<Option> maps;
+    for (const std::string& map : request_.maps)
+      maps.push_back(split_option("--map", map, "--map \"T1=torque.main_coupling\""));
+    for (const Option& map : maps)
+      if (name_with_unit(map.value).name == "time") find_time(map);
+    if (!time_asked_) find_time_by_name();
+    for (const Option& map : maps)
+      if (name_with_unit(map.value).name != "time") add_signal(map);
+    messages_.throw_if_any();
+    read_numbers();
+    messages_.throw_if_any();
+    read_shift();
+    for (const std::string& offset : request_.offsets) read_offset(offset);
+    messages_.throw_if_any();
+    return std::move(out_);
+  }
+
+ private:
+  struct Source {
+    int column = 0;     // from 1
+    double factor = 1;  // to SI
+  };
+
+  std::vector<std::string> column_names() const {
+    std::vector<std::string> names;
+    for (const CsvHeading& h : headings_) names.push_back(name_with_unit(h.text).name);
+    return names;
+  }
+  const CsvHeading* heading_of(const std::string& column) const {
+    for (const CsvHeading& h : headings_)
+      if (h.text == column || name_with_unit(h.text).name == name_with_unit(column).name) return &h;
+    return nullptr;
+  }
+  const CsvHeading* required(const Option& option) {
+    const CsvHeading* heading = heading_of(option.column);
+    if (!heading)
+      messages_.add(headings_.empty() ? Location{} : headings_.front().at,
+                    fmt::format("no column {} ({}); columns: {}{}", in_quotes(option.column), option.shown,
+                                quoted_list(column_names()), did_you_mean(option.column, column_names())));
+    return heading;
+  }
+
+  // Of the heading or of the option, one of them; both may say the same.
+  std::optional<Source> source_of(const CsvHeading& heading, const Option& option, const std::string& channel,
+                                  const std::string& si_unit) {
+    const auto in_heading = name_with_unit(heading.text).unit, in_option = name_with_unit(option.value).unit;
+    const std::string example = si_unit.empty() ? "1" : si_unit;
+    if (!in_heading && !in_option) {
+      if (si_unit.empty()) return Source{heading.column, 1};
+      messages_.add(heading.at,
+                    fmt::format("column {} has no unit; write \"{} [{}]\" in the heading, or --map \"{}={} "
+                                "[{}]\"",
+                                in_quotes(heading.text), heading.text, example, heading.text, channel, example));
+      return {};
+    }
+    if (in_heading && in_option && *in_heading != *in_option) {
+      messages_.add_in(option.shown, {1, option.value_at},
+                       fmt::format("the unit is [{}] here and [{}] in the heading of {}; leave one of them out",
+                                   *in_option, *in_heading, request_.file));
+      return {};
+    }
+    return in_unit(in_option ? *in_option : *in_heading, heading, channel, si_unit);
+  }
+  std::optional<Source> in_unit(const std::string& text, const CsvHeading& heading, const std::string& channel,
+                                const std::string& si_unit) {
+    UnitError error;
+    const std::string plain = text == "-" || text == "1" ? "" : text;
+    std::optional<Unit> unit = parse_unit(plain, error);
+    const Dimension wanted = dimension_of(si_unit);
+    if (unit) *unit = wanted_as(*unit, wanted);
+    if (unit && unit->dimension == wanted) return Source{heading.column, unit->factor};
+    messages_.add(heading.at,
+                  fmt::format("unit [{}] of column {} {}, but {} is {}; units of it: {}", text, in_quotes(heading.text),
+                              unit ? "is " + name_of(unit->dimension) : "is not known (" + error.text + ")", channel,
+                              name_of(wanted), examples_of(si_unit)));
+    return {};
+  }
+
+  void find_time(const Option& map) {
+    if (const CsvHeading* heading = required(map))
+      if (const auto source = source_of(*heading, map, "time", "s")) time_ = *source;
+    time_asked_ = true;
+  }
+  void find_time_by_name() {
+    for (const CsvHeading& h : headings_) {
+      std::string name = name_with_unit(h.text).name;
+      std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+      if (name != "time" && name != "t") continue;
+      if (const auto source = source_of(h, {}, "time", "s")) time_ = *source;
+      return;
+    }
+    messages_.add(headings_.empty() ? Location{} : headings_.front().at,
+                  fmt::format("no column \"time\" or \"t\"; columns: {}; say which it is: --map \"COLUMN=time [s]\"",
+                              quoted_list(column_names())));
+  }
+
+  void add_signal(const Option& map) {
+    const NameWithUnit asked = name_with_unit(map.value);
+    std::vector<std::string> names;
+    const KnownChannel* channel = nullptr;
+    for (const KnownChannel& c : channels_) {
+      names.push_back(c.name);
+      if (c.name == asked.name) channel = &c;
+    }
+    if (!channel) {
+      const std::string meant = did_you_mean(asked.name, names);
+      messages_.add_in(map.shown, {1, map.value_at},
+                       fmt::format("no channel {} is recorded{}{}", in_quotes(asked.name), meant,
+                                   meant.empty() ? "; there are " + quoted_list(names) : ""));
+    }
+    const CsvHeading* heading = required(map);
+    if (!channel || !heading) return;
+    const auto source = source_of(*heading, map, channel->name, channel->unit);
+    if (!source) return;
+    sources_.push_back(*source);
+    out_.signals.push_back(
+        {.column = name_with_unit(heading->text).name, .channel = channel->name, .unit = channel->unit, .values = {}});
+  }
+
+  void read_numbers() {
+    for (std::size_t k = 0; k < out_.signals.size(); ++k) {
+      Columns columns = read_csv(request_.file, time_.column, sources_[k].column, messages_);
+      messages_.throw_if_any();
+      for (double& value : columns.y) value *= sources_[k].factor;
+      out_.signals[k].values = std::move(columns.y);
+      if (k > 0) continue;
+      require_ascending(columns);
+      for (double& t : columns.x) t *= time_.factor;
+      out_.time = std::move(columns.x);
+    }
+  }
+  void require_ascending(const Columns& columns) {
+    const std::vector<double>& t = columns.x;
+    if (t.size() < fewest_rows)
+      messages_.add({}, fmt::format("{} rows; at least {} are needed", t.size(), fewest_rows));
+    for (std::size_t i = 1; i < t.size(); ++i)
+      if (!(t[i] > t[i - 1])) {
+        messages_.add({columns.line[i], columns.x_at[i]},
+                      fmt::format("time {} after {}: times must ascend; sort the rows, and drop what stands twice",
+                                  t[i], t[i - 1]));
+        return;
+      }
+  }
+
+  std::optional<Fitted> fitted(const std::string& option, const std::string& text, const std::string& si_unit,
+                               int at = 1) {
+    if (text == "fit") return Fitted{.value = 0, .fit = true};
+    UnitError error;
+    auto quantity = parse_quantity(text, error);
+    const Dimension wanted = dimension_of(si_unit);
+    if (quantity) *quantity = wanted_as(*quantity, wanted);
+    if (quantity && quantity->dimension == wanted) return Fitted{.value = quantity->value};
+    messages_.add_in(option, {1, at + static_cast<int>(quantity ? 0 : error.column)},
+                     quantity ? fmt::format("{} is {}; must be {}, e.g. \"0.2 {}\", or fit", in_quotes(text),
+                                            name_of(quantity->dimension), name_of(wanted), si_unit)
+                              : fmt::format("{}; e.g. \"0.2 {}\", or fit", error.text, si_unit));
+    return {};
+  }
+  void read_shift() {
+    if (request_.shift.empty()) return;
+    if (const auto shift = fitted("--shift " + in_quotes(request_.shift), request_.shift, "s")) out_.shift = *shift;
+  }
+  void read_offset(const std::string& text) {
+    if (text == "fit") {
+      for (MeasuredSignal& s : out_.signals) s.offset = {.value = 0, .fit = true};
+      return;
+    }
+    const Option option = split_option("--offset", text, "--offset \"T1=5 N*m\", --offset \"T1=fit\", --offset fit");
+    std::vector<std::string> names;
+    for (MeasuredSignal& s : out_.signals) {
+      names.push_back(s.column);
+      if (s.column != name_with_unit(option.column).name) continue;
+      if (const auto offset = fitted(option.shown, option.value, s.unit, option.value_at)) s.offset = *offset;
+      return;
+    }
+    messages_.add_in(option.shown, {1, 1},
+                     fmt::format("no column {} is mapped; mapped: {}{}", in_quotes(option.column), quoted_list(names),
+                                 did_you_mean(option.column, names)));
+  }
+
+  const MeasurementRequest& request_;
+  const std::vector<KnownChannel>& channels_;
+  std::vector<CsvHeading> headings_;
+  Messages messages_;
+  Source time_;
+  bool time_asked_ = false;  // by --map
+  std::vector<Source> sources_;
+  Measurement out_;
+};
+
+}  // namespace
+
+Measurement read_measurement(const MeasurementRequest& request, const std::vector<KnownChannel>& channels) {
+  if (request.file.empty())
+    throw std::invalid_argument("--map, --shift and --offset belong to a measurement; give it: --measured test.csv");
+  if (request.maps.empty())
+    throw std::invalid_argument(
+        fmt::format("--measured {}: say which column is which channel: --map \"T1=torque.main_coupling\" (repeatable)",
+                    request.file));
+  Reader reader(request, channels);
+  Measurement measurement = reader.read();
+  if (measurement.signals.empty())
+    throw std::invalid_argument(fmt::format(
+        "--measured {}: only the time is mapped; map a channel, too: --map \"T1=torque.main_coupling\"", request.file));
+  return measurement;
+}
+
+void require_overlap(const Measurement& m, double begin, double end) {
+  if (m.shift.fit) return;
+  const double from = m.time.front() + m.shift.value, to = m.time.back() + m.shift.value;
+  if (from < end && to > begin) return;
+  throw std::invalid_argument(fmt::format(
+      "--measured {}: measured from {:.6g} to {:.6g} s{}, simulated from {:.6g} to {:.6g} s: no time in common; give "
+      "--shift \"{:.6g} s\", which lets both begin together, or --shift fit",
+      m.file, from, to, m.shift.value != 0 ? fmt::format(" (shifted by {:.6g} s)", m.shift.value) : "", begin, end,
+      begin - m.time.front()));
+}
+
+}  // namespace kurbel

@@ -1,0 +1,48 @@
+// measurement.h — a test's record: columns of a CSV file as channels of the machine, in SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kurbel {
+
+// As the user asks for it.
+struct MeasurementRequest {
+  std::string file;                  // "test.csv"
+  std::vector<std::string> maps;     // "T1=torque.main_coupling", "T1=torque.main_coupling [kN*m]", "t=time [ms]"
+  std::string shift;                 // "0.2 s", "fit"; empty: none
+  std::vector<std::string> offsets;  // "T1=5 N*m", "T1=fit", "fit": every column's
+  bool asked() const { return !file.empty() || !maps.empty() || !shift.empty() || !offsets.empty(); }
+};
+
+struct KnownChannel {
+  std::string name, unit;  // SI
+};
+
+// What is to be found by least squares, or given.
+struct Fitted {
+  double value = 0;
+  bool fit = false;
+};
+
+struct MeasuredSignal {
+  std::string column, channel, unit;  // SI
+  std::vector<double> values;
+  Fitted offset = {};  // what it reads too high
+};
+
+struct Measurement {
+  std::string file;
+  std::vector<double> time;  // as measured [s], ascending
+  Fitted shift = {};         // simulated time = measured time + shift [s]
+  std::vector<MeasuredSignal> signals;
+};
+
+// Throws SceneError with every fault of file and options at its place, std::invalid_argument where options are missing.
+Measurement read_measurement(const MeasurementRequest& request, const std::vector<KnownChannel>& channels);
+
+// Refuses a given shift that leaves no moment in common with what is simulated. Throws std::invalid_argument.
+void require_overlap(const Measurement& measurement, double begin, double end);
+
+}  // namespace kurbel
