@@ -40,7 +40,9 @@ void add_engine(const Scene& scene, std::size_t component, std::vector<Misfiring
     Misfiring& made = out.emplace_back(Misfiring{fmt::format("cylinder {:g} of {}", number, engine.name), scene});
     std::vector<Setting>& settings = made.scene.components[component].settings;
     std::erase_if(settings, [](const Setting& s) { return s.key == "misfire"; });
-    settings.push_back({.key = "misfire", .at = engine.at, .given = true, .numbers = {number}});
+    Setting misfire;
+    misfire.key = "misfire", misfire.at = engine.at, misfire.given = true, misfire.numbers = {number};
+    settings.push_back(std::move(misfire));
   }
 }
 
