@@ -27,7 +27,7 @@ void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
     faults.push_back({"rod", fmt::format("rod = {}; must be > |offset| - radius = {}, else the rod cannot reach the "
                                          "slider's line; lengthen the rod or the crank",
                                          in_mm(d.rod_length), in_mm(near))});
-  else if (!d.changes() && ((close_to(reach) && d.rod_length < reach) || close_to(std::abs(near))))
+  else if (d.rocks() && (close_to(reach) || close_to(std::abs(near))))
     faults.push_back(
         {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
                             "upright, so that rounding would choose the branch; lengthen or shorten it clearly",

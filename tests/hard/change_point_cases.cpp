@@ -168,12 +168,13 @@ HardCase kite() {
                  "bars");
 }
 
-HardCase refused(const std::string& name, const std::string& parameter, const Crank& crank) {
+// It rocks: driven on it comes to the end of its arc.
+HardCase ends_told(const std::string& name, const std::string& parameter, const Crank& crank) {
   return {.family = family,
           .name = name,
           .parameter = parameter,
           .scene = scene_of(crank, 1),
-          .refusal = {"else the crank cannot turn fully", "lengthen the rod or shorten the crank"}};
+          .refusal = {"comes to the end of its arc", "let a load, a spring or a brake turn it round before"}};
 }
 
 std::string four_bar(double crank, double coupler, double rocker, double ground) {
@@ -208,7 +209,7 @@ std::vector<HardCase> change_point_cases() {
   cases.push_back(offset_at_limit());
   for (const bool crossed : {false, true}) cases.push_back(parallel_crank(crossed));
   cases.push_back(kite());
-  cases.push_back(refused("ARodShorterThanTheCrankIsRefused", "l = 0.999 r", Crank{.rod = 0.0999}));
+  cases.push_back(ends_told("ARodShorterThanTheCrankEndsAtItsArcTold", "l = 0.999 r", Crank{.rod = 0.0999}));
   return cases;
 }
 

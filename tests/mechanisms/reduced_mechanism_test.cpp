@@ -143,7 +143,7 @@ TEST(ReducedMechanism, ThreadsAskForTablesAllAtOnce) {
       SliderCrankData data = reference_mechanism();
       data.radius *= 1.0001 + 1e-4 * (k % 2);
       made[static_cast<std::size_t>(k)] = reduce_mechanism(data);
-      data.rod_length = 0.5 * data.radius;
+      data.offset = data.radius + 1.1 * data.rod_length;  // beyond its reach
       try {
         reduce_mechanism(data);
       } catch (const std::exception&) {
