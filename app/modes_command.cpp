@@ -17,6 +17,7 @@ struct ModesArguments {
   std::string effects, speed, at, angle, torque;
   std::vector<std::string> range, spots;
   int count = 20, spot_checks = 2;
+  bool no_misfires = false;
   double orders = 0, barred = 1;
 };
 
@@ -34,6 +35,7 @@ int modes(const ModesArguments& arguments) {
   options.spot_checks = arguments.spot_checks;
   for (const std::string& spot : arguments.spots) options.spots.push_back(speed_of("--spot", spot, positive));
   options.torque = arguments.torque;
+  options.misfires = !arguments.no_misfires;
   if (!arguments.speed.empty()) options.speed = speed_of("--speed", arguments.speed, any_number);
   options.at = moment_of(arguments.at, options.speed);
   if (!arguments.angle.empty())
@@ -77,6 +79,8 @@ void set_up(CLI::App& command, int& code) {
                      "response (default: 2; 0: none)");
   command.add_option("--spot", arguments->spots, "another such speed, e.g. \"250 rpm\"; may be given again")
       ->allow_extra_args(false);
+  command.add_flag("--no-misfires", arguments->no_misfires,
+                   "where stresses of shafts are judged: leaves out the same as one cylinder after the other misfires");
   command.add_option("--torque", arguments->torque,
                      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
   command.callback([&code, arguments] { code = modes(*arguments); });
@@ -88,7 +92,8 @@ const Verb verb{
      .arguments = "scene.toml",
      .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
      .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
-             "speeds, parametric zones, limits after DIN 740-2; spectrum of a simulated torque (`--count`, "
+             "speeds, parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a "
+             "simulated torque (`--count`, "
              "`--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)",
      .set_up = set_up}};
 

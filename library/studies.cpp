@@ -82,6 +82,7 @@ StudyOutput natural_modes(Asked& a) {
   o.count = a.options.whole("count", 1, 1000).value_or(o.count);
   o.spot_checks = a.options.whole("spot_checks", 0, 100).value_or(2);
   o.torque = a.options.text("torque");
+  o.misfires = !a.options.flag("no_misfires");
   o.at = moment_of(a.options.text("at"), o.speed);
   if (const auto speed = a.options.quantity("speed", "a speed", "300 rpm")) o.speed = speed;
   o.angle = a.options.quantity("angle", "an angle", "90 deg");

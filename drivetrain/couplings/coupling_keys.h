@@ -4,6 +4,7 @@
 #include <array>
 
 #include "drivetrain/couplings/coupling.h"
+#include "drivetrain/couplings/shaft_rating.h"
 #include "engine/scene/fields.h"
 
 namespace kurbel {
@@ -28,6 +29,8 @@ struct CouplingLimits {
 const Fields<CouplingLimits>& coupling_limit_fields();
 Key application_factor_key();
 
+const Fields<ShaftRating>& shaft_rating_fields();
+
 // A shaft's data as a scene gives them.
 struct ShaftKeys {
   std::optional<double> stiffness, length, diameter;  // k [N·m/rad], L, D [m]
@@ -35,10 +38,13 @@ struct ShaftKeys {
   std::optional<double> inertia;                      // [kg·m²]
   int segments = 1;
   std::optional<double> allowable_shear_stress;  // [Pa]
+  ShaftRating rating;
   Damping damping;
   double application_factor = 1;
 
-  double polar_moment() const;  // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
+  bool judges_stress() const { return allowable_shear_stress || rating.any(); }
+  double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
+  double polar_modulus() const;  // W_p = 2 J_p/D [m³]
 };
 const Fields<ShaftKeys>& shaft_fields();
 

@@ -91,20 +91,32 @@ void build_coupling(const Section& s, Network& net, Messages& messages) {
   net.connect(in, out, 1, s.name, data);
 }
 
+// A stress is torque over a section.
+void check_stress_without_diameter(const Reading<ShaftKeys>& shaft) {
+  for (const char* key :
+       {"allowable_shear_stress", "allowable_vibratory_stress", "endurance_limit", "yield_strength", "role"})
+    if (shaft.section().given(key))
+      return void(shaft.refuse(key, fmt::format("\"{}\" needs \"diameter\"; give that, too", key)));
+}
+
 // By its stiffness, or by length and diameters.
 void check_shaft(const Reading<ShaftKeys>& shaft) {
   if (shaft.stiffness.has_value() == shaft.length.has_value()) {
     shaft.refuse(&ShaftKeys::stiffness, shaft.length
                                             ? "\"stiffness\" and \"length\" both given; keep one"
                                             : "\"stiffness\" is missing; give it, or \"length\" and \"diameter\"");
-  } else if (shaft.stiffness && !(shaft.drop_without(&ShaftKeys::length, &ShaftKeys::diameter, &ShaftKeys::bore))) {
-    return;
-  } else if (shaft.allowable_shear_stress && !shaft.diameter) {
-    shaft.refuse(&ShaftKeys::allowable_shear_stress,
-                 "\"allowable_shear_stress\" needs \"diameter\"; give the shaft by \"length\" and \"diameter\"");
   } else if (shaft.length && !shaft.diameter) {
     shaft.refuse(&ShaftKeys::length, "\"diameter\" is missing beside \"length\"");
-  } else if (shaft.length && shaft.bore >= *shaft.diameter) {
+  } else if (shaft.judges_stress() && !shaft.diameter) {
+    check_stress_without_diameter(shaft);
+  } else if (shaft.stiffness && shaft.diameter && !shaft.judges_stress()) {
+    shaft.refuse(
+        &ShaftKeys::diameter,
+        "\"diameter\" beside \"stiffness\" is for stresses alone, and none is judged; drop it, or give a limit, "
+        "e.g. \"allowable_shear_stress\"");
+  } else if (!shaft.drop_without(&ShaftKeys::diameter, &ShaftKeys::bore)) {
+    return;
+  } else if (shaft.diameter && shaft.bore >= *shaft.diameter) {
     shaft.refuse(&ShaftKeys::bore,
                  fmt::format("bore = {:g} mm; must be < diameter = {:g} mm", shaft.bore * 1e3, *shaft.diameter * 1e3));
   }
@@ -139,6 +151,8 @@ double ShaftKeys::polar_moment() const {
   return std::numbers::pi / 32 * (std::pow(diameter.value(), 4) - std::pow(bore, 4));
 }
 
+double ShaftKeys::polar_modulus() const { return 2 * polar_moment() / diameter.value(); }
+
 const Fields<ShaftKeys>& shaft_fields() {
   static const auto made =
       Fields<ShaftKeys>()
@@ -149,7 +163,11 @@ const Fields<ShaftKeys>& shaft_fields() {
                &ShaftKeys::stiffness)
           .add({.name = "length", .unit = "m", .domain = positive, .doc = "length, in place of the stiffness"},
                &ShaftKeys::length)
-          .add({.name = "diameter", .unit = "m", .domain = positive, .doc = "outer diameter"}, &ShaftKeys::diameter)
+          .add({.name = "diameter",
+                .unit = "m",
+                .domain = positive,
+                .doc = "outer diameter; beside a stiffness that of the section whose stress is judged"},
+               &ShaftKeys::diameter)
           .add({.name = "bore", .unit = "m", .fallback = "\"0 m\"", .domain = not_negative, .doc = "inner diameter"},
                &ShaftKeys::bore)
           .add({.name = "shear_modulus",
@@ -177,8 +195,9 @@ const Fields<ShaftKeys>& shaft_fields() {
           .add({.name = "allowable_shear_stress",
                 .unit = "Pa",
                 .domain = positive,
-                .doc = "limit for kurbel modes; needs the diameter"},
+                .doc = "limit of the largest stress for kurbel modes, run, steady; needs the diameter"},
                &ShaftKeys::allowable_shear_stress)
+          .add(shaft_rating_fields(), &ShaftKeys::rating)
           .add(damping_fields(), &ShaftKeys::damping)
           .add(application_factor_key(), &ShaftKeys::application_factor)
           .check(check_shaft);

@@ -121,6 +121,14 @@ std::vector<Definition> entries_of_own() {
                 "from the begin of its first whole cycle to the end of its last one"),
       of_period("work_of_run_down", "works of the run-down",
                 "from the end of the last whole cycle that is driven to the end of the run"),
+      coupling(
+          "greatest_torque", "greatest torque of a shaft", "N*m", "SHAFT",
+          "with its sign, of the time run or of the steady cycle; told where a cycle of the shaft's stress is rated",
+          "12.14"),
+      coupling(
+          "least_torque", "least torque of a shaft", "N*m", "SHAFT",
+          "with its sign, of the time run or of the steady cycle; told where a cycle of the shaft's stress is rated",
+          "12.14"),
       coupling("rim_speed", "largest speed of the rim", "m/s", "FLYWHEEL",
                "rim_radius times the shaft's angular velocity, where that is largest", "1.3"),
       coupling("integral", "integral part of a governor", "N*m", "GOVERNOR",

@@ -35,10 +35,19 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   consider(l.temperature_factor * load.weighted.value, l.vibratory, "vibratory_torque");
   consider(l.temperature_factor * largest, l.maximum, "maximum_torque");
   consider(l.application_factor * largest, l.shear_stress * l.polar_modulus, "allowable_shear_stress");
+  const double amplitude = load.amplitude().value;
+  if (l.shaft.vibratory) consider(amplitude, *l.shaft.vibratory * l.polar_modulus, "allowable_vibratory_stress");
+  if (l.shaft.endurance)
+    consider(l.shaft.fatigue_stress(amplitude, load.middle().value), *l.shaft.endurance * l.polar_modulus,
+             "endurance_limit");
   // Heat grows with the square of the swing.
   if (l.power > 0 && load.power.value > 0)
     consider(load.swing.value, load.swing.value * std::sqrt(l.power / load.power.value), "dissipated_power");
   return most;
+}
+
+Use by_class(const LimitedJoint& joint, const JointLoad& load, double speed) {
+  return {load.amplitude().value, joint.continuous(speed) * joint.limits.polar_modulus, "UR M68"};
 }
 
 Use by_rule(const LimitedJoint& joint, const JointLoad& load, double factor) {
@@ -54,7 +63,7 @@ Use by_sign(const LimitedJoint& joint, const JointLoad& load) {
 
 class Along {
  public:
-  Along(std::size_t joint, BarredRange::By by, std::function<Use(const std::vector<JointLoad>&)> use,
+  Along(std::size_t joint, BarredRange::By by, std::function<Use(const SpeedLoads&)> use,
         const std::vector<SpeedLoads>& sweep, const std::function<std::vector<JointLoad>(double)>& at,
         std::vector<BarredRange>& out)
       : joint_(joint), by_(by), use_(std::move(use)), sweep_(sweep), at_(at), out_(out) {}
@@ -63,14 +72,15 @@ class Along {
     std::optional<BarredRange> open;
     Use before;
     for (std::size_t i = 0; i < sweep_.size(); ++i) {
-      const Use now = use_(sweep_[i].joints);
+      const Use now = use_(sweep_[i]);
       const bool barred = now.excess() > 0;
       const double edge = i > 0 && barred != open.has_value() ? edge_between(i, before, now) : sweep_[i].speed;
-      if (barred && !open) open = BarredRange{joint_, edge, edge, now.limit, now.load, now.reason, by_};
+      if (barred && !open)
+        open = BarredRange{joint_, edge, edge, now.limit, now.load, now.reason, by_, false, sweep_[i].speed};
       if (barred) {
         open->to = sweep_[i].speed;
         if (now.share() > open->peak / open->limit)
-          open->peak = now.load, open->limit = now.limit, open->reason = now.reason;
+          open->peak = now.load, open->limit = now.limit, open->reason = now.reason, open->worst = sweep_[i].speed;
       } else if (open) {
         open->to = edge;
         close(*open);
@@ -93,17 +103,44 @@ class Along {
     if (fa == 0) return a;
     if (fb == 0) return b;
     if (!at_) return a - fa * (b - a) / (fb - fa);
-    return find_root([this](double speed) { return use_(at_(speed)).excess(); }, a, fa, b, fb,
-                     end_within * std::max(before.limit, now.limit));
+    return find_root(
+        [this](double speed) {
+          return use_({speed, at_(speed)}).excess();
+        },
+        a, fa, b, fb, end_within * std::max(before.limit, now.limit));
   }
 
   std::size_t joint_;
   BarredRange::By by_;
-  std::function<Use(const std::vector<JointLoad>&)> use_;
+  std::function<Use(const SpeedLoads&)> use_;
   const std::vector<SpeedLoads>& sweep_;
   const std::function<std::vector<JointLoad>(double)>& at_;
   std::vector<BarredRange>& out_;
 };
+
+// A resonance within the sweep bars at least what the rule says around it; ranges that meet become one.
+void bar_by_class(const LimitedJoint& joint, std::size_t j, const std::vector<SpeedLoads>& sweep,
+                  const std::function<std::vector<JointLoad>(double)>& at, std::vector<BarredRange>& out) {
+  std::vector<BarredRange> found;
+  const auto use = [&joint, j](const SpeedLoads& s) { return by_class(joint, s.joints[j], s.speed); };
+  Along(j, BarredRange::By::limit, use, sweep, at, found).go();
+  const std::size_t before = out.size();
+  for (BarredRange& range : found) {
+    if (range.worst > sweep.front().speed && range.worst < sweep.back().speed) {
+      const BarredAround around = barred_around(joint.speed_ratio(range.worst));
+      range.from = std::min(range.from, around.from * range.worst);
+      range.to = std::max(range.to, around.to * range.worst);
+    }
+    if (out.size() == before || range.from > out.back().to) {
+      out.push_back(std::move(range));
+      continue;
+    }
+    BarredRange& last = out.back();
+    last.to = std::max(last.to, range.to);
+    if (range.peak / range.limit > last.peak / last.limit)
+      last.peak = range.peak, last.limit = range.limit, last.worst = range.worst;
+  }
+}
 
 }  // namespace
 
@@ -127,9 +164,10 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
     const LimitedJoint& joint = joints[j];
     const auto along = [&](BarredRange::By by, auto use) {
       Along(
-          j, by, [&, j, use](const std::vector<JointLoad>& loads) { return use(loads[j]); }, sweep, at, ranges)
+          j, by, [&, j, use](const SpeedLoads& loads) { return use(loads.joints[j]); }, sweep, at, ranges)
           .go();
     };
+    if (joint.limits.shaft.is_of_propulsion()) bar_by_class(joint, j, sweep, at, ranges);
     if (joint.limits.any())
       along(BarredRange::By::limit, [&](const JointLoad& load) { return by_limits(joint, load); });
     else
@@ -139,8 +177,10 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
   return ranges;
 }
 
-double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double factor) {
-  return joint.limits.any() ? by_limits(joint, load).share() : by_rule(joint, load, factor).share();
+double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double speed, double factor) {
+  if (!joint.limits.any()) return by_rule(joint, load, factor).share();
+  const double share = by_limits(joint, load).share();
+  return joint.limits.shaft.is_of_propulsion() ? std::max(share, by_class(joint, load, speed).share()) : share;
 }
 
 const BarredRange* worst_of(const std::vector<BarredRange>& ranges) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -22,11 +23,12 @@ DriveLimits stated_limits(const Section& s) {
                      given.application_factor,
                      given.temperature_factor,
                      given.start_factor};
-  if (s.has("allowable_shear_stress")) {
-    const ShaftKeys shaft = shaft_fields().read(s);
-    limits.shear_stress = *shaft.allowable_shear_stress;
-    limits.polar_modulus = 2 * shaft.polar_moment() / *shaft.diameter;
-  }
+  if (s.kind->name != "shaft") return limits;
+  const ShaftKeys shaft = shaft_fields().read(s);
+  if (!shaft.judges_stress()) return limits;
+  limits.shear_stress = shaft.allowable_shear_stress.value_or(0);
+  limits.polar_modulus = shaft.polar_modulus(), limits.diameter = *shaft.diameter;
+  limits.shaft = shaft.rating;
   return limits;
 }
 
@@ -42,6 +44,7 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     if (total[joint.component] > 1) one.name += fmt::format(".{}", ++seen[joint.component]);
     one.stands = model.node_ratio[at(joint.a)] == 0;
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
+    one.turns = std::abs(model.node_ratio[at(joint.a)]);
     one.loss_account = e.loss_account;
     if (const Section* s = model.scene.find(joint.component)) {
       one.limits = stated_limits(*s);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "drivetrain/couplings/shaft_rating.h"
 #include "engine/model/model.h"
 
 namespace kurbel {
@@ -14,7 +15,11 @@ struct DriveLimits {
   double application_factor = 1;                              // K_A, ≥ 1
   double temperature_factor = 1, start_factor = 1;            // S_t, S_z, ≥ 1
   double shear_stress = 0, polar_modulus = 0;                 // [Pa], W_p [m³]
-  bool any() const { return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0; }
+  double diameter = 0;                                        // of that section [m]
+  ShaftRating shaft = {};
+  bool any() const {
+    return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0 || shaft.any();
+  }
 };
 
 struct LimitedJoint {
@@ -23,9 +28,15 @@ struct LimitedJoint {
   int joint = 0;          // in the network
   bool stands = false;    // it holds what does not turn, a housing: the drive's rated torque says nothing of it
   double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
+  double turns = 0;       // its speed over the reduction link's
   bool has_play = false;  // backlash is stated: where its torque changes sign, it hammers
   int loss_account = -1;  // of what its damping takes; −1: none
   DriveLimits limits = {};
+
+  // Of UR M68, at a speed of the link [rad/s].
+  double speed_ratio(double speed) const { return limits.shaft.speed_ratio(turns * speed); }
+  double continuous(double speed) const { return limits.shaft.continuous(limits.diameter, speed_ratio(speed)); }
+  double transient(double speed) const { return limits.shaft.transient(limits.diameter, speed_ratio(speed)); }
 };
 
 // Of all elastic joints of a model, in its order.

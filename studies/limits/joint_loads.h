@@ -28,6 +28,8 @@ struct JointLoad {
   Measured power;               // P_W [W]
   double frequency = 0;         // that swings most [Hz]
   double frequency_factor = 1;  // S_f
+  Measured amplitude() const { return {0.5 * (upper.value - lower.value), 0.5 * (upper.error + lower.error)}; }
+  Measured middle() const { return {0.5 * (upper.value + lower.value), 0.5 * (upper.error + lower.error)}; }
   const Measured& largest() const { return std::abs(lower.value) > std::abs(upper.value) ? lower : upper; }
 };
 

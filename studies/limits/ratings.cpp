@@ -19,6 +19,10 @@ namespace {
 bool rates_heat(const Section& s) { return s.has("allowable_heat") || s.has("allowable_heat_power"); }
 bool rates_belt(const Section& s) { return s.has("allowable_tension") || s.has("slip_reserve"); }
 
+bool rates_cycle(const Section& s) {
+  return s.has("endurance_limit") || s.has("yield_strength") || s.has("allowable_vibratory_stress");
+}
+
 Figure figure_of(const char* words, const std::string& of, double value, const char* unit, double scale) {
   return Figure::of_name(Name::own(words, of), value, unit, scale);
 }
@@ -33,6 +37,7 @@ class Rater {
     if (rates_heat(section_)) heat();
     if (rates_belt(section_)) belt();
     if (section_.has("allowable_shear_stress")) shaft();
+    if (rates_cycle(section_)) cycle_of_stress();
     if (section_.has("rim_radius")) rim();
     if (section_.has("duty")) motor();
   }
@@ -90,7 +95,7 @@ class Rater {
 
   void shaft() {
     const ShaftKeys shaft = shaft_fields().read(section_);
-    const double modulus = 2 * shaft.polar_moment() / *shaft.diameter;
+    const double modulus = shaft.polar_modulus();
     std::optional<Measured> largest;  // of its segments
     for (const Figure& f : result_.figures)
       if (f.what == QuantityKind::peak_torque && (f.of == section_.name || f.of.starts_with(section_.name + ".")))
@@ -101,6 +106,44 @@ class Rater {
           return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
                              1e3 * *shaft.diameter * std::cbrt(times));
         });
+  }
+
+  // The widest cycle that rainflow could count: of the segment where it is worst.
+  void cycle_of_stress() {
+    const ShaftKeys shaft = shaft_fields().read(section_);
+    const double modulus = shaft.polar_modulus();
+    JointLoad widest, largest;
+    for (const Figure& f : result_.figures) {
+      if (!f.name.starts_with("greatest_torque.") || !is_of(f.of)) continue;
+      const Figure* least = result_.find("least_torque." + f.of);
+      if (!least) continue;
+      JointLoad load;
+      load.upper = {f.value, f.error.value_or(0)}, load.lower = {least->value, least->error.value_or(0)};
+      if (load.amplitude().value >= widest.amplitude().value) widest = load;
+      if (std::abs(load.largest().value) >= std::abs(largest.largest().value)) largest = load;
+    }
+    const auto over = [modulus](const Measured& m) { return Measured{m.value / modulus, m.error / modulus}; };
+    const auto thicker = [&](double times) {
+      return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
+                         1e3 * *shaft.diameter * std::cbrt(times));
+    };
+    const ShaftRating& rating = shaft.rating;
+    if (rating.vibratory)
+      add(requirement::vibratory_stress, over(widest.amplitude()), *rating.vibratory, "Pa", thicker);
+    if (rating.endurance) {
+      const Fatigue fatigue = fatigue_of(rating, over(widest.amplitude()), over(widest.middle()));
+      add(requirement::fatigue, fatigue.stress, *rating.endurance, "Pa", thicker);
+      std::string& note = out_.back().note;
+      note += (note.empty() ? "" : "; ") + fatigue.note;
+    }
+    const double peak = std::abs(largest.largest().value), error = largest.largest().error;
+    if (rating.yield)
+      add(requirement::yield, {rating.safety * peak / modulus, rating.safety * error / modulus},
+          rating.yield_in_shear(), "Pa", thicker);
+  }
+  // Its own, or that of one of its segments.
+  bool is_of(const std::string& joint) const {
+    return joint == section_.name || joint.starts_with(section_.name + ".");
   }
 
   void rim() {
@@ -173,6 +216,27 @@ std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
   return wanted;
 }
 
+std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  std::vector<std::string> rated;
+  for (const Section& s : model.scene.components)
+    if (rates_cycle(s)) rated.push_back(s.name);
+  if (rated.empty()) return wanted;
+  for (const ExtremeOf& peak : extremes_of(model)) {
+    if (peak.name.what != QuantityKind::peak_torque) continue;
+    if (std::none_of(rated.begin(), rated.end(), [&](const std::string& shaft) {
+          return peak.name.of == shaft || peak.name.of.starts_with(shaft + ".");
+        }))
+      continue;
+    for (const auto& [words, which] :
+         {std::pair("greatest_torque", ExtremeOf::Which::maximum), {"least_torque", ExtremeOf::Which::minimum}}) {
+      wanted.push_back(peak);
+      wanted.back().name = Name::own(words, peak.name.of), wanted.back().which = which;
+    }
+  }
+  return wanted;
+}
+
 std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,
                                    double energy, double duration) {
   std::vector<Figure> figures;
@@ -203,6 +267,7 @@ std::vector<Figure> rating_figure_list(const Model& model) {
     if (s.has("duty")) list.push_back(figure_of("motor_rms_torque", s.name, 0, "N*m", 0));
     if (s.has("rim_radius")) list.push_back(figure_of("rim_speed", s.name, 0, "m/s", 0));
   }
+  for (const ExtremeOf& torque : shaft_torques_of(model)) list.push_back(Figure::of_name(torque.name, 0, torque.unit));
   return list;
 }
 

@@ -3,6 +3,7 @@
 //     engagement: W = ∫ |M_k Δω| dt ≤ allowable_heat, the hottest one         W_total/t ≤ allowable_heat_power
 //     belt:       F₀ + |τ|/(2 r₁) ≤ allowable_tension                         slip_reserve · |τ| ≤ M (Euler, Eytelwein)
 //     shaft:      |T|/W_p ≤ allowable_shear_stress                            W_p = π (D⁴ − d⁴)/(16 D)
+//                 its widest cycle, from the least torque to the greatest: Goodman, yield, the maker's amplitude
 //     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress
 //     motor:      √(∫ M² dt/t) ≤ M_N √part,  part = 1 (S1), duty_time/t (S2), duty_share (S3): a lower bound of heating
 // Every figure is one of the run, with the error that other runs measure. Nothing rated, nothing watched.
@@ -21,6 +22,8 @@ namespace kurbel {
 std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model);
 // Rim speeds of flywheels whose rim is given.
 std::vector<ExtremeOf> rim_speeds_of(const Model& model);
+// Greatest and least torques of shafts of which a cycle of stress is rated.
+std::vector<ExtremeOf> shaft_torques_of(const Model& model);
 // Of what slips and of belts, from what was watched and from peak torques among `known`. Heat is judged by `energy` [J],
 // times by `duration` [s].
 std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,

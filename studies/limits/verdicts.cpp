@@ -13,11 +13,12 @@ Measured times(double factor, const Measured& m) { return {factor * std::abs(m.v
 
 class Judge {
  public:
-  Judge(const LimitedJoint& joint, const JointLoad& load, const RunUp& run_up, const RunUp::Peak* peak,
+  Judge(const LimitedJoint& joint, const JointLoad& load, double speed, const RunUp& run_up, const RunUp::Peak* peak,
         const Passing* passing, const SpeedUnit& unit, std::vector<Verdict>& out)
       : joint_(joint),
         limits_(joint.limits),
         load_(load),
+        speed_(speed),
         run_up_(run_up),
         peak_(peak),
         passing_(passing),
@@ -38,6 +39,7 @@ class Judge {
                               : "it does not swing");
     if (limits_.power > 0) add("dissipated power: P_W ≤ P_KW", times(1, load_.power), limits_.power, "W", "");
     if (limits_.shear_stress > 0) shear();
+    if (limits_.shaft.any()) swinging_stress();
   }
 
  private:
@@ -93,9 +95,34 @@ class Judge {
         .bound = starts && l.bound;
   }
 
+  void swinging_stress() {
+    const ShaftRating& shaft = limits_.shaft;
+    const Measured amplitude = times(1 / limits_.polar_modulus, load_.amplitude());
+    if (shaft.vibratory) add(requirement::vibratory_stress, amplitude, *shaft.vibratory, "Pa", "in steady motion");
+    if (shaft.endurance) {
+      const Fatigue f = fatigue_of(shaft, amplitude, times(1 / limits_.polar_modulus, load_.middle()));
+      add(requirement::fatigue, f.stress, *shaft.endurance, "Pa", f.note);
+    }
+    if (shaft.yield) yield();
+    if (shaft.is_of_propulsion() && std::isfinite(joint_.continuous(speed_)))
+      add(requirement::continuous, amplitude, joint_.continuous(speed_), "Pa",
+          fmt::format("λ = {:.3g}, in steady motion", joint_.speed_ratio(speed_)));
+  }
+
+  void yield() {
+    const Largest l = largest();
+    const double factor = limits_.shaft.safety / limits_.polar_modulus;
+    const Measured steady = times(factor, l.steady), start = times(factor, l.start);
+    const bool starts = start.value > steady.value;
+    add(requirement::yield, starts ? start : steady, limits_.shaft.yield_in_shear(), "Pa",
+        starts ? l.note : "in steady motion")
+        .bound = starts && l.bound;
+  }
+
   const LimitedJoint& joint_;
   const DriveLimits& limits_;
   const JointLoad& load_;
+  double speed_;  // of the link [rad/s]
   const RunUp& run_up_;
   const RunUp::Peak* peak_;
   const Passing* passing_;
@@ -104,6 +131,13 @@ class Judge {
 };
 
 }  // namespace
+
+Fatigue fatigue_of(const ShaftRating& shaft, const Measured& amplitude, const Measured& mean) {
+  return {
+      {shaft.fatigue_stress(amplitude.value, mean.value), shaft.fatigue_stress(amplitude.error, mean.error)},
+      fmt::format("τ_a = {:.4g} MPa, τ_m = {:.4g} MPa, τ_B = {:.4g} MPa, K_f = {:g}, S = {:g}", 1e-6 * amplitude.value,
+                  1e-6 * mean.value, 1e-6 * shaft.strength_in_shear(), shaft.notch, shaft.safety)};
+}
 
 const char* name_of(Compliance compliance) {
   switch (compliance) {
@@ -144,7 +178,7 @@ std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const Steady
   std::vector<Verdict> verdicts;
   for (std::size_t i = 0; i < joints.size(); ++i)
     if (joints[i].limits.any())
-      Judge(joints[i], loads.joints[i], run_up, run_up.found ? &run_up.peaks[i] : nullptr,
+      Judge(joints[i], loads.joints[i], loads.speed, run_up, run_up.found ? &run_up.peaks[i] : nullptr,
             i < passing.size() ? &passing[i] : nullptr, speed_unit, verdicts)
           .all();
   return verdicts;

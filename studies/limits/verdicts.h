@@ -4,7 +4,8 @@
 //     S_t (T_N + S_z T_S) ≤ T_Kmax                 T_N + T_S: largest torque from rest to the steady motion
 //     S_t S_f T_W ≤ T_KW,   P_W ≤ P_KW             alternating part of the steady motion
 //     K_A |T|/W_p ≤ τ_allowable                    largest torque of the steady motion; without K_A of the run-up
-//                                                                                              (theory 12.9, 12.10)
+//     a shaft's swinging stress by its maker, Goodman, yield, UR M68: drivetrain/couplings/shaft_rating.h
+//                                                                               (theory 12.9, 12.10, 12.14 … 12.16)
 #pragma once
 
 #include <string>
@@ -34,6 +35,23 @@ struct Verdict {
 struct Passing {
   double torque = 0, speed = 0;  // with its sign [N·m], of the link [rad/s]
 };
+
+// What is required of a shaft's stress, wherever it is judged.
+namespace requirement {
+inline constexpr const char* vibratory_stress = "vibratory stress: (τ_max − τ_min)/2 ≤ τ_allowable";
+inline constexpr const char* fatigue = "fatigue (Goodman): S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W";
+inline constexpr const char* yield = "yield: S |τ| ≤ 0.577 σ_S";
+inline constexpr const char* continuous = "UR M68, continuous: (τ_max − τ_min)/2 ≤ τ_C";
+inline constexpr const char* upper_range = "UR M68, all of 0.8 < λ ≤ 1.05: (τ_max − τ_min)/2 ≤ τ_C";
+inline constexpr const char* passing = "UR M68, passing at λ ≤ 0.8: (τ_max − τ_min)/2 ≤ τ_T";
+}  // namespace requirement
+
+// What counts against the endurance limit, and of what it is made.
+struct Fatigue {
+  Measured stress;  // [Pa]
+  std::string note;
+};
+Fatigue fatigue_of(const ShaftRating& shaft, const Measured& amplitude, const Measured& mean);
 
 // The largest value over its limit, of what is exceeded; 0: nothing is.
 double worst_excess(const std::vector<Verdict>& verdicts);

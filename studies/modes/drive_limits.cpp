@@ -47,7 +47,7 @@ void find_severity(double factor, ModesStudy& found) {
     load.frequency = c.order * c.speed / (2 * std::numbers::pi);
     load.frequency_factor = frequency_factor(load.frequency);
     load.weighted.value = load.frequency_factor * c.amplitude;
-    c.share = share_of_bearable(found.limited[c.joint], load, factor);
+    c.share = share_of_bearable(found.limited[c.joint], load, c.speed, factor);
   }
 }
 
@@ -105,7 +105,7 @@ void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& reg
     if (!at_regime || !kept.found) {
       loads = {.found = true, .words = "the linear response at " + found.speed_unit.text(found.drive.at.speed, 5)};
       if (at_regime) loads.words += "; " + kept.words;
-      loads.joints = loads_of(found.here);
+      loads.joints = loads_of(found.here), loads.speed = found.drive.at.speed;
     } else {
       loads.words = fmt::format("the motion that the machine keeps, at {}: {}", found.speed_unit.text(kept.speed, 5),
                                 regime.words);

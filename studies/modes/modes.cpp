@@ -29,7 +29,7 @@ constexpr std::size_t cycle_samples = 4096;   // of a round of the steady motion
 class Study {
  public:
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
-      : options_(options), effects_(effects), scene_(as_of(scene, effects, options.at)) {
+      : options_(options), given_(scene), effects_(effects), scene_(as_of(scene, effects, options.at)) {
     model_ = compile_network(network_as_of(scene_, options.at), scene_, effects);
     found_.title = scene.heading();
     found_.speed_unit = scene.speed_unit;
@@ -63,7 +63,9 @@ class Study {
         found_);
     if (!options_.angle) check_spots_of_range();
     if (!options_.torque.empty()) add_history();
+    if (options_.response_alone) return std::move(found_);
     judge_all_limits();
+    find_stresses();
     return std::move(found_);
   }
 
@@ -378,6 +380,18 @@ class Study {
     judge_limits(model_, regime_.value_or(Regime{}), !options_.speed && !options_.angle, options_.watch, found_);
   }
 
+  void find_stresses() {
+    if (judged_shafts(found_.limited).empty() || found_.sweep.empty()) return;
+    judge_over_speeds(found_.limited, found_.sweep, found_.verdicts);
+    found_.stresses = {.joints = found_.limited,
+                       .normal = {"", found_.sweep, found_.barred, found_.excitations.fundamental},
+                       .misfires = {},
+                       .link = found_.link,
+                       .unit = found_.speed_unit};
+    if (options_.misfires && !options_.angle)
+      found_.stresses.misfires = find_misfires(given_, effects_, options_, found_, found_.notes);
+  }
+
   void add_history() {
     Watch watch = options_.watch;
     watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
@@ -392,6 +406,7 @@ class Study {
   }
 
   const ModesOptions& options_;
+  const Scene& given_;
   Effects effects_;
   Scene scene_;
   std::shared_ptr<const Model> model_;

@@ -22,6 +22,7 @@
 #include "studies/limits/barred_ranges.h"
 #include "studies/limits/verdicts.h"
 #include "studies/response/forced_response.h"
+#include "studies/shafts/shaft_stress.h"
 
 namespace kurbel {
 
@@ -37,6 +38,8 @@ struct ModesOptions {
   std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
   int spot_checks = 0;               // speeds of the range at which the nonlinear cycle is held against the response
   std::vector<double> spots = {};    // and those [rad/s]
+  bool misfires = true;              // where shafts' stresses are judged: the same as one cylinder does not fire
+  bool response_alone = false;       // of a case beside the one that is judged
   Watch watch = {};
 };
 
@@ -135,6 +138,7 @@ struct ModesStudy {
   std::vector<BarredRange> barred;
   std::vector<SpotCheck> spots;  // by speed
   std::vector<Verdict> verdicts;
+  ShaftStresses stresses;  // where they are judged
   std::optional<TorqueHistory> history;
   std::vector<std::string> notes;
   bool complete = true;
@@ -144,6 +148,11 @@ struct ModesStudy {
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
 // senseless; std::runtime_error where modes cannot be found.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
+
+// The same drive at the speeds of `normal`, as one cylinder after the other does not fire (misfire.cpp); none where one
+// misfires already, or where there is but one. What cannot misfire is said in `notes`.
+std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, const ModesOptions& options,
+                                  const ModesStudy& normal, std::vector<std::string>& notes);
 
 // Amplitudes of a mode at the shafts that may move.
 Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);

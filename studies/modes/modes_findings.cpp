@@ -12,6 +12,7 @@
 #include "studies/modes/campbell.h"
 #include "studies/modes/modes_plots.h"
 #include "studies/modes/spot_findings.h"
+#include "studies/shafts/stress_findings.h"
 
 namespace kurbel {
 namespace {
@@ -363,6 +364,14 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.show(in, Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }
 
+void say_stresses(Findings& f, Chapter in, const ModesStudy& m) {
+  if (!m.stresses.any()) return;
+  f.draw(in, [&m] { return stress_plots(m.stresses); });
+  f.say(in, stress_table(m.stresses));
+  if (!m.stresses.misfires.empty()) f.say(in, misfire_table(m.stresses));
+  f.csv.push_back({"shaft_stress.csv", [&m] { return stress_csv(m.stresses); }});
+}
+
 void say_history(Findings& f, Chapter in, const ModesStudy& m) {
   if (!m.history) return;
   const TorqueHistory& h = *m.history;
@@ -393,10 +402,12 @@ Findings findings_of(const ModesStudy& m) {
              .footer = report_footer()};
   f.answer(m.complete ? Question::figures : Question::runs, conclusion_of(m), m.complete ? 0 : 100);
   f.answer(Question::bears, limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit), worst_excess(m.verdicts));
+  f.answer(Question::bears, stress_sentence(m.stresses), stress_excess(m.stresses));
   const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
                 campbell = f.chapter("Critical speeds (theory 12.6)"),
-                forced = f.chapter("Forced response (theory 12.7)"), history = f.chapter("Simulated torque"),
-                notes = f.chapter("Notes");
+                forced = f.chapter("Forced response (theory 12.7)"),
+                stresses = f.chapter("Stresses of shafts (theory 12.14, 12.16)"),
+                history = f.chapter("Simulated torque"), notes = f.chapter("Notes");
   add_key_figures(f, m);
   f.tell("operating_point", operating_point(m));
   f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
@@ -411,6 +422,7 @@ Findings findings_of(const ModesStudy& m) {
   f.say(campbell, zone_table(m));
   if (!m.zones.empty()) f.show(campbell, half_width(m));
   f.say(limits, verdict_table(m.verdicts));
+  say_stresses(f, stresses, m);
   say_history(f, history, m);
   f.note(notes, m.notes);
   f.show_scene(m.scene_file, m.scene_text);

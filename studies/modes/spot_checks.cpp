@@ -31,7 +31,7 @@ std::vector<Candidate> uses_of(const ModesStudy& found, double factor) {
     if (!s.kept) continue;
     Candidate most{.speed = s.speed};
     for (std::size_t j = 0; j < s.joints.size() && j < found.limited.size(); ++j) {
-      const double use = share_of_bearable(found.limited[j], load_of(s.joints[j]), factor);
+      const double use = share_of_bearable(found.limited[j], load_of(s.joints[j]), s.speed, factor);
       if (std::isfinite(use) && use > most.use) most.use = use, most.joint = j;
     }
     uses.push_back(most);

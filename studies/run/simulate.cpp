@@ -226,6 +226,7 @@ class Simulation {
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
+    for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);

@@ -10,6 +10,7 @@
 #include "engine/numerics/index.h"
 #include "studies/answers/motor_figures.h"
 #include "studies/findings/report.h"
+#include "studies/limits/ratings.h"
 #include "studies/run/figures.h"
 
 namespace kurbel {
@@ -137,6 +138,7 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
       e.name = e.name.of_cycle();
       wanted.push_back(std::move(e));
     }
+  for (ExtremeOf& torque : shaft_torques_of(m)) wanted.push_back(std::move(torque));
   for (Drive& drive : drives_of(m))
     wanted.push_back({.name = Name::make(QuantityKind::peak_drive_torque, drive.component),
                       .unit = "N*m",

@@ -1,0 +1,55 @@
+// shaft_rating.h — what a shaft's torsional stress may be: by its maker, by Goodman, by IACS UR M68.
+//
+//     maker:    τ_a ≤ τ_allowable                                      τ_a = (τ_max − τ_min)/2,  τ_m = (τ_max + τ_min)/2
+//     Goodman:  S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W                      τ_B = 0.67 σ_B
+//     yield:    S |τ|_max ≤ τ_S                                        τ_S = 0.577 σ_S
+//     UR M68:   τ_C = (σ_B + 160)/18 · c_K c_D (3 − 2 λ²)              λ < 0.9, of the speed over the rated one
+//               τ_C = (σ_B + 160)/18 · c_K c_D · 1.38                  0.9 ≤ λ < 1.05
+//               τ_T = 1.7 τ_C/√c_K                                     while a barred range is passed
+//               16 n_c/(18 − λ_c) ≤ n ≤ (18 − λ_c) n_c/16              barred around a resonance, λ_c < 0.8
+//               c_D = 0.35 + 0.93 d^−0.2                               stresses in N/mm², d in mm      (theory 12.14 … 12.16)
+// UR M68 is of intermediate, thrust, propeller and stern tube shafts; crankshafts and the shafts of gears, motors,
+// generators and turbines are expressly not its.
+#pragma once
+
+#include <optional>
+
+namespace kurbel {
+
+struct ShaftRating {
+  enum class Role { none, intermediate, thrust, propeller, stern_tube };
+  enum class Detail { flange, shrink_fit, tapered_keyway, cylindrical_keyway, radial_hole, slot };
+  enum class Steel { carbon, alloy };
+
+  std::optional<double> vibratory;       // τ_allowable, by the maker [Pa]
+  std::optional<double> tensile, yield;  // σ_B, σ_S [Pa]
+  std::optional<double> endurance;       // τ_W, of the smooth shaft in reversed torsion [Pa]
+  double notch = 1, safety = 1;          // K_f, S
+  Role role = Role::none;                // UR M68
+  Detail detail = Detail::flange;        // of an intermediate shaft
+  Steel steel = Steel::carbon;           // how much of σ_B counts
+  std::optional<double> stated_design;   // c_K in place of the table's
+  std::optional<double> rated_speed;     // of this shaft, λ = 1 [rad/s]
+
+  bool any() const { return vibratory || yield || endurance || role != Role::none; }
+  bool is_of_propulsion() const { return role != Role::none; }
+
+  double strength_in_shear() const;  // τ_B [Pa]
+  double yield_in_shear() const;     // τ_S [Pa]
+  // What counts against τ_W: S (K_f τ_a + τ_W |τ_m|/τ_B) [Pa].
+  double fatigue_stress(double amplitude, double mean) const;
+
+  double design_factor() const;                                  // c_K
+  double counted_strength() const;                               // σ_B up to what UR M68 lets count [Pa]
+  double speed_ratio(double speed) const;                        // λ
+  double continuous(double diameter, double speed_ratio) const;  // τ_C [Pa]; boundless above λ = 1.05
+  double transient(double diameter, double speed_ratio) const;   // τ_T [Pa]
+};
+
+// The speeds that UR M68 bars around a resonance, over its own.
+struct BarredAround {
+  double from = 1, to = 1;
+};
+BarredAround barred_around(double speed_ratio);
+
+}  // namespace kurbel

@@ -1,0 +1,207 @@
+// stress_findings.cpp — words, tables and curves of shafts' stresses.
+#include "studies/shafts/stress_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace kurbel {
+namespace {
+
+constexpr double megapascal = 1e6;
+constexpr std::size_t orders_drawn = 3, orders_told = 6, shafts_drawn = 12;
+
+std::string stress_text(double stress) { return fmt::format("{:.4g} MPa", stress / megapascal); }
+
+std::string use_text(const StressPeak& p) {
+  if (!std::isfinite(p.allowed)) return "—";
+  return fmt::format("{:.0f} %{}", 100 * p.use(), p.use() > 1 ? " EXCEEDED" : "");
+}
+
+// "38.2 MPa at 92 rpm, 87 % of what is allowed there"
+std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
+  std::string text = fmt::format("{} at {}", stress_text(p.stress), unit.text(p.speed, 4));
+  if (std::isfinite(p.allowed)) text += fmt::format(", {:.0f} % of what is allowed there", 100 * p.use());
+  return text;
+}
+
+// Of all cylinders in turn the sums of all orders.
+std::vector<StressPeak> misfire_peaks(const ShaftStresses& s) {
+  std::vector<StressPeak> peaks;
+  for (const Firing& firing : s.misfires)
+    for (StressPeak& p : stress_peaks(s.joints, firing))
+      if (p.order == 0) peaks.push_back(std::move(p));
+  return peaks;
+}
+
+const StressPeak* worst_of_all(const std::vector<StressPeak>& peaks, const std::vector<std::size_t>& shafts) {
+  const StressPeak* worst = nullptr;
+  for (const std::size_t j : shafts) {
+    const StressPeak* p = worst_sum(peaks, j);
+    if (p && (!worst || p->use() > worst->use() || (p->use() == worst->use() && p->stress > worst->stress))) worst = p;
+  }
+  return worst;
+}
+
+Rows peak_table(const char* key, const char* title, const char* heading, std::vector<StressPeak> peaks,
+                const SpeedUnit& unit) {
+  const ReadAs stress{.factor = 1 / megapascal, .digits = 4}, speed{.factor = unit.of(1), .digits = 5};
+  return table_of(key, title, std::move(peaks))
+      .headed(heading)
+      .text_in(3)
+      .column("shaft", "shaft", &StressPeak::shaft)
+      .column("misfires", "misfires", &StressPeak::misfires,
+              [](const std::string& m) { return m.empty() ? std::string("none") : m; })
+      .column("order", "of", &StressPeak::order,
+              [](double order) { return order > 0 ? fmt::format("order {:g}", order) : std::string("all orders"); })
+      .column("stress", "largest amplitude [MPa]", &StressPeak::stress, stress)
+      .column("speed", fmt::format("at [{}]", unit.name), &StressPeak::speed, speed)
+      .column("allowed", "allowed there [MPa]", &StressPeak::allowed, stress)
+      .only_for_people("use", use_text);
+}
+
+// From one speed of the sweep to the next.
+Series curve_of(const ShaftStresses& s, const Firing& firing, std::string name, Role role, const auto& value) {
+  Series series{.name = std::move(name), .role = role, .x = {}, .y = {}};
+  for (const SpeedResponse& at : firing.sweep) {
+    const double y = at.kept ? value(at) / megapascal : HUGE_VAL;
+    if (!std::isfinite(y)) continue;
+    series.x.push_back(s.unit.of(at.speed));
+    series.y.push_back(y);
+  }
+  return series;
+}
+
+void draw_limits(const ShaftStresses& s, std::size_t j, Plot& plot) {
+  const LimitedJoint& joint = s.joints[j];
+  const ShaftRating& shaft = joint.limits.shaft;
+  const auto limit = [&](const char* name, Role role, const auto& value) {
+    plot.series.push_back(dashed(curve_of(s, s.normal, name, role, value)));
+  };
+  if (shaft.vibratory)
+    limit("allowed by its maker", Role::vermillion, [&](const SpeedResponse&) { return *shaft.vibratory; });
+  if (!shaft.is_of_propulsion()) return;
+  limit("τ_C, continuous (UR M68)", Role::vermillion,
+        [&](const SpeedResponse& r) { return joint.continuous(r.speed); });
+  limit("τ_T, passing (UR M68)", Role::orange, [&](const SpeedResponse& r) {
+    return joint.speed_ratio(r.speed) <= 0.8 ? joint.transient(r.speed) : HUGE_VAL;
+  });
+}
+
+Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<StressPeak>& peaks,
+                 const std::vector<StressPeak>& misfires) {
+  const LimitedJoint& joint = s.joints[j];
+  Plot plot{.title = fmt::format("Vibratory stress of {} over the speed", joint.name),
+            .x = {"speed of " + s.link, s.unit.name},
+            .y = {"amplitude", "MPa"},
+            .series = {},
+            .wide = true};
+  const auto sum = [&](const SpeedResponse& r) { return summed_stress(joint, r.joints[j]); };
+  plot.series.push_back(curve_of(s, s.normal, "all orders", Role::elastic, sum));
+  if (const StressPeak* worst = worst_sum(misfires, j))
+    for (const Firing& firing : s.misfires)
+      if (firing.misfires == worst->misfires)
+        plot.series.push_back(curve_of(s, firing, worst->misfires + " misfires", Role::purple, sum));
+  constexpr std::array<Role, orders_drawn> roles = {Role::green, Role::sky, Role::rigid};
+  std::size_t drawn = 0;
+  for (const StressPeak& p : peaks) {
+    if (p.joint != j || p.order == 0 || drawn == orders_drawn) continue;
+    const auto r = static_cast<std::size_t>(std::lround(p.order / s.normal.fundamental));
+    plot.series.push_back(curve_of(s, s.normal, fmt::format("order {:g}", p.order), roles[drawn++],
+                                   [&](const SpeedResponse& at) { return order_stress(joint, at.orders[j][r]); }));
+  }
+  draw_limits(s, j, plot);
+  for (const BarredRange& b : s.normal.barred)
+    if (b.joint == j) plot.bands.push_back({s.unit.of(b.from), s.unit.of(b.to), "barred: " + b.reason});
+  return plot;
+}
+
+}  // namespace
+
+std::string stress_sentence(const ShaftStresses& s) {
+  if (!s.any()) return "";
+  const std::vector<std::size_t> shafts = judged_shafts(s.joints);
+  const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
+  const StressPeak* worst = worst_of_all(peaks, shafts);
+  if (!worst || !(worst->stress > 0)) return "";
+  std::string text = fmt::format("vibratory stress of shafts: {}{}, {}", shafts.size() > 1 ? "the worst " : "",
+                                 worst->shaft, peak_text(*worst, s.unit));
+  if (const StressPeak* m = worst_of_all(other, shafts))
+    text += fmt::format("; as {} misfires {}{}", m->misfires, m->shaft == worst->shaft ? "" : m->shaft + ", ",
+                        peak_text(*m, s.unit));
+  return text;
+}
+
+double stress_excess(const ShaftStresses& s) {
+  double most = 0;
+  for (const StressPeak& p : stress_peaks(s.joints, s.normal)) most = std::max(most, p.use());
+  for (const StressPeak& p : misfire_peaks(s)) most = std::max(most, p.use());
+  return most > 1 ? most : 0;
+}
+
+Rows stress_table(const ShaftStresses& s) {
+  std::vector<StressPeak> peaks;
+  if (s.any()) peaks = stress_peaks(s.joints, s.normal);
+  std::vector<std::size_t> told;
+  std::size_t orders = 0;
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    orders = peaks[i].order == 0 ? 0 : orders + 1;
+    if (orders <= orders_told) told.push_back(i);
+  }
+  Rows table = peak_table("shaft_stress", "Vibratory stress of shafts over the speeds",
+                          "vibratory stress of shafts over the speeds", std::move(peaks), s.unit);
+  table.for_people = std::move(told);
+  return table;
+}
+
+Rows misfire_table(const ShaftStresses& s) {
+  return peak_table("misfires", "Vibratory stress of shafts as one cylinder misfires",
+                    "the same as one cylinder misfires", misfire_peaks(s), s.unit);
+}
+
+std::vector<Plot> stress_plots(const ShaftStresses& s) {
+  std::vector<Plot> plots;
+  if (!s.any()) return plots;
+  const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
+  for (const std::size_t j : judged_shafts(s.joints))
+    if (plots.size() < shafts_drawn) plots.push_back(stress_plot(s, j, peaks, other));
+  return plots;
+}
+
+std::string stress_csv(const ShaftStresses& s) {
+  const auto cell = [](double value) {
+    return std::isfinite(value) ? fmt::format(",{:.9g}", value) : std::string(",");
+  };
+  std::string text = "shaft,misfires,speed [rad/s],amplitude [Pa],continuous limit [Pa],passing limit [Pa]";
+  const std::size_t harmonics = s.normal.sweep.empty() ? 0 : s.normal.sweep.front().orders.front().size();
+  for (std::size_t r = 1; r < harmonics; ++r)
+    text += fmt::format(",order {:g} [Pa]", s.normal.fundamental * static_cast<double>(r));
+  text += '\n';
+  const auto rows_of = [&](const Firing& firing, std::size_t j) {
+    const LimitedJoint& joint = s.joints[j];
+    for (const SpeedResponse& at : firing.sweep) {
+      if (!at.kept) continue;
+      text += fmt::format("{},{},{:.9g}", joint.name, firing.misfires, at.speed);
+      text += cell(summed_stress(joint, at.joints[j])) + cell(allowed_amplitude(joint, at.speed));
+      text +=
+          cell(joint.limits.shaft.is_of_propulsion() && joint.speed_ratio(at.speed) <= 0.8 ? joint.transient(at.speed)
+                                                                                           : HUGE_VAL);
+      for (std::size_t r = 1; r < harmonics; ++r) {
+        // The same order of a firing whose cycle is longer.
+        const double n = s.normal.fundamental / firing.fundamental * static_cast<double>(r);
+        const auto k = static_cast<std::size_t>(std::lround(n));
+        text += cell(k < at.orders[j].size() ? order_stress(joint, at.orders[j][k]) : HUGE_VAL);
+      }
+      text += '\n';
+    }
+  };
+  for (const std::size_t j : judged_shafts(s.joints)) {
+    rows_of(s.normal, j);
+    for (const Firing& firing : s.misfires) rows_of(firing, j);
+  }
+  return text;
+}
+
+}  // namespace kurbel

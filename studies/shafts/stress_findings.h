@@ -1,0 +1,24 @@
+// stress_findings.h — what is said of stresses: the sentence that stands first, tables, curves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/plots.h"
+#include "studies/findings/rows.h"
+#include "studies/shafts/shaft_stress.h"
+
+namespace kurbel {
+
+// "vibratory stress of shafts: the worst propeller_shaft, 38.2 MPa at 92 rpm, 87 % of what is allowed there; as cylinder3
+// misfires 44.1 MPa at 92 rpm, 101 %: it EXCEEDS that"; empty: there is nothing to say.
+std::string stress_sentence(const ShaftStresses& s);
+// How many times too large, of what is exceeded; 0: nothing is.
+double stress_excess(const ShaftStresses& s);
+
+Rows stress_table(const ShaftStresses& s);   // of every shaft the sum, and its orders
+Rows misfire_table(const ShaftStresses& s);  // of every shaft and cylinder that misfires
+std::vector<Plot> stress_plots(const ShaftStresses& s);
+std::string stress_csv(const ShaftStresses& s);  // shaft by shaft, speed by speed: the sum, every order, limits
+
+}  // namespace kurbel
