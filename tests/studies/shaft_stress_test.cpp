@@ -154,8 +154,10 @@ TEST(ShaftStress, AmplitudeOverTheSpeedIsThatOfTwoMasses) {
   const ModesStudy m = modes_of(two_masses(8, propeller), wide);
   const LimitedJoint& shaft = m.limited.at(0);
   for (const SpeedResponse& s : m.sweep) {
-    // What is left of the cosine between its points resonates at a third of the speed.
-    EXPECT_NEAR(summed_stress(shaft, s.joints[0]), stress_at(8, s.speed), 2e-4 * stress_at(8, s.speed)) << s.speed;
+    // Below that, orders 3, 5, 7 of what is left of the cosine between its points come to resonance.
+    if (s.speed > 40) {
+      EXPECT_NEAR(summed_stress(shaft, s.joints[0]), stress_at(8, s.speed), 2e-5 * stress_at(8, s.speed)) << s.speed;
+    }
     EXPECT_NEAR(order_stress(shaft, s.orders[0][1]), stress_at(8, s.speed), 2e-5 * stress_at(8, s.speed)) << s.speed;
   }
   const auto peaks = stress_peaks(m.stresses.joints, m.stresses.normal);
