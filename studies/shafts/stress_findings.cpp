@@ -11,7 +11,7 @@ namespace kurbel {
 namespace {
 
 constexpr double megapascal = 1e6;
-constexpr std::size_t orders_drawn = 3, orders_told = 6, shafts_drawn = 12;
+constexpr std::size_t orders_drawn = 2, orders_told = 6, shafts_drawn = 12;
 
 std::string stress_text(double stress) { return fmt::format("{:.4g} MPa", stress / megapascal); }
 
@@ -20,11 +20,22 @@ std::string use_text(const StressPeak& p) {
   return fmt::format("{:.0f} %{}", 100 * p.use(), p.use() > 1 ? " EXCEEDED" : "");
 }
 
-// "38.2 MPa at 92 rpm, 87 % of what is allowed there"
+// "38.2 MPa at 92 rpm, 87 % of what is allowed there in continuous running"
 std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
   std::string text = fmt::format("{} at {}", stress_text(p.stress), unit.text(p.speed, 4));
-  if (std::isfinite(p.allowed)) text += fmt::format(", {:.0f} % of what is allowed there", 100 * p.use());
+  if (std::isfinite(p.allowed))
+    text += fmt::format(", {:.0f} % of what is allowed there in continuous running", 100 * p.use());
   return text;
+}
+
+// Where that is more than is allowed, and passed through: what passing it uses of its own limit.
+std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
+  const LimitedJoint& joint = s.joints[p.joint];
+  const bool barred = std::any_of(s.normal.barred.begin(), s.normal.barred.end(),
+                                  [&](const BarredRange& b) { return b.from <= p.speed && p.speed <= b.to; });
+  if (p.use() <= 1 || !barred || !joint.limits.shaft.is_of_propulsion() || joint.speed_ratio(p.speed) > 0.8) return "";
+  return fmt::format("; that is within a barred range, and passing through it uses {:.0f} % of what is allowed then",
+                     100 * p.stress / joint.transient(p.speed));
 }
 
 // Of all cylinders in turn the sums of all orders.
@@ -104,7 +115,7 @@ Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<Stress
     for (const Firing& firing : s.misfires)
       if (firing.misfires == worst->misfires)
         plot.series.push_back(curve_of(s, firing, worst->misfires + " misfires", Role::purple, sum));
-  constexpr std::array<Role, orders_drawn> roles = {Role::green, Role::sky, Role::rigid};
+  constexpr std::array<Role, orders_drawn> roles = {Role::green, Role::sky};
   std::size_t drawn = 0;
   for (const StressPeak& p : peaks) {
     if (p.joint != j || p.order == 0 || drawn == orders_drawn) continue;
@@ -127,7 +138,7 @@ std::string stress_sentence(const ShaftStresses& s) {
   const StressPeak* worst = worst_of_all(peaks, shafts);
   if (!worst || !(worst->stress > 0)) return "";
   std::string text = fmt::format("vibratory stress of shafts: {}{}, {}", shafts.size() > 1 ? "the worst " : "",
-                                 worst->shaft, peak_text(*worst, s.unit));
+                                 worst->shaft, peak_text(*worst, s.unit) + passed_text(s, *worst));
   if (const StressPeak* m = worst_of_all(other, shafts))
     text += fmt::format("; as {} misfires {}{}", m->misfires, m->shaft == worst->shaft ? "" : m->shaft + ", ",
                         peak_text(*m, s.unit));
