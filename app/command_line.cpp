@@ -110,6 +110,7 @@ std::string svg_fault(const std::string& path) {
 
 // Why a list names no formats; empty: it does.
 std::string format_fault(const std::string& list) {
+  if (list.empty()) return "must not be empty";
   try {
     table_formats(list);
   } catch (const std::invalid_argument& fault) {

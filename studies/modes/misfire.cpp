@@ -71,6 +71,14 @@ std::vector<Misfiring> misfiring(const Scene& scene) {
 
 }  // namespace
 
+ShaftStresses stresses_of_sweep(const ModesStudy& study) {
+  return {.joints = study.limited,
+          .normal = {"", study.sweep, study.barred, study.excitations.fundamental},
+          .misfires = {},
+          .link = study.link,
+          .unit = study.speed_unit};
+}
+
 std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, const ModesOptions& options,
                                   const ModesStudy& normal, std::vector<std::string>& notes) {
   std::vector<Firing> found;

@@ -404,26 +404,20 @@ class Study {
   void find_stresses() {
     if (judged_shafts(found_.limited).empty() || found_.sweep.empty()) return;
     judge_over_speeds(found_.limited, found_.sweep, found_.verdicts);
-    found_.stresses = {.joints = found_.limited,
-                       .normal = {"", found_.sweep, found_.barred, found_.excitations.fundamental},
-                       .misfires = {},
-                       .link = found_.link,
-                       .unit = found_.speed_unit};
-    if (options_.misfires && !options_.angle)
-      found_.stresses.misfires = find_misfires(given_, effects_, options_, found_, found_.notes);
+    found_.stresses = stresses_of_sweep(found_);
+    if (!options_.misfires || options_.angle) return;
+    found_.stresses.misfires = find_misfires(given_, effects_, options_, found_, found_.notes);
   }
 
   void add_history() {
     Watch watch = options_.watch;
     watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
-    found_.history = simulate_torque(scene_, effects_,
-                                     {.torque = options_.torque,
-                                      .link = model_->network.nodes[at(model_->reduction_node)].component,
-                                      .highest = found_.modes.back().natural(),
-                                      .watch = watch});
+    const std::string& link = model_->network.nodes[at(model_->reduction_node)].component;
+    found_.history = simulate_torque(
+        scene_, effects_,
+        {.torque = options_.torque, .link = link, .highest = found_.modes.back().natural(), .watch = watch});
     if (found_.history->complete) return;
-    found_.complete = false;
-    found_.diagnosis = found_.history->diagnosis;
+    found_.complete = false, found_.diagnosis = found_.history->diagnosis;
   }
 
   ModesOptions options_;

@@ -156,6 +156,9 @@ ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOpt
 std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, const ModesOptions& options,
                                   const ModesStudy& normal, std::vector<std::string>& notes);
 
+// Of its joints that are shafts, as all cylinders fire.
+ShaftStresses stresses_of_sweep(const ModesStudy& study);
+
 // Amplitudes of a mode at the shafts that may move.
 Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);
 

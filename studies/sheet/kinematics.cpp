@@ -14,7 +14,7 @@ namespace {
 
 double rounded(long double v) { return static_cast<double>(v); }
 
-PointMotion motion_of(const std::string& name, const Path& p, double w, double e) {
+JointMotion motion_of(const std::string& name, const Path& p, double w, double e) {
   const auto at = [&](long double x, long double y) { return PlanePoint{rounded(x), rounded(y)}; };
   return {name, at(p.x.value(), p.y.value()), at(p.x.slope() * w, p.y.slope() * w),
           at(p.x.curvature() * w * w + p.x.slope() * e, p.y.curvature() * w * w + p.y.slope() * e)};
@@ -42,7 +42,7 @@ void add_pins(const MechanismOnSheet& m, const PlanarLinkage& l, MechanismMotion
   for (int k = 0; k < l.joint_count; ++k) {
     const PlanarLinkage::Joint& j = l.joints[k];
     if (!moves(j.at)) continue;
-    const PointMotion motion = motion_of("", j.at, out.omega, out.alpha);
+    const JointMotion motion = motion_of("", j.at, out.omega, out.alpha);
     const std::size_t joint = joint_at(joints, motion.place);
     if (known[joint]) continue;
     known[joint] = true;

@@ -35,7 +35,7 @@ void check_goes_round(const Mechanism& mechanism);
 double dead_centre(const MechanismOnSheet& mechanism);
 
 // Position, velocity and acceleration of a point, in the mechanism's axes [m], [m/s], [m/s²].
-struct PointMotion {
+struct JointMotion {
   std::string name;  // "B", "S₂"
   PlanePoint place, velocity, acceleration;
 };
@@ -48,7 +48,7 @@ struct MechanismMotion {
   double output = 0, first = 0, second = 0;  // x, x′, x″ [m] or [rad]
   double velocity = 0, acceleration = 0;     // of the output
   std::vector<LinkMotion> links;             // all, the crank first
-  std::vector<PointMotion> pins, centres;    // those that move; of links that float
+  std::vector<JointMotion> pins, centres;    // those that move; of links that float
 };
 // At an angle of the link that turns with ω and ε.
 MechanismMotion motion_at(const MechanismOnSheet& mechanism, double phi, double omega, double alpha);

@@ -98,7 +98,7 @@ class LinkageDrawer {
     const double way = m_.mechanism.cycle();
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const double phi = (way * static_cast<double>(i) / static_cast<double>(path_.size() - 1) - m_.mechanism.phase);
-      for (const PointMotion& p : motion_at(m_, phi / m_.ratio, 1, 0).centres) centres[p.name].push_back(spot(p.place));
+      for (const JointMotion& p : motion_at(m_, phi / m_.ratio, 1, 0).centres) centres[p.name].push_back(spot(p.place));
     }
     for (const auto& [name, spots] : centres) {
       c_.curve(spots, Pen::path);

@@ -55,7 +55,7 @@ bool is_told(const std::vector<double>& speeds, const Motions& motions) {
   return even || of_output;
 }
 
-void add_points(SheetTable& t, const Motions& motions, std::vector<PointMotion> MechanismMotion::*points) {
+void add_points(SheetTable& t, const Motions& motions, std::vector<JointMotion> MechanismMotion::*points) {
   for (std::size_t i = 0; i < (motions.front().*points).size(); ++i) {
     const std::string& name = (motions.front().*points)[i].name;
     const std::string index = name.size() > 1 ? "S" + name.substr(2) : name;
