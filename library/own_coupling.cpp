@@ -63,16 +63,16 @@ struct OwnKind {
   std::vector<Parameter> parameters;
   MakeCoupling make;
 };
-std::mutex own_mutex;
-std::map<std::string, OwnKind>& own_kinds() {
+std::mutex own_couplings_mutex;
+std::map<std::string, OwnKind>& own_couplings() {
   static std::map<std::string, OwnKind> kinds;
   return kinds;
 }
 
 void build_own_coupling(const Section& section, Network& net, Messages& messages) {
   const OwnKind kind = [&] {
-    const std::scoped_lock lock(own_mutex);
-    return own_kinds().at(section.kind->name);
+    const std::scoped_lock lock(own_couplings_mutex);
+    return own_couplings().at(section.kind->name);
   }();
   const auto inertia = side_inertia_fields().read(section, messages);
   const auto [in, out] = two_shafts(section, inertia, net);
@@ -119,15 +119,15 @@ std::vector<double> Parameters::values() const {
 void add_coupling(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                   const MakeCoupling& make) {
   std::vector<Key> keys = keys_of_parameters(kind, parameters, side_inertia_fields().keys());
-  const std::scoped_lock lock(own_mutex);
-  if (own_kinds().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
+  const std::scoped_lock lock(own_couplings_mutex);
+  if (own_couplings().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
   add_kind({.name = kind,
             .doc = doc,
             .placement = Placement::inline_two,
             .keys = std::move(keys),
             .build = build_own_coupling,
             .elastic = true});
-  own_kinds()[kind] = {parameters, make};
+  own_couplings()[kind] = {parameters, make};
 }
 
 }  // namespace kurbel

@@ -60,8 +60,8 @@ struct OwnKind {
   MakeMechanism make;
   double number = 0;
 };
-std::mutex own_mutex;
-std::map<std::string, OwnKind>& own_kinds() {
+std::mutex own_mechanisms_mutex;
+std::map<std::string, OwnKind>& own_mechanisms() {
   static std::map<std::string, OwnKind> kinds;
   return kinds;
 }
@@ -101,8 +101,8 @@ void check_motion(const OwnMechanismData& data) {
 
 void build_own_mechanism(const Section& section, Network& net, Messages& messages) {
   const OwnKind kind = [&] {
-    const std::scoped_lock lock(own_mutex);
-    return own_kinds().at(section.kind->name);
+    const std::scoped_lock lock(own_mechanisms_mutex);
+    return own_mechanisms().at(section.kind->name);
   }();
   const auto read = own_mechanism_fields().read(section, messages);
   const Parameters parameters = parameters_of(section, kind.parameters);
@@ -151,12 +151,12 @@ ClosedForm closed_form(const OwnMechanismData& data, long double phi) { return c
 void refuse_forces_of_own(const Scene& scene, const std::string& wanted) {
   std::vector<std::string> known;
   for (const Kind& kind : mechanism_kinds()) known.push_back(kind.name);
-  const std::scoped_lock lock(own_mutex);
+  const std::scoped_lock lock(own_mechanisms_mutex);
   const Section* own = nullptr;
   for (const Section& section : scene.components) {
     const std::string& kind = section.kind->name;
     if (wanted.empty() && std::find(known.begin(), known.end(), kind) != known.end()) return;
-    if (own_kinds().contains(kind) && (wanted.empty() ? own == nullptr : section.name == wanted)) own = &section;
+    if (own_mechanisms().contains(kind) && (wanted.empty() ? own == nullptr : section.name == wanted)) own = &section;
   }
   if (!own) return;
   throw std::invalid_argument(
@@ -169,11 +169,11 @@ void refuse_forces_of_own(const Scene& scene, const std::string& wanted) {
 void add_mechanism(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                    const MakeMechanism& make) {
   std::vector<Key> keys = keys_of_parameters(kind, parameters, own_mechanism_fields().keys());
-  const std::scoped_lock lock(own_mutex);
-  if (own_kinds().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
+  const std::scoped_lock lock(own_mechanisms_mutex);
+  if (own_mechanisms().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
   add_kind({.name = kind, .doc = doc, .keys = std::move(keys), .build = build_own_mechanism});
-  const double number = static_cast<double>(own_kinds().size());
-  own_kinds()[kind] = {parameters, make, number};
+  const double number = static_cast<double>(own_mechanisms().size());
+  own_mechanisms()[kind] = {parameters, make, number};
 }
 
 }  // namespace kurbel

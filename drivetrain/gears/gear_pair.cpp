@@ -8,14 +8,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
-
-double squared(double v) { return v * v; }
 double transverse_angle_of(const GearPairData& d) {
   return std::atan(std::tan(d.rack.pressure_angle) / std::cos(d.helix));
 }

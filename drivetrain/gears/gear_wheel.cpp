@@ -7,12 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
+
 namespace kurbel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-double squared(double v) { return v * v; }
 
 // The rack's tooth in the transverse plane, its rounding, and the curve that it cuts.
 class RackTip {

@@ -11,6 +11,8 @@
 
 namespace kurbel {
 
+inline double squared(double v) { return v * v; }
+
 // inv α = tan α − α; 0 ≤ α < π/2.
 inline double involute(double angle) { return std::tan(angle) - angle; }
 

@@ -10,14 +10,13 @@
 #include "drivetrain/induction/kinds.h"
 #include "drivetrain/induction/started_motor.h"
 #include "engine/model/network.h"
+#include "engine/numerics/angles.h"
 
 namespace kurbel {
 namespace {
 
 using Motor = Reading<InductionKeys>;
 using Keys = InductionKeys;
-
-double in_rpm(double speed) { return speed * 30 / std::numbers::pi; }
 
 // A key of the starters belongs to some of their methods.
 template <class Member>
@@ -45,7 +44,7 @@ void check_start(const Motor& m, std::optional<double> synchronous_speed) {
     if (m.switch_speed && synchronous_speed && *m.switch_speed >= *synchronous_speed)
       m.refuse(&Keys::switch_speed,
                fmt::format("switch_speed = {:.6g} rpm; must be below synchronous_speed = {:.6g} rpm",
-                           in_rpm(*m.switch_speed), in_rpm(*synchronous_speed)));
+                           in_rpm * *m.switch_speed, in_rpm * *synchronous_speed));
   } else if (m.starting != Starting::direct && !m.ramp) {
     m.refuse(fmt::format("starting = \"{}\" needs \"ramp\", the time it takes", name_of(m.starting)));
   }

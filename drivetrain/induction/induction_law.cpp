@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "drivetrain/induction/nameplate.h"
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -16,13 +17,11 @@ using Law = std::optional<InductionLaw>;
 using Motor = Reading<InductionKeys>;
 using Keys = InductionKeys;
 
-double in_rpm(double speed) { return speed * 30 / std::numbers::pi; }
-
 // One speed must lie below another.
 template <class M, class B>
 bool below(const Motor& m, M B::*member, double speed, const char* other, double limit) {
   return speed < limit || m.refuse(member, fmt::format("{} = {:.6g} rpm; must be below {} = {:.6g} rpm", m.key(member),
-                                                       in_rpm(speed), other, in_rpm(limit)));
+                                                       in_rpm * speed, other, in_rpm * limit));
 }
 
 // Catalogues seldom say it; the field's seventh harmonic, forwards at a seventh of the speed, brakes just above that.
@@ -36,7 +35,7 @@ bool points_fit(const Motor& m, double breakdown_speed) {
                    "\"resistance_ratio\" belongs to Kloss' formula; with \"starting_ratio\" the points give the curve");
   if (breakdown_speed <= 0)
     fit = m.refuse(&Keys::breakdown_speed, fmt::format("breakdown_speed = {:.6g} rpm by these data; give it, > 0 rpm",
-                                                       in_rpm(breakdown_speed)));
+                                                       in_rpm * breakdown_speed));
   if (m.pull_up_speed && !m.pull_up_ratio)
     return m.refuse(&Keys::pull_up_speed, "\"pull_up_speed\" needs \"pull_up_ratio\", the least torque on the way up");
   if (m.pull_up_ratio) {
@@ -145,7 +144,7 @@ int pole_pairs_of(const Motor& m, double synchronous_speed) {
   const std::string text = fmt::format(
       "= {:g} Hz at {:.6g} rpm makes {:.6g} pole pairs; must be a whole number: frequency = pole pairs · "
       "synchronous_speed",
-      mains_of(m), in_rpm(synchronous_speed), pairs);
+      mains_of(m), in_rpm * synchronous_speed, pairs);
   m.frequency ? m.refuse(&Keys::frequency, "frequency " + text) : m.refuse(&Keys::mains, "mains " + text);
   return 0;
 }
@@ -290,10 +289,10 @@ bool above_rated_speed(const Motor& m, double synchronous) {
   if (m.poles)
     return m.refuse(&Keys::poles, fmt::format("poles = {} make a synchronous speed of {:.6g} rpm; must be above "
                                               "rated_speed = {:.6g} rpm",
-                                              *m.poles, in_rpm(synchronous), in_rpm(*m.rated_speed)));
+                                              *m.poles, in_rpm * synchronous, in_rpm * *m.rated_speed));
   return m.refuse(&Keys::synchronous_speed, fmt::format("synchronous_speed = {:.6g} rpm; must be above rated_speed = "
                                                         "{:.6g} rpm",
-                                                        in_rpm(synchronous), in_rpm(*m.rated_speed)));
+                                                        in_rpm * synchronous, in_rpm * *m.rated_speed));
 }
 
 // The motor by its catalogue, or its nameplate.

@@ -12,12 +12,11 @@
 #include "drivetrain/motors/engine_torque.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
+#include "engine/numerics/angles.h"
 #include "engine/reading/mirrored.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct EngineKeys {
   std::vector<int> firing_order;
@@ -123,7 +122,7 @@ std::vector<double> firing_angles(const Reading<EngineKeys>& e) {
     return refuse(&Keys::firing_intervals,
                   fmt::format("firing_intervals add up to {:.6g} deg; must be the cycle of {:.6g} "
                               "deg",
-                              sum * degrees, cycle * degrees));
+                              sum * in_degrees, cycle * in_degrees));
   std::vector<double> angles = {e.phase};
   for (std::size_t k = 0; k + 1 < n; ++k) angles.push_back(angles.back() + intervals[k]);
   return angles;
@@ -161,11 +160,11 @@ bool put_diagram(const Reading<EngineKeys>& e, Diagram key, const CurveData& dat
   const double cycle = e.cycle();
   if (data.period > 0 && std::abs(data.period - cycle) > 1e-9 * cycle)
     return e.refuse(key, fmt::format("period of {:.6g} deg; a {}-stroke engine repeats after {:.6g} deg",
-                                     data.period * degrees, e.strokes == 4 ? "four" : "two", cycle * degrees));
+                                     data.period * in_degrees, e.strokes == 4 ? "four" : "two", cycle * in_degrees));
   const double span = data.x.back() - data.x.front();
   if (span > cycle * (1 + 1e-9))
-    return e.refuse(key, fmt::format("the diagram spans {:.6g} deg, more than the cycle of {:.6g} deg", span * degrees,
-                                     cycle * degrees));
+    return e.refuse(key, fmt::format("the diagram spans {:.6g} deg, more than the cycle of {:.6g} deg",
+                                     span * in_degrees, cycle * in_degrees));
   try {
     diagrams.push_back(data.curve(cycle));
   } catch (const std::invalid_argument& error) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "drivetrain/gears/gear_train_keys.h"
@@ -11,11 +10,10 @@
 #include "drivetrain/translation/kinds.h"
 #include "drivetrain/translation/slide.h"
 #include "engine/model/network.h"
+#include "engine/numerics/angles.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double degrees(double angle) { return angle * 180 / pi; }
 

@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/model/cycle_of.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 struct NamedPeriod {
   double period;
   std::string component;
@@ -63,10 +62,10 @@ Periodicity periodicity_of(const Model& m) {
   }
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
-    if (joint.element->is.uses_angle) angles.push_back({two_pi / m.scale_ratio[at(joint.a)], joint.component});
+    if (joint.element->is.uses_angle) angles.push_back({turn / m.scale_ratio[at(joint.a)], joint.component});
   }
   result.angle_matters = !angles.empty();
-  result.angle = angles.empty() ? two_pi : common_multiple(angles, "rad");
+  result.angle = angles.empty() ? turn : common_multiple(angles, "rad");
   if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
     const std::string& name = m.network.nodes[at(node)].component;

@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/model/cycle_of.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -19,7 +19,6 @@ using Eigen::Index;
 Index row(std::size_t i) { return static_cast<Index>(i); }
 
 constexpr double independent = 1e-9;  // of a row's length, that is not in the span of those before
-constexpr double two_pi = 2 * std::numbers::pi;
 
 // Rows that each add a direction to those before, of a matrix whose rows count alike.
 std::vector<Index> independent_rows(const Eigen::MatrixXd& rows) {
@@ -60,10 +59,10 @@ double period_of(const Model& m, std::size_t tracked) {
       periods.push_back(e.element->angle_period);
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
-    if (joint.element->is.uses_angle && same(joint.a)) periods.push_back(two_pi);
+    if (joint.element->is.uses_angle && same(joint.a)) periods.push_back(turn);
   }
   for (const int trigger : m.trigger_angle)
-    if (trigger == static_cast<int>(tracked)) periods.push_back(two_pi);
+    if (trigger == static_cast<int>(tracked)) periods.push_back(turn);
   if (periods.empty()) return 0;
   const CommonPeriod common = common_period(periods);
   if (common.value > 0) return common.value;

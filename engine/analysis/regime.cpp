@@ -19,7 +19,7 @@ constexpr double enough = 1e-11;        // residual of the map, over the rated v
 constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
 constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
-constexpr double never = 1e299;
+constexpr double no_edge = 1e299;
 // Events: several rounds of a sequence with some hundred events each (joints that move to and fro, gears that rattle).
 constexpr std::ptrdiff_t most_remembered = 20000;
 
@@ -70,7 +70,7 @@ class Search {
     for (std::size_t i = 0; i < m_.network.elements.size(); ++i) {
       const Network::ShaftElement& e = m_.network.elements[i];
       for (const double edge : {e.window.start, e.window.stop})
-        if (edge < never) until = std::max(until, edge);
+        if (edge < no_edge) until = std::max(until, edge);
       if (e.element->is.starts_anew) until = std::max(until, state_.modes.on_since[i] + e.element->settled_from);
     }
     for (const PrescribedSpeed& given : m_.network.prescribed)
@@ -78,7 +78,7 @@ class Search {
     for (const Command& command : state_.modes.command)
       if (command.rate != 0) until = std::max(until, command.until);
     const Sequence& sequence = m_.scene.sequence;
-    if (state_.modes.next_step < sequence.steps.size() && state_.modes.armed_time < never)
+    if (state_.modes.next_step < sequence.steps.size() && state_.modes.armed_time < no_edge)
       until = std::max(until, state_.modes.armed_time);
     return until;
   }

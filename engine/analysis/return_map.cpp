@@ -23,7 +23,7 @@ constexpr double safely = 20;               // times a tolerance: what a round i
 constexpr double loose_directions = 100;    // times the tolerance of the motion: that of variational equations
 constexpr double grazes = 0.05;             // that differences to either side differ, of the greatest of them
 
-Eigen::Index row(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 // Where events happen: angles of the link at the ends of steps; and which contacts stick all the time.
 class RoundLog final : public Observer {
@@ -335,7 +335,7 @@ ReturnMap::Image ReturnMap::round_from(State state) {
     if (image.end != End::returned) return image;
     go_through({second.t, second.state, equations_.modes()}, log.sticks(), pace);
   }
-  image.z = Eigen::VectorXd::Zero(row(size()));
+  image.z = Eigen::VectorXd::Zero(entry(size()));
   return image;
 }
 

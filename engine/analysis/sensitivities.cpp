@@ -7,7 +7,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double difference_step = 1e-6;  // over the scale of a state, for guards
+constexpr double guard_step = 1e-6;  // over the scale of a state, for guards
 
 }  // namespace
 
@@ -92,7 +92,7 @@ void Sensitivities::before_event(double t, std::span<const double> y, const std:
   const std::size_t guard = fired.front();
   double rate = 0;
   for (std::size_t i = 0; i < states_; ++i) {
-    const double step = difference_step * scale_[i], here = moved[i];
+    const double step = guard_step * scale_[i], here = moved[i];
     moved[i] = here + step;
     equations_.guards(t, moved, above);
     moved[i] = here - step;
@@ -102,7 +102,7 @@ void Sensitivities::before_event(double t, std::span<const double> y, const std:
     rate += gradient_[i] * flow_before_[i];
   }
   const double fastest = *std::max_element(scale_.begin(), scale_.end());
-  const double dt = difference_step / std::max(fastest, 1.0);
+  const double dt = guard_step / std::max(fastest, 1.0);
   equations_.guards(t + dt, moved, above);
   equations_.guards(t - dt, moved, below);
   guard_rate_ = rate + (above[guard] - below[guard]) / (2 * dt);

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 #include "engine/model/cycle_of.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -37,7 +37,6 @@ void follow_pieces(Equations& equations, double t, const std::vector<double>& fr
   }
 }
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double geared_within = 1e-6;        // of the link's speed: an angle that turns with the link
 constexpr double golden = 0.618033988749895;  // spreads times over the angles
 
@@ -99,7 +98,7 @@ void BaseMotion::choose_positions() {
     positions_ = {{*point_.angle, 0}};
     return;
   }
-  const int n = point_.positions * (turns_ ? static_cast<int>(std::lround(cycle_ / two_pi)) : 1);
+  const int n = point_.positions * (turns_ ? static_cast<int>(std::lround(cycle_ / turn)) : 1);
   int stride = turns_ ? static_cast<int>(golden * n) : 1;  // every time once, in another order than the angles
   while (std::gcd(stride, n) != 1) ++stride;
   for (int i = 0; i < n; ++i) {

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr double rounding = 1e-11;  // of the largest entry: what is left of a difference of equal ones
+constexpr double left_by_differences = 1e-11;  // of the largest entry: what is left of a difference of equal ones
 
 // With the link held at an angle weights and loads that hang on it hold it, too.
 void refuse_what_cannot_swing(const Model& m, const LinearisationPoint& point) {
@@ -134,7 +134,7 @@ class Lineariser {
     drive_.torque_by_twist = std::move(j.torque_by_twist);
     SparseMatrix rest = -(drive_.torque_by_twist * t) - drive_.stiffness;
     const double scale = largest(drive_.stiffness);
-    rest.prune([&](Index, Index, double v) { return std::abs(v) > rounding * scale; });
+    rest.prune([&](Index, Index, double v) { return std::abs(v) > left_by_differences * scale; });
     if (base_.point().angle) rest -= j.torque_by_angle;
     drive_.other_stiffness = rest.nonZeros() > 0 ? rest : SparseMatrix(n, n);
     drive_.torque_by_own = std::move(j.torque_by_own);

@@ -17,9 +17,9 @@ using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int most_steps = 25, most_halvings = 6;
-constexpr double balanced_within = 1e-11;  // of torque scale, of own states' scales over the time of a radian
-constexpr double good_enough = 1e-7;       // where Newton's steps cannot come nearer
-constexpr Index dense_below = 200;         // unknowns
+constexpr double balanced_within = 1e-11;    // of torque scale, of own states' scales over the time of a radian
+constexpr double near_enough_to_end = 1e-7;  // where Newton's steps cannot come nearer
+constexpr Index dense_below = 200;           // unknowns
 
 SparseMatrix matrix(Index rows, Index columns, const Triplets& entries) {
   SparseMatrix m(rows, columns);
@@ -204,7 +204,7 @@ class BaseMotion::Balance {
       VectorXd right = VectorXd::Zero(residual.size() + loops_.rows());  // loops keep what they have
       right.head(residual.size()) = residual;
       const VectorXd change = solved(system(), right);
-      if (change.size() == 0 || !change.allFinite()) return size <= good_enough;
+      if (change.size() == 0 || !change.allFinite()) return size <= near_enough_to_end;
       bool better = false;
       double part = 1;
       for (int i = 0; i < most_halvings && !better; ++i, part *= 0.5) {
@@ -215,9 +215,9 @@ class BaseMotion::Balance {
         if (!better) go(part * change);
         if (better) residual = next, size = next_size;
       }
-      if (!better) return size <= good_enough;
+      if (!better) return size <= near_enough_to_end;
     }
-    return size <= good_enough;
+    return size <= near_enough_to_end;
   }
 
   // Derivatives of the residual by [θ, α, z].

@@ -9,13 +9,12 @@
 #include <stdexcept>
 
 #include "engine/linear/cycle_samples.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Of the two turns that a law may take; 0 where rounding is all that is left of it.
 double within_a_cycle(double angle) {

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int most_periods = 1000;   // of the first law within a common period
 constexpr double same_ratio = 1e-9;  // by which a ratio of periods may miss a fraction
 

@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double most = 1e30;               // greater values cannot be computed with (engine/reading)
 constexpr double least_part = 1e-9;         // of the whole range: nearer places are one
 constexpr int most_intervals = 100'000;     // that are looked into …

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/analysis/sensitivities.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/periodic_schur.h"
 
 namespace kurbel {
@@ -25,7 +26,6 @@ constexpr double turns_in_interval = 1;  // [rad] of the slow ones
 constexpr std::size_t least_intervals = 12, most_intervals = 2000;
 constexpr double gone = 1e-9, gone_by_differences = 1e-6;  // of the largest direction: below what integration knows
 constexpr double difference_step = 2e-5;                   // of states over their scales
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double jumps = 2;  // [rad] in an interval beside the mode's own turning: the next one may be another turn
 constexpr double vanishes = 0.1;  // of a mode's mean amplitude in a motion: where it is less, its phase says little
 
@@ -227,7 +227,7 @@ std::vector<double> ends_away_from(const std::vector<double>& events, double tim
   return ends;
 }
 
-double turned(double phase) { return std::remainder(phase, two_pi); }
+double turned(double phase) { return std::remainder(phase, turn); }
 
 // The phase of one motion round the cycle, as its mode sees it.
 class PhaseReader {
@@ -260,7 +260,7 @@ class PhaseReader {
       out.mode = static_cast<int>(j);
       out.share = share[j];
       const double nearest = mode.imag() == 0 ? phase : branch(mode.imag() * ends_.back(), value);
-      out.off_nearest = static_cast<int>(std::round((phase - nearest) / two_pi));
+      out.off_nearest = static_cast<int>(std::round((phase - nearest) / turn));
       out.branch_by_mean = out.off_nearest != 0 && !followed.sure;
       if (out.branch_by_mean) phase = nearest, out.off_nearest = 0;
       out.phase_advance = phase;
@@ -279,7 +279,7 @@ class PhaseReader {
   }
   // The phase of the multiplier that is nearest to a phase.
   static double branch(double phase, const PeriodicEigenvalue& value) {
-    return value.phase + two_pi * std::round((phase - value.phase) / two_pi);
+    return value.phase + turn * std::round((phase - value.phase) / turn);
   }
   struct Followed {
     double phase = 0;  // [rad] in a round

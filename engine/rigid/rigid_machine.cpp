@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
@@ -17,7 +17,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts as here
 constexpr double farthest = 1e-5;      // rad: where rounding hides what is ahead
 constexpr int cells_a_turn = 720;      // of the search for edges

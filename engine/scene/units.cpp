@@ -7,14 +7,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/messages.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct UnitEntry {
   std::string_view symbol;

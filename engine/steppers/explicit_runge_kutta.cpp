@@ -18,7 +18,7 @@ namespace {
 // both methods reject 1…4 % of the steps on average; the customary 0.9 without it rejects 40 % for order 8 and costs 10
 // % more.
 constexpr double safety = 0.85;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 using Slopes = std::array<double*, most_stages>;
 
@@ -177,7 +177,7 @@ void ExplicitRungeKutta::step(double t_limit) {
 // Tries ever shorter steps until one is accurate enough.
 void ExplicitRungeKutta::search_step(double t_limit) {
   double h = h_next_;
-  const double shortest = 16 * epsilon * std::max(std::abs(t_previous_), h);
+  const double shortest = 16 * rounding * std::max(std::abs(t_previous_), h);
   for (bool rejected = false;; rejected = true) {
     const Aim goal = aim(h, t_limit);
     take(goal.h);

@@ -10,6 +10,7 @@ namespace kurbel {
 
 // Exponents of kilogram, metre, second, radian, ampere: of a root they may be halves.
 using BrokenDimension = std::array<double, 5>;
+inline constexpr BrokenDimension plain_number{};
 
 BrokenDimension broken(const Dimension& dimension);
 bool same_dimension(const BrokenDimension& a, const BrokenDimension& b);

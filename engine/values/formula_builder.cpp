@@ -17,8 +17,6 @@ constexpr NamedOp of_numbers[] = {{"asin", FormulaOp::asin}, {"acos", FormulaOp:
 constexpr NamedOp of_angles[] = {{"sin", FormulaOp::sin}, {"cos", FormulaOp::cos}, {"tan", FormulaOp::tan}};
 
 const Dimension angle{{0, 0, 0, 1, 0}};
-const BrokenDimension plain{};
-
 }  // namespace
 
 FormulaBuilder::Term FormulaBuilder::stop(std::string text, std::size_t column) {
@@ -71,7 +69,7 @@ BrokenDimension FormulaBuilder::common(const Term& a, const Term& b, std::size_t
   if (failed_ || a.zero || same_dimension(a.dimension, b.dimension)) return b.dimension;
   if (b.zero) return a.dimension;
   stop(fmt::format("{} {} and {}", what, name_of(a.dimension), name_of(b.dimension)), column);
-  return plain;
+  return plain_number;
 }
 
 BrokenDimension FormulaBuilder::combined(const BrokenDimension& a, const BrokenDimension& b, double sign) {
@@ -133,7 +131,7 @@ FormulaBuilder::Term FormulaBuilder::direction(const Term& y, const Term& x, con
                                                std::size_t column) {
   const BrokenDimension radians = broken(angle);
   const auto ratio = [&](const Term& a, const Term& b) {
-    return one(FormulaOp::atan, two(FormulaOp::divide, a, b, plain, column), radians, column);
+    return one(FormulaOp::atan, two(FormulaOp::divide, a, b, plain_number, column), radians, column);
   };
   const auto from = [&](double quarters, FormulaOp op, const Term& t) {
     return two(op, number(quarters * std::numbers::pi / 2, radians, column), t, radians, column);
@@ -168,20 +166,20 @@ FormulaBuilder::Term FormulaBuilder::direction(const Term& y, const Term& x, con
 FormulaBuilder::Term FormulaBuilder::of_one(const std::string& name, const Term& a, std::size_t column) {
   for (const NamedOp& f : of_numbers)
     if (f.name == name) {
-      if (!demand(a, plain, name, "a plain number")) return {};
+      if (!demand(a, plain_number, name, "a plain number")) return {};
       const bool gives_angle = name == "asin" || name == "acos" || name == "atan";
-      return one(f.op, a, gives_angle ? broken(angle) : plain, column);
+      return one(f.op, a, gives_angle ? broken(angle) : plain_number, column);
     }
   for (const NamedOp& f : of_angles)
     if (f.name == name) {
-      if (!same_dimension(a.dimension, plain) && !demand(a, broken(angle), name, "an angle or a plain number"))
+      if (!same_dimension(a.dimension, plain_number) && !demand(a, broken(angle), name, "an angle or a plain number"))
         return {};
-      return one(f.op, a, plain, column);
+      return one(f.op, a, plain_number, column);
     }
   if (name == "log10") {
-    if (!demand(a, plain, name, "a plain number")) return {};
-    return two(FormulaOp::divide, one(FormulaOp::log, a, plain, column), number(std::numbers::ln10, plain, column),
-               plain, column);
+    if (!demand(a, plain_number, name, "a plain number")) return {};
+    return two(FormulaOp::divide, one(FormulaOp::log, a, plain_number, column),
+               number(std::numbers::ln10, plain_number, column), plain_number, column);
   }
   if (name == "sqrt") {
     BrokenDimension half = a.dimension;
@@ -189,8 +187,8 @@ FormulaBuilder::Term FormulaBuilder::of_one(const std::string& name, const Term&
     return one(FormulaOp::sqrt, a, half, column);
   }
   if (name == "abs") return choose(a, a, one(FormulaOp::negate, a, a.dimension, column), a.dimension, column);
-  const Term yes = number(1, plain, column), no = number(name == "sign" ? -1 : 0, plain, column);
-  return choose(a, yes, no, plain, column);
+  const Term yes = number(1, plain_number, column), no = number(name == "sign" ? -1 : 0, plain_number, column);
+  return choose(a, yes, no, plain_number, column);
 }
 
 }  // namespace kurbel

@@ -25,8 +25,6 @@ const std::vector<std::string>& function_names() {
   return names;
 }
 
-const BrokenDimension plain{};
-
 class FormulaParser : private FormulaBuilder {
  public:
   FormulaParser(std::string_view text, const FormulaNames& names, UnitError& error)
@@ -137,18 +135,19 @@ class FormulaParser : private FormulaBuilder {
     if (failed_ || !take("^")) return base;
     const Deeper deeper(*this);
     const Term exponent = sign();
-    if (failed_ || !demand(exponent, plain, "an exponent", "a plain number")) return {};
+    if (failed_ || !demand(exponent, plain_number, "an exponent", "a plain number")) return {};
     if (constant(exponent)) {
       const double n = of(exponent).number;
       BrokenDimension d = base.dimension;
       for (double& e : d) e *= n;
       return one(FormulaOp::power, base, d, column, n);
     }
-    if (!same_dimension(base.dimension, plain))
+    if (!same_dimension(base.dimension, plain_number))
       return stop(fmt::format("{} to a power that varies; must be a plain number", name_of(base.dimension)), column);
-    return one(FormulaOp::exp,
-               two(FormulaOp::multiply, exponent, one(FormulaOp::log, base, plain, column), plain, column), plain,
-               column);
+    return one(
+        FormulaOp::exp,
+        two(FormulaOp::multiply, exponent, one(FormulaOp::log, base, plain_number, column), plain_number, column),
+        plain_number, column);
   }
   Term operand() {
     skip();
@@ -187,7 +186,7 @@ class FormulaParser : private FormulaBuilder {
     } else if (skip(), at_ < text_.size() && (is_letter(text_[at_]) || static_cast<unsigned char>(text_[at_]) >= 0x80 ||
                                               text_[at_] == '%')) {
       if (text_.substr(at_).starts_with("·") || text_.substr(at_).starts_with("\u2212"))
-        return number(value, plain, column, true);
+        return number(value, plain_number, column, true);
       unit_at = at_;
       while (at_ < text_.size() &&
              (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '%' ||
@@ -195,7 +194,7 @@ class FormulaParser : private FormulaBuilder {
         ++at_;
       unit = text_.substr(unit_at, at_ - unit_at);
     } else {
-      return number(value, plain, column, true);
+      return number(value, plain_number, column, true);
     }
     return with_unit_of(value, unit, unit_at, column);
   }
@@ -235,7 +234,7 @@ class FormulaParser : private FormulaBuilder {
               column};
     if (const auto found = names_.constants.find(name); found != names_.constants.end())
       return number(found->second.value, broken(found->second.dimension), column);
-    if (name == "pi") return number(std::numbers::pi, plain, column);
+    if (name == "pi") return number(std::numbers::pi, plain_number, column);
     std::vector<std::string> known = names_.variable;
     for (const auto& constant : names_.constants) known.push_back(constant.first);
     known.emplace_back("pi");

@@ -7,7 +7,7 @@ namespace {
 
 using FourBar = FourBarData;
 
-Fields<FourBar> linkage() {
+Fields<FourBar> four_bar_linkage() {
   return Fields<FourBar>()
       .add({.name = "crank",
             .unit = "m",
@@ -49,7 +49,8 @@ Fields<FourBar> linkage() {
 }
 
 const Fields<Mounted<FourBar>>& four_bar_fields() {
-  static const auto made = mounted(linkage(), mounting("torque on the rocker, or a list of them", rocker_loads()));
+  static const auto made =
+      mounted(four_bar_linkage(), mounting("torque on the rocker, or a list of them", rocker_loads()));
   return made;
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 using Press = KnucklePressData;
 
-Fields<Press> linkage() {
+Fields<Press> knuckle_press_linkage() {
   return Fields<Press>()
       .add({.name = "radius",
             .unit = "m",
@@ -52,7 +52,8 @@ Fields<Press> linkage() {
 }
 
 const Fields<Mounted<Press>>& knuckle_press_fields() {
-  static const auto made = mounted(linkage(), mounting("force on the ram, or a list of them", slider_loads()));
+  static const auto made =
+      mounted(knuckle_press_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
   return made;
 }
 

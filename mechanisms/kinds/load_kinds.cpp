@@ -6,7 +6,7 @@
 namespace kurbel {
 namespace {
 
-using Press = LoadKeys<PressKeys>;
+using PressLoad = LoadKeys<PressKeys>;
 using Constant = LoadKeys<ConstantForce>;
 using Opposing = LoadKeys<OpposingForce>;
 using Medium = LoadKeys<MediumResistance>;
@@ -44,41 +44,41 @@ Key rounding_key(const char* name, const char* unit) {
 
 // --- on outputs that slide ---
 
-Fields<Press> press() {
-  return Fields<Press>()
+Fields<PressLoad> press() {
+  return Fields<PressLoad>()
       .add({.name = "nominal_force",
             .unit = "N",
             .domain = not_negative,
             .doc = "force F_n against the motion",
             .required = true},
-           &Press::force)
+           &PressLoad::force)
       .add({.name = "nominal_travel",
             .unit = "m",
             .domain = positive,
             .doc = "distance before the working end where the force begins",
             .required = true},
-           &Press::travel)
+           &PressLoad::travel)
       .add({.name = "rise",
             .unit = "m",
             .fallback = "\"0 mm\"",
             .domain = not_negative,
             .doc = "travel within which the force rises; 0: an edge"},
-           &Press::rise)
+           &PressLoad::rise)
       .add({.name = "breakthrough",
             .unit = "m",
             .fallback = "\"0 mm\"",
             .domain = not_negative,
             .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
-           &Press::breakthrough)
+           &PressLoad::breakthrough)
       .add({.name = "drop",
             .unit = "m",
             .fallback = "\"0 mm\"",
             .domain = not_negative,
             .doc = "travel within which the force falls after break-through"},
-           &Press::drop)
-      .add(rounding_key("rounding", "m"), &Press::rounding)
-      .add(working_end_key(), &Press::from_greatest, stroke_ends())
-      .add(work_key(), &Press::account, accounts());
+           &PressLoad::drop)
+      .add(rounding_key("rounding", "m"), &PressLoad::rounding)
+      .add(working_end_key(), &PressLoad::from_greatest, stroke_ends())
+      .add(work_key(), &PressLoad::account, accounts());
 }
 
 // Magnitudes of loads of one number or two: a force on what slides, a torque on what rocks.

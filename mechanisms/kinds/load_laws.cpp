@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-using Press = LoadKeys<PressKeys>;
+using PressLoad = LoadKeys<PressKeys>;
 using Constant = LoadKeys<ConstantForce>;
 using Opposing = LoadKeys<OpposingForce>;
 using Medium = LoadKeys<MediumResistance>;
@@ -53,20 +53,20 @@ bool put_rounding(const Reading<Keys>& s, const Mechanism& mechanism, SliderLoad
   return true;
 }
 
-bool put_law(const Reading<Press>& s, const Mechanism& mechanism, SliderLoad& load) {
+bool put_law(const Reading<PressLoad>& s, const Mechanism& mechanism, SliderLoad& load) {
   bool sound = true;
   if (s.travel > mechanism.stroke())
-    sound = s.refuse(&Press::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
-                                                 in_mm(mechanism.stroke())));
+    sound = s.refuse(&PressLoad::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
+                                                     in_mm(mechanism.stroke())));
   if (s.rise > s.travel)
-    sound =
-        s.refuse(&Press::rise, fmt::format("rise = {}; must be ≤ nominal_travel = {}", in_mm(s.rise), in_mm(s.travel)));
+    sound = s.refuse(&PressLoad::rise,
+                     fmt::format("rise = {}; must be ≤ nominal_travel = {}", in_mm(s.rise), in_mm(s.travel)));
   if (s.breakthrough >= s.travel - s.rise && s.breakthrough > 0 && s.rise <= s.travel)
-    sound = s.refuse(&Press::breakthrough,
+    sound = s.refuse(&PressLoad::breakthrough,
                      fmt::format("breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands",
                                  in_mm(s.breakthrough), in_mm(s.travel - s.rise)));
   if (s.drop > s.breakthrough)
-    sound = s.refuse(&Press::drop,
+    sound = s.refuse(&PressLoad::drop,
                      fmt::format("drop = {}; must be ≤ breakthrough = {}", in_mm(s.drop), in_mm(s.breakthrough)));
   if (!sound) return false;
   load.law = PressForce::make(working_end(s.from_greatest, mechanism), mechanism.stroke(), s.force, s.travel, s.rise,

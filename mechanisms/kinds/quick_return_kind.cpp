@@ -51,7 +51,7 @@ Fields<Shaper> lengths() {
            &Shaper::backward, {{"forward", false}, {"backward", true}});
 }
 
-Fields<Shaper> linkage() {
+Fields<Shaper> shaper_linkage() {
   return lengths()
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Shaper::crank_body)
       .add(pivoted_link("lever", "from its bearing along the slot"), &Shaper::lever_body)
@@ -73,7 +73,7 @@ Fields<Shaper> linkage() {
 }
 
 const Fields<Mounted<Shaper>>& quick_return_fields() {
-  static const auto made = mounted(linkage(), mounting("force on the ram, or a list of them", slider_loads()));
+  static const auto made = mounted(shaper_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
   return made;
 }
 

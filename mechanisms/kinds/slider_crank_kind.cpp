@@ -55,7 +55,7 @@ Key inertia_key(const char* name, const char* doc) {
   return {.name = name, .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = doc};
 }
 
-Fields<Crank> linkage() {
+Fields<Crank> slider_crank_linkage() {
   return Fields<Crank>()
       .add({.name = "radius",
             .unit = "m",
@@ -140,7 +140,7 @@ struct SliderCrankKeys : Mounted<SliderCrankData> {
 const Fields<SliderCrankKeys>& slider_crank_fields() {
   static const auto made =
       Fields<SliderCrankKeys>()
-          .add(linkage(), &SliderCrankKeys::linkage)
+          .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
           .add(mounting("force on the slider, or a list of them", slider_loads()), &SliderCrankKeys::mounting)
           .add(firing(), &SliderCrankKeys::firing)
           .add(joint_fields(), &SliderCrankKeys::joints)

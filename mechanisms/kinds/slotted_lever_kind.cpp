@@ -7,7 +7,7 @@ namespace {
 
 using Lever = SlottedLeverData;
 
-Fields<Lever> linkage() {
+Fields<Lever> slotted_lever_linkage() {
   return Fields<Lever>()
       .add({.name = "crank",
             .unit = "m",
@@ -41,7 +41,8 @@ Fields<Lever> linkage() {
 }
 
 const Fields<Mounted<Lever>>& slotted_lever_fields() {
-  static const auto made = mounted(linkage(), mounting("torque on the lever, or a list of them", rocker_loads()));
+  static const auto made =
+      mounted(slotted_lever_linkage(), mounting("torque on the lever, or a list of them", rocker_loads()));
   return made;
 }
 

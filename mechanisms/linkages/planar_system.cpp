@@ -18,9 +18,6 @@ using SimTK::Vec3;
 
 namespace {
 
-// Only the moment about z matters; half of it about x and y keeps Simbody content.
-Inertia flat(double about_z) { return Inertia(about_z / 2, about_z / 2, about_z); }
-
 class SampledBodies final : public MechanismBodies {
  public:
   explicit SampledBodies(std::unique_ptr<PlanarSystem> planar)

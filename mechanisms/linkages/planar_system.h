@@ -90,6 +90,8 @@ std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar);
 
 // --- bodies: flat links along their x axis, joints at their ends ---
 
+// Only the moment about z matters; half of it about x and y keeps Simbody content.
+inline SimTK::Inertia flat(double about_z) { return SimTK::Inertia(about_z / 2, about_z / 2, about_z); }
 // What a link weighs, with what rounding may take from its moments when they are moved to its centre of mass.
 SimTK::MassProperties massive(double mass, const SimTK::Vec3& com, const SimTK::Inertia& about_origin);
 // On a fixed bearing: inertia about it. Simbody refuses inertia without mass; mass on the bearing neither moves nor has

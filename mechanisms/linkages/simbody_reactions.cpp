@@ -26,8 +26,6 @@ using SimTK::Vector_;
 
 namespace {
 
-Inertia flat(double about_z) { return Inertia(about_z / 2, about_z / 2, about_z); }
-
 MassProperties link(double mass, double com_x, double central_inertia) {
   const Vec3 com(com_x, 0, 0);
   return massive(mass, com, flat(central_inertia) + Inertia(com, mass));

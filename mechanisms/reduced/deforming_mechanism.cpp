@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-Eigen::Index ix(std::size_t i) { return static_cast<Eigen::Index>(i); }
+Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 // What the crank feels while nothing deforms; negative: the masses cannot be those of bodies.
 double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
@@ -22,10 +22,10 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   z[SliderCrankDynamics::phi] = phi;
   const auto m = dynamics.motion<double>(z, w);
   const auto& free = dynamics.free();
-  Eigen::MatrixXd mass(ix(free.size()), ix(free.size()));
+  Eigen::MatrixXd mass(entry(free.size()), entry(free.size()));
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto column = dynamics.inertia_column(m, free[k]);
-    for (std::size_t i = 0; i < free.size(); ++i) mass(ix(i), ix(k)) = column[free[i]];
+    for (std::size_t i = 0; i < free.size(); ++i) mass(entry(i), entry(k)) = column[free[i]];
   }
   const Eigen::Index n = mass.rows() - 1;
   Eigen::MatrixXd further = mass.bottomRightCorner(n, n);

@@ -9,9 +9,9 @@ namespace kurbel {
 namespace {
 
 constexpr int chunk = 6;  // so many inputs are differentiated at once
-constexpr std::size_t most = SliderCrankDynamics::most;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1>;
+constexpr std::size_t most_own = SliderCrankDynamics::most;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_own, most_own>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_own, 1>;
 
 Eigen::Index ix(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -244,8 +244,8 @@ void DeformingMechanismPool::add_jacobian(const Instant& now, const double* alph
     }
     const Eigen::LLT<Matrix> factors(further);
     for (std::size_t first = 0; first < inputs; first += chunk) {
-      std::array<D, most> dual_z, dual_w;
-      for (std::size_t k = 0; k < most; ++k) dual_z[k] = D(z[k]), dual_w[k] = D(w[k]);
+      std::array<D, most_own> dual_z, dual_w;
+      for (std::size_t k = 0; k < most_own; ++k) dual_z[k] = D(z[k]), dual_w[k] = D(w[k]);
       const std::size_t count = std::min<std::size_t>(chunk, inputs - first);
       for (std::size_t c = 0; c < count; ++c) {
         const std::size_t input = first + c;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/model/network.h"
+#include "engine/numerics/angles.h"
 #include "engine/scene/scene.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 
@@ -24,8 +25,6 @@ double reversal_between(const ReducedMechanism& reduced, double from, double to)
   }
   return 0.5 * (from + to);
 }
-
-constexpr double degree = std::numbers::pi / 180;
 
 // "; change points at 90° and 270°; …" of a mechanism that has something to say of its cycle.
 std::string words_of(const CrankCycle& cycle) {

@@ -17,9 +17,9 @@ namespace {
 using Real = long double;
 constexpr int most = 3 * PlanarLinkage::most_bodies;
 enum Case : int { speed_case, acceleration_case, weight_case, load_case, cases };
-using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+using CaseMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, 0, most, cases>;
-using Column = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
+using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
 
 struct Vector {
   Real x, y;
@@ -44,7 +44,7 @@ class Equations {
       : l_(l),
         n_(3 * l.body_count),
         length_(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value())),
-        matrix_(Matrix::Zero(n_, n_)),
+        matrix_(CaseMatrix::Zero(n_, n_)),
         right_(Columns::Zero(n_, cases)) {
     for (int k = 0; k < l.joint_count; ++k) put(k);
     matrix_(2, n_ - 1) = 1;  // the balancing torque, on the crank
@@ -52,13 +52,13 @@ class Equations {
   }
   // Forces [N] and moments over length() [N].
   Columns solve() const {
-    const Eigen::PartialPivLU<Matrix> factors(matrix_);
+    const Eigen::PartialPivLU<CaseMatrix> factors(matrix_);
     Columns x = factors.solve(right_);
     x += factors.solve(right_ - matrix_ * x);
     return x;
   }
   // Of the equations for one mixture of the cases, relative to their largest term.
-  double residual(const Column& solution, const Eigen::Matrix<Real, cases, 1>& mixture) const {
+  double residual(const CaseColumn& solution, const Eigen::Matrix<Real, cases, 1>& mixture) const {
     Real largest = 0, most_left = 0;
     for (int i = 0; i < n_; ++i) {
       Real left = 0;
@@ -115,7 +115,7 @@ class Equations {
   const PlanarLinkage& l_;
   int n_;
   Real length_;
-  Matrix matrix_;
+  CaseMatrix matrix_;
   Columns right_;
 };
 
@@ -155,7 +155,7 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
   const Columns unit = equations.solve();
   const Real w = state.omega;
   const Eigen::Matrix<Real, cases, 1> mixture(w * w, Real(state.alpha), Real(1), Real(state.load));
-  const Column x = unit * mixture;
+  const CaseColumn x = unit * mixture;
   if (!x.allFinite())
     throw std::runtime_error(
         fmt::format("no finite reactions at phi = {:.17g} rad: the crank cannot move the mechanism there", state.phi));

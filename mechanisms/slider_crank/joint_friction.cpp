@@ -12,8 +12,6 @@ namespace {
 
 constexpr double quadratic = 1e-9;  // a step of Newton's method this small leaves its square
 
-int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 template <class T>
 T length_of(const PlaneVector<T>& v) {
   using std::sqrt;
@@ -71,9 +69,9 @@ struct GuideLoads {
 
 // The two equations at one b: what is left of them, the loads.
 template <class T>
-struct Loads {
-  Loads(const SliderGuide& g, const FrictionFrame<T>& f, const Forces<T>& at, const PlaneVector<T>& b,
-        const CrankState::Signs& signs)
+struct FrictionLoads {
+  FrictionLoads(const SliderGuide& g, const FrictionFrame<T>& f, const Forces<T>& at, const PlaneVector<T>& b,
+                const CrankState::Signs& signs)
       : force{b - at.rod - at.crank, b - at.rod, b},
         size{length_of(force[0]), length_of(force[1]), length_of(force[2])},
         torque{f.circle[0] * size[0], f.circle[1] * size[1], f.circle[2] * size[2]},
@@ -94,7 +92,7 @@ double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
 
 // Derivatives by b.
 struct Slopes {
-  Slopes(const SliderGuide& g, const FrictionFrame<double>& f, const Loads<double>& l) {
+  Slopes(const SliderGuide& g, const FrictionFrame<double>& f, const FrictionLoads<double>& l) {
     for (int k = 0; k < 3; ++k)
       if (l.size[k] > 0) torque[k] = (f.circle[k] / l.size[k]) * l.force[k];
     if (g.length > 0) {
@@ -121,8 +119,8 @@ Vector apply(const double (&m)[2][2], const Vector& v) {
 }
 
 // By the implicit function theorem; M_f is carried on by the last step, whose square is nothing.
-void differentiate(const FrictionFrame<double>& f, const Loads<double>& l, const Slopes& slopes, const Vector& step,
-                   FrictionBalance& out) {
+void differentiate(const FrictionFrame<double>& f, const FrictionLoads<double>& l, const Slopes& slopes,
+                   const Vector& step, FrictionBalance& out) {
   const Vector rod = f.rod[1], bearing = f.rod[1] + f.crank[1], by_pin = slopes.on_crank(f);
   const double q0 = -dot(slopes.torque[0], bearing), q1 = -dot(slopes.torque[1], rod);  // at a constant b
   out.pin_by_alpha = apply(out.inverse, Vector{f.pin[1].x, f.pin[1].y + q1 / f.lever});
@@ -136,7 +134,7 @@ bool settle(const SliderGuide& g, const FrictionFrame<double>& f, const CrankSta
   const double scale = std::abs(at.pin.x) + std::abs(at.pin.y) + std::abs(at.rod.x) + std::abs(at.rod.y);
   double last = HUGE_VAL;
   for (int i = 0; i < 40; ++i) {
-    const Loads<double> loads(g, f, at, out.pin, state.sign);
+    const FrictionLoads<double> loads(g, f, at, out.pin, state.sign);
     const Slopes slopes(g, f, loads);
     const double determinant = slopes.determinant();
     if (!(determinant > 0) || !std::isfinite(determinant)) return false;
@@ -268,12 +266,12 @@ SliderCrankStatics::FrictionSlopes SliderCrankStatics::friction_slopes(const Cra
       friction_frame(state, D::input(state.phi, 0), D::input(state.omega, 1), D::input(state.slider_force, 2));
   const Forces<D> forces(frame, state.alpha);
   PlaneVector<D> pin{at.pin.x, at.pin.y};
-  const PlaneVector<D> left = Loads<D>(joints_.guide, frame, forces, pin, state.sign).left;
+  const PlaneVector<D> left = FrictionLoads<D>(joints_.guide, frame, forces, pin, state.sign).left;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector change = apply(at.inverse, Vector{left.x.d[i], left.y.d[i]});
     pin.x.d[i] = -change.x, pin.y.d[i] = -change.y;
   }
-  const D torque = Loads<D>(joints_.guide, frame, forces, pin, state.sign).on_crank(frame);
+  const D torque = FrictionLoads<D>(joints_.guide, frame, forces, pin, state.sign).on_crank(frame);
   return {torque.d[0], torque.d[1], torque.d[2]};
 }
 
@@ -282,7 +280,7 @@ std::array<double, 2> SliderCrankStatics::edge_shares(const CrankState& state) c
   const FrictionBalance at = balance(frame, state, nullptr);
   const SliderGuide& g = joints_.guide;
   const Forces<double> forces(frame, state.alpha);
-  const Loads<double> loads(g, frame, forces, at.pin, state.sign);
+  const FrictionLoads<double> loads(g, frame, forces, at.pin, state.sign);
   const double force = loads.size[2] + std::abs(frame.across) + std::numeric_limits<double>::min();
   const double scale =
       g.length > 0 ? g.length * force + 2 * (std::abs(frame.moment) + std::abs(loads.torque[2])) : force;

@@ -10,11 +10,7 @@
 #include "engine/equations/jam.h"
 
 namespace kurbel {
-namespace {
-
-int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
-}  // namespace
+namespace {}  // namespace
 
 SliderCrankStatics::Law::Loads SliderCrankStatics::Law::value(const Column& r) const {
   Loads q;

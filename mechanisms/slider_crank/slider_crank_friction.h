@@ -11,6 +11,8 @@
 
 namespace kurbel {
 
+inline int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
 // q = law(reactions): the friction loads, each against its joint's motion.
 struct SliderCrankStatics::Law {
   using Loads = Eigen::Matrix<double, frictions, 1>;

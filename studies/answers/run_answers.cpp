@@ -16,9 +16,9 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-class Words {
+class RunWords {
  public:
-  explicit Words(const Result& result) : r_(result), p_(result.periods) {}
+  explicit RunWords(const Result& result) : r_(result), p_(result.periods) {}
 
   // What a sound run comes to.
   std::string all() const {
@@ -65,7 +65,7 @@ std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
   if (!r.complete) return {{Question::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
   std::vector<Answer> answers = r.answers;
   if (answers.empty())
-    if (std::string words = Words(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
+    if (std::string words = RunWords(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
   if (r.unconfirmed()) answers.push_back({Question::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
   for (Answer& a : answers) a.sentence = capitalised(whose + a.sentence);
   return answers;

@@ -4,8 +4,8 @@
 namespace kurbel {
 namespace {
 
-constexpr std::string_view of_both = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty",
-                           of_steady = "steady, sweep, uncertainty";
+constexpr std::string_view both_verbs = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty",
+                           steady_verbs = "steady, sweep, uncertainty";
 
 std::vector<KindEntry> speeds() {
   using enum QuantityKind;
@@ -18,7 +18,7 @@ std::vector<KindEntry> speeds() {
         .formula = "ω_max = ω_mid (1 + ½ δ)",
         .is_not = "that of a whole run, which is max_speed",
         .theory = "2.6",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
       {cycle_min_speed,
        {.words = "least speed of a cycle, ω_min",
         .unit = "rad/s",
@@ -27,7 +27,7 @@ std::vector<KindEntry> speeds() {
         .formula = "ω_min = ω_mid (1 − ½ δ)",
         .is_not = "that of a whole run, which is min_speed",
         .theory = "2.6",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
       {mid_speed,
        {.words = "mid speed ω_mid",
         .unit = "rad/s",
@@ -61,7 +61,7 @@ std::vector<KindEntry> fluctuations() {
         .is_not = "of a whole run with its start, nor of motion that does not repeat (cycle_fluctuation); an elastic "
                   "machine has another δ at every shaft",
         .theory = "2.6",
-        .verbs = of_both}},
+        .verbs = both_verbs}},
       {cycle_fluctuation,
        {.words = "fluctuation in the last cycle",
         .of = "LINK",
@@ -79,22 +79,23 @@ std::vector<KindEntry> fluctuations() {
         .formula = "T = Φ/ω_mean",
         .is_not = "the time after which all repeats, where that takes several cycles: period",
         .theory = "2.7",
-        .verbs = of_both}},
+        .verbs = both_verbs}},
       {period,
        {.words = "period of the motion",
         .unit = "s",
         .is = "time after which all angles, speeds and times of the machine repeat: one cycle or several of them",
         .is_not = "the cycle of the reduction link alone: cycle_time",
         .theory = "11.1",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
   };
 }
 
 // The like of a whole run, of one steady cycle.
 KindEntry peak(QuantityKind what, std::string_view words, std::string_view unit, std::string_view of,
                std::string_view is, std::string_view is_not, std::string_view theory) {
-  return {what,
-          {.words = words, .unit = unit, .of = of, .is = is, .is_not = is_not, .theory = theory, .verbs = of_steady}};
+  return {
+      what,
+      {.words = words, .unit = unit, .of = of, .is = is, .is_not = is_not, .theory = theory, .verbs = steady_verbs}};
 }
 
 std::vector<KindEntry> peaks() {
@@ -137,7 +138,7 @@ std::vector<KindEntry> means_of_torque() {
         .formula = "√( (1/T) ∫ τ² dt )",
         .is_not = "of a whole run, which is rms_torque",
         .theory = "5.1",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
       {mean_drive_torque,
        {.words = "mean torque of a drive",
         .unit = "N*m",
@@ -146,7 +147,7 @@ std::vector<KindEntry> means_of_torque() {
         .formula = "(1/T) ∫ M dt",
         .is_not = "the mean over the angle, by which the work of a cycle is had",
         .theory = "4",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
       {rms_drive_torque,
        {.words = "RMS torque of a drive",
         .unit = "N*m",
@@ -155,7 +156,7 @@ std::vector<KindEntry> means_of_torque() {
         .formula = "√( (1/T) ∫ M² dt )",
         .is_not = "its rated torque; their ratio is the thermal use",
         .theory = "4",
-        .verbs = of_steady}},
+        .verbs = steady_verbs}},
   };
 }
 
@@ -176,17 +177,18 @@ std::vector<KindEntry> works() {
   constexpr std::string_view whole = "of a whole run: that is work";
   std::vector<KindEntry> all = {
       work_of(driving_work_per_cycle, "driving work of a cycle",
-              "work of all that drives, over one cycle; positive into the machine", whole, of_both),
+              "work of all that drives, over one cycle; positive into the machine", whole, both_verbs),
       work_of(useful_work_per_cycle, "useful work of a cycle",
               "work of the loads of the process, over one cycle; negative, because it leaves the machine", whole,
-              of_both),
+              both_verbs),
       work_of(harmful_work_per_cycle, "harmful work of a cycle",
-              "work of friction and damping, over one cycle; negative, because it leaves the machine", whole, of_both),
+              "work of friction and damping, over one cycle; negative, because it leaves the machine", whole,
+              both_verbs),
       work_of(weight_work_per_cycle, "work of weights over a cycle",
-              "work of gravity over one cycle; nothing where what moves comes back to its height", whole, of_steady),
+              "work of gravity over one cycle; nothing where what moves comes back to its height", whole, steady_verbs),
       work_of(work_per_cycle, "work of one account over a cycle",
               "work of one component in one account, over one steady cycle; positive into the machine",
-              "the sum over a line of the balance", of_steady),
+              "the sum over a line of the balance", steady_verbs),
   };
   all.back().told.of = "COMPONENT (account)";
   return all;

@@ -169,7 +169,7 @@ std::vector<KindEntry> peaks_of_motion() {
   };
 }
 
-std::vector<KindEntry> speeds() {
+std::vector<KindEntry> speeds_of_motion() {
   using enum QuantityKind;
   return {
       {max_speed,
@@ -193,7 +193,7 @@ std::vector<KindEntry> speeds() {
   };
 }
 
-std::vector<KindEntry> means_of_torque() {
+std::vector<KindEntry> rms_torques() {
   using enum QuantityKind;
   return {
       {rms_torque,
@@ -329,8 +329,9 @@ std::vector<KindEntry> losses() {
 
 std::vector<KindEntry> entries_of_kinds() {
   std::vector<KindEntry> all;
-  for (const std::vector<KindEntry>& more : {channels_of_shafts(), channels_of_mechanisms(), peaks_of_torque(),
-                                             peaks_of_motion(), speeds(), means_of_torque(), ends(), times(), losses()})
+  for (const std::vector<KindEntry>& more :
+       {channels_of_shafts(), channels_of_mechanisms(), peaks_of_torque(), peaks_of_motion(), speeds_of_motion(),
+        rms_torques(), ends(), times(), losses()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -15,10 +15,10 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t most_rows = 1'000'000'000;
-constexpr const char* forms = "allowed: grid:21x3, sobol:4096, lhs:500, random:500, saltelli:1024";
+constexpr const char* designs = "allowed: grid:21x3, sobol:4096, lhs:500, random:500, saltelli:1024";
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw std::invalid_argument(fmt::format("--design {}: {}; {}", in_quotes(text), why, forms));
+[[noreturn]] void refuse_design(const std::string& text, const std::string& why) {
+  throw std::invalid_argument(fmt::format("--design {}: {}; {}", in_quotes(text), why, designs));
 }
 
 // Steele, Lea, Flood 2014: every bit of the result hangs on every bit of x.
@@ -37,7 +37,7 @@ std::size_t count_of(const std::string& text, const std::string& number) {
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
   if (error != std::errc{} || end != number.data() + number.size() || count < 1 || count > most_rows)
-    refuse(text, fmt::format("{} is no number of 1 … {}", in_quotes(number), most_rows));
+    refuse_design(text, fmt::format("{} is no number of 1 … {}", in_quotes(number), most_rows));
   return count;
 }
 
@@ -56,14 +56,14 @@ Design::Design(const std::string& text, std::vector<SweptParameter> parameters, 
       {"sobol", Kind::sobol}, {"lhs", Kind::lhs}, {"random", Kind::random}, {"saltelli", Kind::saltelli}};
   const auto* const found =
       std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.first == name; });
-  if (found == std::end(kinds)) refuse(text, fmt::format("no design {}", in_quotes(name)));
+  if (found == std::end(kinds)) refuse_design(text, fmt::format("no design {}", in_quotes(name)));
   kind_ = found->second;
   base_ = count_of(text, number);
   rows_ = kind_ == Kind::saltelli ? base_ * (parameters_.size() + 2) : base_;
-  if (rows_ > most_rows) refuse(text, fmt::format("more than {} rows", most_rows));
+  if (rows_ > most_rows) refuse_design(text, fmt::format("more than {} rows", most_rows));
   const std::size_t dimensions = (kind_ == Kind::saltelli ? 2 : 1) * parameters_.size();
   if (kind_ == Kind::sobol || kind_ == Kind::saltelli) {
-    if (dimensions > 3000) refuse(text, "more parameters than the sequence has dimensions (3000)");
+    if (dimensions > 3000) refuse_design(text, "more parameters than the sequence has dimensions (3000)");
     sobol_ = boost::random::sobol(dimensions);
   }
   if (kind_ == Kind::lhs) make_permutations();
@@ -85,17 +85,18 @@ void Design::read_grid(const std::string& steps) {
   }
   if (steps_.empty())
     for (const SweptParameter& p : parameters_) {
-      if (!p.is_list()) refuse(text_, fmt::format("how many steps {} is to have is missing: it is a range", p.path));
+      if (!p.is_list())
+        refuse_design(text_, fmt::format("how many steps {} is to have is missing: it is a range", p.path));
       steps_.push_back(p.values.size());
     }
   if (steps_.size() != parameters_.size())
-    refuse(text_, fmt::format("{} numbers of steps for {} parameters", steps_.size(), parameters_.size()));
+    refuse_design(text_, fmt::format("{} numbers of steps for {} parameters", steps_.size(), parameters_.size()));
   rows_ = 1;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     if (parameters_[k].is_list() && steps_[k] != parameters_[k].values.size())
-      refuse(text_, fmt::format("{} steps of {}, whose list has {} values", steps_[k], parameters_[k].path,
-                                parameters_[k].values.size()));
-    if (rows_ > most_rows / steps_[k]) refuse(text_, fmt::format("more than {} rows", most_rows));
+      refuse_design(text_, fmt::format("{} steps of {}, whose list has {} values", steps_[k], parameters_[k].path,
+                                       parameters_[k].values.size()));
+    if (rows_ > most_rows / steps_[k]) refuse_design(text_, fmt::format("more than {} rows", most_rows));
     rows_ *= steps_[k];
   }
   base_ = rows_;
@@ -103,7 +104,7 @@ void Design::read_grid(const std::string& steps) {
 
 // Fisher and Yates, by the seed.
 void Design::make_permutations() {
-  if (rows_ > 10'000'000) refuse(text_, "a Latin hypercube has at most 10 000 000 rows; take sobol");
+  if (rows_ > 10'000'000) refuse_design(text_, "a Latin hypercube has at most 10 000 000 rows; take sobol");
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     std::vector<std::uint32_t> order(rows_);
     std::iota(order.begin(), order.end(), 0u);

@@ -15,7 +15,7 @@
 namespace kurbel {
 namespace {
 
-constexpr const char* forms =
+constexpr const char* variations =
     "write a range \"main_coupling.stiffness=500..1500 kN*m/rad\" or a list \"flywheel.inertia=200,400,800 kg*m2\"";
 constexpr std::size_t most_values = 1'000'000;
 
@@ -39,8 +39,8 @@ std::optional<Numbered> numbered(std::string_view text) {
   return Numbered{value, trimmed({end, static_cast<std::size_t>(text.data() + text.size() - end)})};
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw std::invalid_argument(fmt::format("--vary {}: {}; {}", in_quotes(text), why, forms));
+[[noreturn]] void refuse_variation(const std::string& text, const std::string& why) {
+  throw std::invalid_argument(fmt::format("--vary {}: {}; {}", in_quotes(text), why, variations));
 }
 
 std::vector<std::string_view> split(std::string_view text, char by) {
@@ -55,24 +55,24 @@ std::vector<std::string_view> split(std::string_view text, char by) {
 
 void check_unit(const std::string& text, const std::string& unit) {
   UnitError error;
-  if (!parse_unit(unit, error)) refuse(text, fmt::format("unit {}: {}", in_quotes(unit), error.text));
+  if (!parse_unit(unit, error)) refuse_variation(text, fmt::format("unit {}: {}", in_quotes(unit), error.text));
 }
 
 void read_range(SweptParameter& p, std::string_view value, std::size_t dots) {
   const auto low = numbered(value.substr(0, dots)), high = numbered(value.substr(dots + 2));
-  if (!low || !high) refuse(p.given, "a range needs a number on either side of \"..\"");
+  if (!low || !high) refuse_variation(p.given, "a range needs a number on either side of \"..\"");
   if (!low->rest.empty() && low->rest != high->rest)
-    refuse(p.given, fmt::format("the ends have two units, {} and {}; give one, behind the second end",
-                                in_quotes(low->rest), in_quotes(high->rest)));
+    refuse_variation(p.given, fmt::format("the ends have two units, {} and {}; give one, behind the second end",
+                                          in_quotes(low->rest), in_quotes(high->rest)));
   p.unit = high->rest;
   check_unit(p.given, p.unit);
   p.low = low->value, p.high = high->value;
-  if (!(p.low < p.high)) refuse(p.given, "the first end must be below the second");
+  if (!(p.low < p.high)) refuse_variation(p.given, "the first end must be below the second");
 }
 
 void read_list(SweptParameter& p, std::string_view value) {
   const std::vector<std::string_view> items = split(value, ',');
-  if (items.size() > most_values) refuse(p.given, fmt::format("a list of more than {} values", most_values));
+  if (items.size() > most_values) refuse_variation(p.given, fmt::format("a list of more than {} values", most_values));
   const auto last = numbered(items.back());
   const auto is_plain = [&](std::string_view item) {
     const auto read = numbered(item);
@@ -85,7 +85,7 @@ void read_list(SweptParameter& p, std::string_view value) {
     return;
   }
   for (const std::string_view item : items) {
-    if (item.empty()) refuse(p.given, "a value of the list is missing");
+    if (item.empty()) refuse_variation(p.given, "a value of the list is missing");
     p.values.push_back(static_cast<double>(p.values.size()));
     p.words.emplace_back(item);
   }
@@ -115,11 +115,11 @@ std::string SweptParameter::text_of(double value) const {
 SweptParameter parse_parameter(const std::string& text) {
   const std::size_t equals = text.find('=');
   SweptParameter p{.path = {}, .given = text};
-  if (equals == std::string::npos) refuse(text, "no values");
+  if (equals == std::string::npos) refuse_variation(text, "no values");
   p.path = trimmed(std::string_view(text).substr(0, equals));
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
-  if (p.path.empty()) refuse(text, "no key");
-  if (value.empty()) refuse(text, "no values");
+  if (p.path.empty()) refuse_variation(text, "no key");
+  if (value.empty()) refuse_variation(text, "no values");
   const std::size_t dots = value.find("..");
   if (dots != std::string_view::npos)
     read_range(p, value, dots);

@@ -2,17 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/roots.h"
 #include "studies/forces/force_cycle.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 Force2 direction_of(double phi) { return {std::cos(phi), std::sin(phi)}; }
 

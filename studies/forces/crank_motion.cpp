@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/model/model.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
@@ -18,7 +18,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int grid_of_turn = 720;  // peaks are sought on this grid, work is integrated between its points
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -6,21 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/model/model.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/newton_euler.h"
 
 namespace kurbel {
-namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
-}  // namespace
-
 // --- one problem ---
 
 CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads, ForceCycle& cycle)

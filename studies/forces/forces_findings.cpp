@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/forces/forces_plots.h"
@@ -14,7 +14,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 // "12.3 kN": in the unit that reads easily.
 // --- figures ---
 
@@ -81,7 +80,7 @@ Rows peak_table(const Forces& f) {
 }
 
 // Rounding errors beside large forces read as zero.
-double beside(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
+double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
 
 Rows position_table(const ForceCycle& c) {
   using P = const CyclePosition&;
@@ -91,11 +90,11 @@ Rows position_table(const ForceCycle& c) {
       .always()
       .only_for_people("φ [°]", [](P p) { return degrees(p.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.state.omega; })
-      .only_for_people("M [N·m]", [&](P p) { return beside(p.forces.torque, c.torque.value); })
+      .only_for_people("M [N·m]", [&](P p) { return or_zero(p.forces.torque, c.torque.value); })
       .only_for_people("R main [N]", [](P p) { return p.forces.main_bearing.magnitude(); })
       .only_for_people("R crank pin [N]", [](P p) { return p.forces.crank_pin.magnitude(); })
       .only_for_people("R slider pin [N]", [](P p) { return p.forces.slider_pin.magnitude(); })
-      .only_for_people("N guide [N]", [&](P p) { return beside(p.forces.guide, c.reaction[3].value); })
+      .only_for_people("N guide [N]", [&](P p) { return or_zero(p.forces.guide, c.reaction[3].value); })
       .only_for_people("at [mm]", [](P p) { return p.forces.guide_point; }, {.factor = 1e3, .digits = 4})
       .only_for_people("shaking [N]", [](P p) { return p.forces.shaking_force.magnitude(); })
       .only_for_people("η", [](P p) {

@@ -7,14 +7,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "studies/findings/plots.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 Role role_of(const ForceCycle& c) { return c.label == "simulated" ? Role::elastic : Role::rigid; }
 
@@ -25,7 +23,7 @@ Series over_angle(const std::string& name, Role role, const ForceCycle& c, const
   Series series{.name = name, .role = role, .x = {}, .y = {}};
   for (const CyclePosition& p : c.curve)
     if (const double v = value(p); std::isfinite(v)) {
-      series.x.push_back(degrees * p.state.phi);
+      series.x.push_back(in_degrees * p.state.phi);
       series.y.push_back(v);
     }
   return series;

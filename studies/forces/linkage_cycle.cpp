@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/model/model.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
 #include "studies/forces/machine_motion.h"
@@ -17,9 +18,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
-using Quantity = std::function<double(const PositionForces&)>;
+using LinkageQuantity = std::function<double(const PositionForces&)>;
 
 class Builder {
  public:
@@ -58,7 +57,7 @@ class Builder {
   void balance();
   void collect_curve();
 
-  Peak peak(const Quantity& value, double scale) {
+  Peak peak(const LinkageQuantity& value, double scale) {
     std::vector<double> values;
     for (const PositionForces& p : samples_) values.push_back(value(p));
     Peak found = measured_peak_of(
@@ -67,7 +66,7 @@ class Builder {
     return found;
   }
   // Of positions that are even over the cycle: all of them, and every other one.
-  MeanFigure mean(const Quantity& value, const Quantity& weight) const {
+  MeanFigure mean(const LinkageQuantity& value, const LinkageQuantity& weight) const {
     const auto with_step = [&](std::size_t step) {
       double sum = 0, weights = 0;
       for (std::size_t i = 0; i + 1 < cycle_.positions.size(); i += step) {
@@ -145,7 +144,7 @@ void Builder::find_peaks() {
   for (std::size_t k = 0; k < first.joints.size(); ++k) {
     const JointForces& j = first.joints[k];
     const std::string name = fmt::format("{}: {} on {}", j.name, j.from, j.on);
-    const Quantity force = [k](const PositionForces& p) {
+    const LinkageQuantity force = [k](const PositionForces& p) {
       const JointForces& here = p.forces.joints[k];
       return here.slides ? here.normal : here.force.magnitude();
     };
@@ -163,7 +162,7 @@ void Builder::find_peaks() {
 }
 
 void Builder::find_links() {
-  const Quantity time = [](const PositionForces& p) { return 1 / std::abs(p.forces.state.omega); };
+  const LinkageQuantity time = [](const PositionForces& p) { return 1 / std::abs(p.forces.state.omega); };
   const MeanFigure inertia = mean([](const PositionForces& p) { return p.forces.reduced_inertia; }, {});
   const MeanFigure energy = mean([](const PositionForces& p) { return p.forces.kinetic_energy; }, time);
   const auto share = [](const MeanFigure& part, const MeanFigure& whole) -> MeanFigure {
@@ -210,7 +209,7 @@ void Builder::find_links() {
 
 void Builder::find_orders() {
   const int turns = static_cast<int>(std::lround(along_.cycle / turn));
-  const auto orders_of = [&](const Quantity& value, double scale) {
+  const auto orders_of = [&](const LinkageQuantity& value, double scale) {
     return measured_harmonics(
         [&] {
           std::vector<double> values;
@@ -222,7 +221,7 @@ void Builder::find_orders() {
   cycle_.shaking_x = orders_of([](const PositionForces& p) { return p.forces.shaking_force.x; }, force_);
   cycle_.shaking_y = orders_of([](const PositionForces& p) { return p.forces.shaking_force.y; }, force_);
   cycle_.shaking_couple = orders_of([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_);
-  const Quantity torque = [](const PositionForces& p) { return p.forces.torque; };
+  const LinkageQuantity torque = [](const PositionForces& p) { return p.forces.torque; };
   cycle_.torque_orders = orders_of(torque, moment_);
   cycle_.torque_mean = mean(torque, {});
   *cycle_.torque_mean.error += rounding_of_forces * moment_;

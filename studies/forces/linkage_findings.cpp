@@ -143,7 +143,7 @@ Rows harmonic_table(const LinkageCycle& c, bool on_terminal) {
 
 // --- for programs and files ---
 
-Record force_record(Force2 f) { return {{"x", f.x}, {"y", f.y}}; }
+Record components_of(Force2 f) { return {{"x", f.x}, {"y", f.y}}; }
 
 Record position_record(P p) {
   const LinkageForces& f = p.forces;
@@ -164,13 +164,13 @@ Record position_record(P p) {
                            return Record{{"name", l.name},
                                          {"omega", l.omega},
                                          {"alpha", l.alpha},
-                                         {"acceleration", force_record(l.acceleration)},
-                                         {"inertia_force", force_record(l.inertia_force)},
+                                         {"acceleration", components_of(l.acceleration)},
+                                         {"inertia_force", components_of(l.inertia_force)},
                                          {"inertia_couple", l.inertia_couple},
                                          {"reduced_inertia", l.reduced_inertia},
                                          {"kinetic_energy", l.kinetic_energy}};
                          })},
-          {"shaking_force", force_record(f.shaking_force)},
+          {"shaking_force", components_of(f.shaking_force)},
           {"shaking_moment", f.shaking_moment},
           {"power_residual", p.power.residual}};
 }

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -18,7 +18,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
 constexpr int most_turns = 64;           // of the crank until everything comes again
 constexpr int rounds_undriven = 40;      // what nothing drives comes to rest, or has come again long before

@@ -6,12 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "engine/numerics/angles.h"
 #include "studies/gears/figure_errors.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double mm = 1e3, degree = std::numbers::pi / 180;
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "∞"; }
 
@@ -80,10 +79,10 @@ Findings findings_of(const BevelPair& b) {
                       {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), "0", ""},
                       {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree),
                        error_text(largest_error(e.cone_angle) / degree), "°"},
-                      {"reference diameter, outer end", "d_e", number(mm * b.reference_diameter(0)),
-                       number(mm * b.reference_diameter(1)), error_text(mm * e.reference_diameter), "mm"},
-                      {"cone distance, outer end", "R_e", number(mm * b.cone_distance()),
-                       number(mm * b.cone_distance()), error_text(mm * e.cone_distance), "mm"},
+                      {"reference diameter, outer end", "d_e", number(in_mm * b.reference_diameter(0)),
+                       number(in_mm * b.reference_diameter(1)), error_text(in_mm * e.reference_diameter), "mm"},
+                      {"cone distance, outer end", "R_e", number(in_mm * b.cone_distance()),
+                       number(in_mm * b.cone_distance()), error_text(in_mm * e.cone_distance), "mm"},
                       {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)),
                        error_text(largest_error(e.virtual_teeth)), ""}};
   const FormulaCard cones{
@@ -96,7 +95,7 @@ Findings findings_of(const BevelPair& b) {
            fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
                        "those of spur wheels with {:.1f} and {:.1f} teeth.",
                        b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree,
-                       b.cone_angle(1) / degree, mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
+                       b.cone_angle(1) / degree, in_mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
            rows, cones);
   f.tell("ratio", b.ratio());
   f.tell("ratio_error", units_of_rounding * b.ratio());
@@ -120,7 +119,7 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
       {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), "0", ""},
       {"ratio", "u", number(w.ratio()), text(&WormPair::ratio), ""},
       {"lead angle", "γ", number(w.lead_angle() / degree), text(&WormPair::lead_angle, 1 / degree), "°"},
-      {"centre distance", "a", number(mm * w.centre_distance()), text(&WormPair::centre_distance, mm), "mm"},
+      {"centre distance", "a", number(in_mm * w.centre_distance()), text(&WormPair::centre_distance, in_mm), "mm"},
       {"friction angle", "ρ′", number(w.friction_angle() / degree), text(&WormPair::friction_angle, 1 / degree), "°"},
       {"efficiency, worm drives", "η", number(w.efficiency()), text(&WormPair::efficiency), ""},
       {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()),

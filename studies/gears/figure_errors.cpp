@@ -12,16 +12,16 @@ namespace {
 
 // A number of such data, and by how much it is moved.
 template <class Data>
-struct Place {
+struct GivenNumber {
   std::function<double&(Data&)> number;
   double by;
 };
 
 // Each place down and up; what the solver refuses is no neighbour.
 template <class T, class Data>
-void add_moved(const Data& data, const std::vector<Place<Data>>& places, const std::function<T(const Data&)>& solve,
-               Moved<T>& list) {
-  for (const Place<Data>& place : places) {
+void add_moved(const Data& data, const std::vector<GivenNumber<Data>>& places,
+               const std::function<T(const Data&)>& solve, Moved<T>& list) {
+  for (const GivenNumber<Data>& place : places) {
     if (place.by == 0) continue;
     std::array<std::optional<T>, 2> both;
     for (const int side : {0, 1}) {
@@ -36,7 +36,7 @@ void add_moved(const Data& data, const std::vector<Place<Data>>& places, const s
   }
 }
 
-using PairPlaces = std::vector<Place<GearPairData>>;
+using PairPlaces = std::vector<GivenNumber<GearPairData>>;
 
 void add_given(const GearPairData& d, PairPlaces& places) {
   const auto add = [&](auto number) {

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "engine/numerics/angles.h"
 #include "studies/sheet/diagram.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double numbers_height = diagram_foot, title_height = diagram_head;
 
 class EnergyMassDrawer {
@@ -142,7 +141,7 @@ class EnergyMassDrawer {
     const bool beside = end.x + 26 < curve_.right();  // the line ends at the box's upper edge
     c_.symbols(beside ? Spot{end.x + 1.5, end.y + 2}
                       : Spot{curve_.right() - 1, std::max(end.y, top) + (pen == Pen::load ? -1.5 : 5)},
-               fmt::format("{} = {:.4g}°", name, std::atan(slope) * degrees),
+               fmt::format("{} = {:.4g}°", name, std::atan(slope) * in_degrees),
                {.size = 2.8, .at = beside ? "start" : "end", .pen = pen, .ground = true});
     if (!with_intercepts_) return;
     const Spot meets = {axis_x_, y(intercept(t))};
@@ -154,7 +153,7 @@ class EnergyMassDrawer {
   // I_em over φ, φ downwards, so that every point stands below its own on the curve.
   void draw_rolled() {
     const double height = rolled_.height - 8, step = round_degrees(sheet_.reduction.cycle, height);
-    const auto down = [&](double way) { return rolled_.y + 3 + way * degrees / step; };
+    const auto down = [&](double way) { return rolled_.y + 3 + way * in_degrees / step; };
     const double end = down(sheet_.reduction.cycle);
     c_.arrow({axis_x_, rolled_.y + 3}, {axis_x_, std::min(end + 5, rolled_.bottom())}, Pen::body);
     c_.arrow({axis_x_, rolled_.y + 3}, {rolled_.right(), rolled_.y + 3}, Pen::body);
@@ -193,9 +192,9 @@ class EnergyMassDrawer {
     text += fmt::format("ω_max, ω_min = ω_mid (1 ± δ/2) = {:.6g}, {:.6g} rad/s\n", mid * (1 + delta / 2),
                         mid * (1 - delta / 2));
     text += fmt::format("tan ψ_max = ½ ω_max² μ_I/μ_T = {:.5g}, ψ_max = {:.5g}°\n", std::tan(upper.psi),
-                        upper.psi * degrees);
+                        upper.psi * in_degrees);
     text += fmt::format("tan ψ_min = ½ ω_min² μ_I/μ_T = {:.5g}, ψ_min = {:.5g}°\n", std::tan(lower.psi),
-                        lower.psi * degrees);
+                        lower.psi * in_degrees);
     const double kl = upper.intercept - lower.intercept;
     text += fmt::format("on the axis I_em = 0{}: kl = {:.5g} mm\n",
                         with_intercepts_ ? "" : " (beyond the paper, by calculation)", kl);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/crank_motion.h"
 #include "studies/sheet/diagram.h"
@@ -17,8 +18,6 @@
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // --- both kinds in one form ---
 
@@ -67,7 +66,7 @@ void name_parts(ForcesSheet& sheet, const LinkageForces& f) {
 // --- positions ---
 
 std::vector<SheetPosition> positions_of(const PrescribedCycle& c, const SheetCycle& cycle) {
-  constexpr double step = 2 / degrees, visible = 2e-3;
+  constexpr double step = 2 / in_degrees, visible = 2e-3;
   constexpr int samples = 720;
   double largest = 0, least = HUGE_VAL, where = 0;
   const auto look = [&](double phi, double beyond) {
@@ -96,9 +95,9 @@ MechanismOnSheet drawn_mechanism(const Scene& scene, const std::string& name) {
 
 // --- sheets ---
 
-using Row = SheetRow<ForcesAt>;
+using ForcesRow = SheetRow<ForcesAt>;
 
-std::vector<Row> rows_of(const ForcesSheet& sheet) {
+std::vector<ForcesRow> rows_of(const ForcesSheet& sheet) {
   double largest = 0;
   for (const ForcesAt& at : sheet.curve) largest = std::max(largest, std::abs(at.load));
   return sheet_rows(sheet.motion.positions, sheet.looks, [largest](const ForcesAt& before, const ForcesAt& after) {
@@ -112,18 +111,18 @@ class TableOfForces {
  public:
   TableOfForces(const ForcesSheet& sheet, const std::string& title)
       : rows_(rows_of(sheet)), table_{.title = title, .labels = {}, .columns = {}} {
-    for (const Row& row : rows_) {
+    for (const ForcesRow& row : rows_) {
       table_.labels.push_back(row.label);
       table_.stressed.push_back(!row.position->numbered || row.position->greatest);
     }
     SheetColumn angle{"φ", "°", {}};
-    for (const Row& row : rows_) angle.values.push_back(row.position->phi * degrees);
+    for (const ForcesRow& row : rows_) angle.values.push_back(row.position->phi * in_degrees);
     table_.columns.push_back(std::move(angle));
   }
   // Values that are rounding dust beside `scale` are zeros.
   void add(const std::string& symbol, const std::string& unit, const Get& get, double scale = 0) {
     SheetColumn column{symbol, unit, {}};
-    for (const Row& row : rows_) {
+    for (const ForcesRow& row : rows_) {
       const double v = get(*row.values);
       column.values.push_back(std::abs(v) < 1e-12 * scale ? 0 : v);
     }
@@ -132,7 +131,7 @@ class TableOfForces {
   SheetTable& table() { return table_; }
 
  private:
-  std::vector<Row> rows_;
+  std::vector<ForcesRow> rows_;
   SheetTable table_;
 };
 
@@ -176,7 +175,7 @@ SheetTable reaction_table(const ForcesSheet& sheet) {
       t.add(joint.symbol, "N", magnitude, scale);
       t.add("α_" + joint.symbol.substr(2), "°", [k, scale](const ForcesAt& at) {
         const Force2 f = at.reactions[k].force;
-        return f.magnitude() <= 1e-12 * scale ? std::nan("") : f.direction() * degrees;
+        return f.magnitude() <= 1e-12 * scale ? std::nan("") : f.direction() * in_degrees;
       });
     }
     words += fmt::format("{} {}; ", joint.symbol, joint.words);

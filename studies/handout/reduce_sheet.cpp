@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/classical.h"
 #include "studies/handout/energy_mass_sheet.h"
@@ -17,8 +17,6 @@
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // --- positions ---
 
@@ -33,7 +31,7 @@ double torques_at(const MachineReduction& r, double phi) {
 
 // How much the torques jump or bend at an angle.
 double bend_at(const MachineReduction& r, double phi) {
-  constexpr double step = 2 / degrees;
+  constexpr double step = 2 / in_degrees;
   return std::abs(torques_at(r, phi + step) - 2 * torques_at(r, phi) + torques_at(r, phi - step));
 }
 
@@ -131,9 +129,9 @@ std::string speed_words(const MachineReduction& r) {
       r.basis == ReduceBasis::classical ? ", constant" : " on the mean, as it swings in the steady cycle");
 }
 
-using Row = SheetRow<ReducedPosition>;
+using ReducedRow = SheetRow<ReducedPosition>;
 
-std::vector<Row> rows_of(const ReduceSheet& sheet) {
+std::vector<ReducedRow> rows_of(const ReduceSheet& sheet) {
   const double jump = 1e-4 * largest_load(sheet.reduction);
   return sheet_rows(sheet.motion.positions, sheet.reduction.also,
                     [jump](const ReducedPosition& before, const ReducedPosition& after) {
@@ -143,23 +141,23 @@ std::vector<Row> rows_of(const ReduceSheet& sheet) {
 
 SheetTable torque_table(const ReduceSheet& sheet) {
   const MachineReduction& r = sheet.reduction;
-  const std::vector<Row> rows = rows_of(sheet);
+  const std::vector<ReducedRow> rows = rows_of(sheet);
   SheetTable t{.title = fmt::format("Reduced to {}: torques, inertia, works", r.link), .labels = {}, .columns = {}};
-  for (const Row& row : rows) {
+  for (const ReducedRow& row : rows) {
     t.labels.push_back(row.label);
     t.stressed.push_back(!row.position->numbered || row.position->greatest);
   }
   const auto add = [&](const std::string& symbol, const std::string& unit, const auto& get) {
     SheetColumn column{symbol, unit, {}};
-    for (const Row& row : rows) column.values.push_back(get(row));
+    for (const ReducedRow& row : rows) column.values.push_back(get(row));
     t.columns.push_back(std::move(column));
   };
-  add("φ", "°", [](const Row& row) { return row.position->phi * degrees; });
-  add("M_d", "N·m", [](const Row& row) { return row.values->drive; });
-  add("M_c", "N·m", [](const Row& row) { return row.values->load; });
-  add("I_em", "kg·m²", [](const Row& row) { return row.values->mechanism_inertia; });
-  add("I_r", "kg·m²", [](const Row& row) { return row.values->inertia; });
-  add("I_r′", "kg·m²/rad", [](const Row& row) { return row.values->slope; });
+  add("φ", "°", [](const ReducedRow& row) { return row.position->phi * in_degrees; });
+  add("M_d", "N·m", [](const ReducedRow& row) { return row.values->drive; });
+  add("M_c", "N·m", [](const ReducedRow& row) { return row.values->load; });
+  add("I_em", "kg·m²", [](const ReducedRow& row) { return row.values->mechanism_inertia; });
+  add("I_r", "kg·m²", [](const ReducedRow& row) { return row.values->inertia; });
+  add("I_r′", "kg·m²/rad", [](const ReducedRow& row) { return row.values->slope; });
   t.note = fmt::format(
       "M_d, M_c: driving and resisting torque reduced to {}, at {}; I_em: reduced inertia of the mechanisms, I_r: of "
       "the "
@@ -168,7 +166,7 @@ SheetTable torque_table(const ReduceSheet& sheet) {
   if (sheet.works) {
     const WorkDiagram& d = sheet.works->sizing.diagram;
     const auto work = [&](const std::string& symbol, const Piecewise& f) {
-      add(symbol, "J", [&](const Row& row) { return sheet.from_origin(f, row.position->way); });
+      add(symbol, "J", [&](const ReducedRow& row) { return sheet.from_origin(f, row.position->way); });
     };
     work("A_d", d.drive_work), work("A_c", d.load_work), work("ΔT", d.excess);
     t.note += fmt::format(

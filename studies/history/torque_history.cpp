@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t lines_told = 6;
 
 // Twenty samples a period of the highest frequency [rad/s], within reason.

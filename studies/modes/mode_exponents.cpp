@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/periodic/floquet.h"
 #include "studies/modes/mode_list.h"
@@ -12,7 +12,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr std::size_t most_states_of_exponents = 60;
 constexpr double told_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
 constexpr double near_enough = 0.5;    // of |λ|: how far an exponent may be from its mode of the mean
@@ -69,7 +68,7 @@ class Exponents {
   PeriodicSwing as_near_as_can_be(std::size_t i, const Mode& mode) const {
     PeriodicSwing swing{of(i).exponent, of(i).error, of(i).branch_by_mean};
     if (!contacts_change_ && !swing.branch_by_mean) return swing;
-    const double turn = two_pi / spectrum_.time;
+    const double turn = 2 * pi / spectrum_.time;
     const double turns = std::round((mode.lambda.imag() - swing.exponent.imag()) / turn);
     swing.branch_by_mean = swing.branch_by_mean || turns != 0;
     swing.exponent += std::complex<double>(0, turns * turn);
@@ -125,8 +124,8 @@ class Exponents {
       found_.notes.push_back(
           fmt::format("mode {} is locked to the round by what changes within it: it swings at {:.6g} Hz and {:.6g} Hz, "
                       "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
-                      mode.number, one.exponent.imag() / two_pi, two.exponent.imag() / two_pi, one.ratio(), two.ratio(),
-                      mode.lambda.imag() / two_pi, mode.ratio));
+                      mode.number, one.exponent.imag() / (2 * pi), two.exponent.imag() / (2 * pi), one.ratio(),
+                      two.ratio(), mode.lambda.imag() / (2 * pi), mode.ratio));
     }
   }
 
@@ -139,7 +138,7 @@ class Exponents {
       if (!(mode.lambda.imag() > 0) || !mode.periodic.empty()) continue;
       mode.only_of_mean = !may_have_one_left(mode);
       const std::string which =
-          fmt::format("mode {} ({:.6g} Hz by the mean)", mode.number, mode.lambda.imag() / two_pi);
+          fmt::format("mode {} ({:.6g} Hz by the mean)", mode.number, mode.lambda.imag() / (2 * pi));
       found_.notes.push_back(
           !mode.only_of_mean ? "no exponent of the periodic system lies near " + which +
                                    ": its figures are those of the mean alone, with an error that is not known"
@@ -164,11 +163,12 @@ class Exponents {
       if (mode.periodic.empty() || mode.greatest - mode.least < varies_much * mode.omega) continue;
       mode.fades_within_round = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
       if (mode.fades_within_round)
-        found_.notes.push_back(fmt::format(
-            "mode {} has faded long before a round is over: a swing that is started at one angle has the "
-            "frequency of the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the "
-            "mean over the round",
-            mode.number, mode.least / two_pi, mode.greatest / two_pi, mode.periodic.front().exponent.imag() / two_pi));
+        found_.notes.push_back(
+            fmt::format("mode {} has faded long before a round is over: a swing that is started at one angle has the "
+                        "frequency of the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the "
+                        "mean over the round",
+                        mode.number, mode.least / (2 * pi), mode.greatest / (2 * pi),
+                        mode.periodic.front().exponent.imag() / (2 * pi)));
     }
   }
 
@@ -185,7 +185,7 @@ class Exponents {
     found_.notes.push_back(fmt::format(
         "coefficients change within the round: by the exponents of the periodic system mode {} swings at {:.6g} Hz "
         "with ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
-        of->number, swing.exponent.imag() / two_pi, swing.ratio(), of->lambda.imag() / two_pi, of->ratio));
+        of->number, swing.exponent.imag() / (2 * pi), swing.ratio(), of->lambda.imag() / (2 * pi), of->ratio));
   }
 
   const FloquetSpectrum& spectrum_;

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "engine/model/cycle_of.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int frozen_angles = 24;
 constexpr double hardly_moves = 0.999;    // share of a mode in own states
 constexpr Eigen::Index most_frozen = 60;  // coordinates

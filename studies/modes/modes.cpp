@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/linear/rest_place.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -22,7 +22,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
 constexpr std::size_t cycle_samples = 4096;   // of a round of the steady motion

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/scene/units.h"
@@ -19,8 +19,6 @@
 
 namespace kurbel {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 constexpr double looser_sampling = 1e-9;
 

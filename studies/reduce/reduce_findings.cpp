@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/output.h"
 #include "studies/reduce/reduce.h"
@@ -14,7 +14,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 std::string number(double value, int digits = 6) { return read_as(value, {.digits = digits}); }
 
 std::string conclusion_of(const MachineReduction& r) {
@@ -71,7 +70,7 @@ Rows positions_table(const MachineReduction& r) {
   const std::string title = fmt::format("Reduced to {} at {} positions", r.to, r.positions.size());
   auto table = table_of("", title, r.positions).headed(title).always();
   table.only_for_people("position", &ReducedPosition::number)
-      .only_for_people("φ [°]", &ReducedPosition::phi, {.factor = degrees});
+      .only_for_people("φ [°]", &ReducedPosition::phi, {.factor = in_degrees});
   for (const Quantity& q : quantities_of(r))
     table.only_for_people(q.heading, [&](const ReducedPosition& p) {
       return p.singular.empty() ? read_as(q.value(p)) : std::string("—");
@@ -99,7 +98,7 @@ Rows chain_table(const MachineReduction& r) {
 
 // −180° < phase ≤ 180°, to a millionth of a degree.
 std::string phase_text(double phase) {
-  const double rounded_phase = std::round(phase * degrees * 1e6) / 1e6;
+  const double rounded_phase = std::round(phase * in_degrees * 1e6) / 1e6;
   return number(rounded_phase <= -180 ? rounded_phase + 360 : rounded_phase, 5);
 }
 
@@ -182,7 +181,7 @@ std::string positions_csv(const MachineReduction& r) {
   auto csv = csv_of(regular)
                  .column("position", &ReducedPosition::number)
                  .column(
-                     "φ [°]", [](const ReducedPosition& p) { return p.phi * degrees + 0.0; }, 15);
+                     "φ [°]", [](const ReducedPosition& p) { return p.phi * in_degrees + 0.0; }, 15);
   for (const Quantity& q : quantities_of(r))
     csv.column(
         q.heading, [value = q.value](const ReducedPosition& p) { return value(p) + 0.0; }, 15);
@@ -214,7 +213,7 @@ std::vector<FormulaCard> formulas_of(const MachineReduction& r) {
   for (const ReducedPosition& one : r.positions)
     if (one.singular.empty() && (!p || std::abs(one.load) > std::abs(p->load))) p = &one;
   if (!p) return list;
-  const std::string where = fmt::format("At φ = {:.5g}°.", p->phi * degrees);
+  const std::string where = fmt::format("At φ = {:.5g}°.", p->phi * in_degrees);
   if (r.to_output) {
     const ReducedNames n = names_of(r);
     const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit), x = r.to_rocker ? "" : " m";

@@ -6,23 +6,22 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/plots.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-double angle_of(const ReducedPosition& p) { return p.phi * degrees; }
+double angle_of(const ReducedPosition& p) { return p.phi * in_degrees; }
 
-using Quantity = std::function<double(const ReducedPosition&)>;
+using PlottedQuantity = std::function<double(const ReducedPosition&)>;
 
-Series over_angle(const MachineReduction& r, const std::string& name, Role role, const Quantity& value) {
+Series over_angle(const MachineReduction& r, const std::string& name, Role role, const PlottedQuantity& value) {
   return series_of(name, role, r.curve, angle_of, value);
 }
-Series at_positions(const MachineReduction& r, Role role, const Quantity& value) {
+Series at_positions(const MachineReduction& r, Role role, const PlottedQuantity& value) {
   std::vector<ReducedPosition> regular = r.positions;
   std::erase_if(regular, [](const ReducedPosition& p) { return !p.singular.empty(); });
   return marks(series_of(fmt::format("{} positions", r.positions.size()), role, regular, angle_of, value));

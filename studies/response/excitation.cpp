@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <unsupported/Eigen/FFT>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/rigid/rigid_machine.h"
@@ -16,7 +16,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t many_shafts = 500, time_samples = 2048, most_samples = 65536;
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
@@ -129,9 +128,9 @@ const OrderSource* find(const Orders& orders, const OrderSource& like) {
   return nullptr;
 }
 
-class Search {
+class SourceSearch {
  public:
-  Search(const LinearDrive& drive, double fastest, double highest_order, bool further)
+  SourceSearch(const LinearDrive& drive, double fastest, double highest_order, bool further)
       : drive_(drive), m_(*drive.model), fastest_(fastest), highest_order_(highest_order), further_(further) {}
 
   Excitations find_all() {
@@ -352,7 +351,7 @@ double Excitations::strength(std::size_t harmonic, double w) const {
 }
 
 Excitations find_excitations(const LinearDrive& drive, double fastest, double highest_order, bool further) {
-  return Search(drive, fastest, highest_order, further).find_all();
+  return SourceSearch(drive, fastest, highest_order, further).find_all();
 }
 
 std::shared_ptr<const Eigen::VectorXd> mean_missed(const LinearDrive& drive, const Excitations& excitations,

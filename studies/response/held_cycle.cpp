@@ -150,9 +150,10 @@ class LinearMotion {
   VectorXd q_, rate_, own_, twist_;
 };
 
-class Search {
+class CycleSearch {
  public:
-  Search(const HeldMachine& machine, const LinearDrive& drive, const Excitations& x, const HeldCycleOptions& options)
+  CycleSearch(const HeldMachine& machine, const LinearDrive& drive, const Excitations& x,
+              const HeldCycleOptions& options)
       : machine_(machine), drive_(drive), x_(x), options_(options), base_(drive.model, drive.at), m_(base_.model()) {}
 
   HeldCycle run() {
@@ -413,7 +414,7 @@ class Search {
 
 HeldCycle find_held_cycle(const HeldMachine& machine, const LinearDrive& drive, const Excitations& excitations,
                           const HeldCycleOptions& options) {
-  return Search(machine, drive, excitations, options).run();
+  return CycleSearch(machine, drive, excitations, options).run();
 }
 
 }  // namespace kurbel

@@ -5,19 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "engine/numerics/angles.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 constexpr double title_height = diagram_head, numbers_height = diagram_foot;
 
-struct Range {
+struct ValueRange {
   double least = 0, greatest = 0;  // with 0
 };
-Range range_of(const SheetDiagram& d) {
-  Range r;
+ValueRange range_of(const SheetDiagram& d) {
+  ValueRange r;
   for (const SheetCurve& c : d.curves)
     for (const double v : c.value) r.least = std::min(r.least, v), r.greatest = std::max(r.greatest, v);
   return r;
@@ -51,9 +51,9 @@ void name_curves(Canvas& c, const Box& box, const SheetDiagram& d, const AngleAx
 
 }  // namespace
 
-double AngleAxis::x(double way) const { return left + way * degrees / degrees_per_mm; }
+double AngleAxis::x(double way) const { return left + way * in_degrees / degrees_per_mm; }
 std::string AngleAxis::words() const {
-  return fmt::format("μ_φ = {:.4g} rad/mm ({:g}°/mm)", degrees_per_mm / degrees, degrees_per_mm);
+  return fmt::format("μ_φ = {:.4g} rad/mm ({:g}°/mm)", degrees_per_mm / in_degrees, degrees_per_mm);
 }
 
 AngleAxis angle_axis(double cycle, double left, double width) { return {left, cycle, round_degrees(cycle, width)}; }
@@ -74,7 +74,7 @@ void draw_ordinates(Canvas& c, const Box& box, const AngleAxis& axis, const std:
 
 Placed draw_diagram(Canvas& c, const Box& box, const AngleAxis& axis, const SheetDiagram& d,
                     const std::vector<SheetPosition>& positions) {
-  const Range range = range_of(d);
+  const ValueRange range = range_of(d);
   const double room = box.height - title_height - numbers_height - 4;
   Placed placed;
   placed.scale = scale_for(d.scale, d.unit, range.greatest - range.least, room);

@@ -7,14 +7,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
+
+#include "engine/numerics/angles.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int path_points = 240;  // of a turn
-constexpr double space_for_labels = 12, letters = 2.7;
+constexpr double space_for_labels = 12, label_size = 2.7;
 
 using Joints = std::vector<PlanePoint>;
 
@@ -102,7 +102,8 @@ class LinkageDrawer {
     }
     for (const auto& [name, spots] : centres) {
       c_.curve(spots, Pen::path);
-      c_.symbols({spots.front().x + 1, spots.front().y - 1}, name, {.size = letters, .pen = Pen::path, .ground = true});
+      c_.symbols({spots.front().x + 1, spots.front().y - 1}, name,
+                 {.size = label_size, .pen = Pen::path, .ground = true});
     }
   }
 
@@ -190,7 +191,7 @@ class LinkageDrawer {
       const Spot here = spot(at_[k][joint]);
       const bool close = !groups.empty() && groups.back().back() + 1 == k && [&] {
         const Spot first = spot(at_[groups.back().front()][joint]);
-        return std::hypot(first.x - here.x, first.y - here.y) < letters;
+        return std::hypot(first.x - here.x, first.y - here.y) < label_size;
       }();
       if (!close) groups.emplace_back();
       groups.back().push_back(k);
@@ -216,13 +217,16 @@ class LinkageDrawer {
       const double far = distance + (numbered ? 0 : 1) + 2.6 * i;
       place = {at.x + far * unit * away.x, at.y + far * unit * away.y};
       if (std::none_of(taken_.begin(), taken_.end(),
-                       [&](const Spot& t) { return std::hypot(t.x - place.x, t.y - place.y) < letters; }))
+                       [&](const Spot& t) { return std::hypot(t.x - place.x, t.y - place.y) < label_size; }))
         break;
     }
     taken_.push_back(place);
-    c_.words(
-        {place.x, place.y + 0.35 * letters}, label,
-        {.size = letters, .at = "middle", .bold = !numbered, .pen = numbered ? Pen::body : Pen::load, .ground = true});
+    c_.words({place.x, place.y + 0.35 * label_size}, label,
+             {.size = label_size,
+              .at = "middle",
+              .bold = !numbered,
+              .pen = numbered ? Pen::body : Pen::load,
+              .ground = true});
   }
 
   // Beside a slider, where no number stands.

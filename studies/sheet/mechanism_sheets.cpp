@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/linkage_drawing.h"
 #include "studies/sheet/table.h"
@@ -14,7 +15,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 using Motions = std::vector<MechanismMotion>;
 using Get = std::function<double(const MechanismMotion&)>;
 
@@ -81,7 +81,7 @@ SheetTable kinematic_table(const MechanismOnSheet& m, const SheetMotion& motion,
   };
   const double turn = 2 * std::numbers::pi * std::round(m.mechanism.cycle() / (2 * std::numbers::pi));
   const double first = at.front().output;
-  add("φ", "°", [turn](const auto& k) { return degrees * (k.crank - turn * std::floor(k.crank / turn + 1e-12)); });
+  add("φ", "°", [turn](const auto& k) { return in_degrees * (k.crank - turn * std::floor(k.crank / turn + 1e-12)); });
   add(x, unit, [](const auto& k) { return k.output; });
   add("s", unit,
       [&](const auto& k) { return rocks ? std::remainder(k.output - first, 2 * std::numbers::pi) : k.output - first; });

@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_height = 4.9, greatest_height = 6.8, head_height = 12, letters = 2.9;
+constexpr double least_height = 4.9, greatest_height = 6.8, head_height = 12, letter_size = 2.9;
 
 std::string power_of_ten(int exponent) {
   if (exponent == 0) return "";
@@ -22,7 +22,7 @@ std::string power_of_ten(int exponent) {
 struct Layout {
   std::vector<ColumnTexts> texts;
   std::vector<double> left;  // of each column, and the right end
-  double size = letters, row = least_height;
+  double size = letter_size, row = least_height;
 };
 
 // Columns as wide as their widest cell; a table that is too wide is written smaller.
@@ -31,14 +31,15 @@ Layout laid_out(const SheetTable& t, const Box& room) {
   std::vector<double> widths = {12};
   for (const SheetColumn& c : t.columns) {
     l.texts.push_back(texts_of(c));
-    double width = std::max(width_of(c.symbol, letters), width_of(power_of_ten(l.texts.back().exponent) + c.unit, 2.5));
-    for (const std::string& cell : l.texts.back().cells) width = std::max(width, width_of(cell, letters));
+    double width =
+        std::max(width_of(c.symbol, letter_size), width_of(power_of_ten(l.texts.back().exponent) + c.unit, 2.5));
+    for (const std::string& cell : l.texts.back().cells) width = std::max(width, width_of(cell, letter_size));
     widths.push_back(width + 3.4);
   }
   double sum = 0;
   for (const double w : widths) sum += w;
   const double factor = std::min(room.width / sum, 1.25);
-  l.size = letters * std::min(1.0, factor);
+  l.size = letter_size * std::min(1.0, factor);
   l.left = {room.x};
   for (const double w : widths) l.left.push_back(l.left.back() + w * factor);
   return l;
@@ -50,7 +51,7 @@ void draw_head(Canvas& c, const SheetTable& t, const Layout& l, double top) {
   for (std::size_t k = 0; k < t.columns.size(); ++k) {
     c.symbols({middle(k + 1), top + 5}, t.columns[k].symbol, {.size = l.size, .at = "middle", .bold = true});
     c.words({middle(k + 1), top + 10}, power_of_ten(l.texts[k].exponent) + t.columns[k].unit,
-            {.size = 2.5 * l.size / letters, .at = "middle"});
+            {.size = 2.5 * l.size / letter_size, .at = "middle"});
   }
 }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/units.h"
 #include "studies/size/flywheel.h"
@@ -13,7 +13,6 @@
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double hub_share = 0.2;        // hub's over outer diameter
 constexpr double breadth_share = 2.0;    // b/h of the rim
 constexpr double rim_proportion = 0.06;  // h/D where no diameter is given

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
@@ -14,9 +14,6 @@
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr int curve_points = 720;
 
 const SizeMethod& exact_method(const Sizing& s) { return s.methods.front(); }
 
@@ -177,7 +174,7 @@ Rows positions_table(const Sizing& s) {
   return table_of("", "The cycle at 12 positions", numbers_below(phi.size()))
       .not_on_terminal()
       .only_for_people("position", [](std::size_t k) { return k; })
-      .only_for_people("φ [°]", [&](std::size_t k) { return degrees * phi[k]; })
+      .only_for_people("φ [°]", [&](std::size_t k) { return in_degrees * phi[k]; })
       .only_for_people("M_d [N·m]", clean(s.diagram.drive_torque, largest))
       .only_for_people("M_c [N·m]", clean(s.diagram.load_torque, largest))
       .only_for_people("A_d [J]", clean(s.diagram.drive_work, energy))
@@ -214,7 +211,7 @@ Sentences basis_words(const Sizing& s) {
                                 s.speed_unit.text(s.mid_speed), s.link, s.mid_speed_source),
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
-                                s.diagram.least.x * degrees, s.diagram.most.x * degrees),
+                                s.diagram.least.x * in_degrees, s.diagram.most.x * in_degrees),
                     s.basis == SizeBasis::classical
                         ? std::string("classical: constant drive torque; loads of the rigid machine at constant speed")
                         : std::string("loads along the steady cycle that the machine has with the scene's effects, and "

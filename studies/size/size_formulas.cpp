@@ -2,18 +2,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/size/size_plots.h"
 
 namespace kurbel {
-namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-}  // namespace
-
 std::string basis_of(const Sizing& s) {
   if (s.basis == SizeBasis::regime)
     return s.engine ? "at the torques of its steady cycle"
@@ -33,7 +27,7 @@ std::vector<FormulaCard> cycle_formulas(const Sizing& s) {
       .title = "Greatest fluctuation of energy (theory 3.4)",
       .symbols = "ΔA_max = max ΔT − min ΔT",
       .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
-      .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * degrees, d.least.x * degrees)});
+      .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * in_degrees, d.least.x * in_degrees)});
   const double fastest = s.mid_speed * (1 + s.delta / 2), slowest = s.mid_speed * (1 - s.delta / 2);
   list.push_back(FormulaCard{.title = "Limits of the speed (theory 2.6)",
                              .symbols = "ω_max, ω_min = ω_mid (1 ± δ/2)",

@@ -5,17 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/plots.h"
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr int curve_points = 720;
 
 // Both sides of every jump are points.
 std::vector<double> angles_of(const Piecewise& f) {
@@ -31,7 +28,7 @@ std::vector<double> angles_of(const Piecewise& f) {
 
 Series curve(const std::string& name, Role role, const Piecewise& f, double factor = 1) {
   return series_of(
-      name, role, angles_of(f), [](double phi) { return phi * degrees; },
+      name, role, angles_of(f), [](double phi) { return phi * in_degrees; },
       [&](double phi) { return f.value(phi) * factor; });
 }
 
@@ -68,14 +65,14 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
                    .y = {"A", energy.unit},
                    .series = {curve("A_c", Role::orange, d.load_work, energy.factor),
                               curve("A_d", Role::green, d.drive_work, energy.factor)}});
-  Plot change{
-      .title = "Change of kinetic energy ΔT = A_d − A_c",
-      .x = angle,
-      .y = {"ΔT", excess.unit},
-      .series = {curve("ΔT", Role::elastic, d.excess, excess.factor),
-                 marks_at("extremes, where M_d = M_c", Role::vermillion, {d.most.x * degrees, d.least.x * degrees},
-                          {d.most.value * excess.factor, d.least.value * excess.factor})},
-      .note = fmt::format("Greatest fluctuation {}.", with_unit(d.fluctuation(), "J"))};
+  Plot change{.title = "Change of kinetic energy ΔT = A_d − A_c",
+              .x = angle,
+              .y = {"ΔT", excess.unit},
+              .series = {curve("ΔT", Role::elastic, d.excess, excess.factor),
+                         marks_at("extremes, where M_d = M_c", Role::vermillion,
+                                  {d.most.x * in_degrees, d.least.x * in_degrees},
+                                  {d.most.value * excess.factor, d.least.value * excess.factor})},
+              .note = fmt::format("Greatest fluctuation {}.", with_unit(d.fluctuation(), "J"))};
   plots.push_back(std::move(change));
   plots.push_back({.title = "Reduced inertia of the executive mechanism",
                    .x = angle,
@@ -107,8 +104,8 @@ std::vector<Plot> energy_mass_plots(const Sizing& s) {
   };
   std::vector<Plot> plots;
   plots.push_back(plot("Energy–mass curve with the tangents of Wittenbauer", least - 0.2 * span, most + 0.2 * span,
-                       fmt::format("Touching at φ = {:.6g}° (fastest) and {:.6g}° (slowest).", upper.phi * degrees,
-                                   lower.phi * degrees)));
+                       fmt::format("Touching at φ = {:.6g}° (fastest) and {:.6g}° (slowest).", upper.phi * in_degrees,
+                                   lower.phi * in_degrees)));
   if (least > 0) {
     plots.push_back(plot("The same to the axis I_em = 0: the intercepts give the inertia", 0, most + 0.05 * most,
                          fmt::format("Intercepts {} and {}; their difference over ½ (ω_max² − ω_min²) is I₀.",
@@ -132,7 +129,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
       const SpeedCycle cycle(s.diagram, s.cycle.mechanism, inertia, s.mid_speed);
       Series series{.name = name, .role = role, .x = {}, .y = {}, .dashed = dashed};
       for (const double phi : angles_of(s.diagram.excess)) {
-        series.x.push_back(phi * degrees);
+        series.x.push_back(phi * in_degrees);
         series.y.push_back(s.speed_unit.of(cycle.speed(phi)));
       }
       p.series.push_back(std::move(series));
@@ -148,7 +145,7 @@ std::optional<Plot> speed_plot(const Sizing& s) {
                   .x = {},
                   .y = {}};
     for (std::size_t k = 0; k < r.phi.size(); ++k) {
-      series.x.push_back(r.phi[k] * degrees);
+      series.x.push_back(r.phi[k] * in_degrees);
       series.y.push_back(s.speed_unit.of(r.speed[k]));
     }
     p.series.push_back(std::move(series));

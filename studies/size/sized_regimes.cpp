@@ -19,8 +19,6 @@ namespace {
 constexpr int most_regimes = 8;
 constexpr double met = 1e-5;          // of the demanded δ
 constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
-constexpr int curve_points = 720;
-
 const Kind& flywheel_kind() {
   for (const Kind& kind : all_kinds())
     if (kind.name == "flywheel") return kind;

@@ -13,6 +13,8 @@
 
 namespace kurbel {
 
+inline constexpr int curve_points = 720;  // of a round, drawn
+
 // The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 

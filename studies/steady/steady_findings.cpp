@@ -1,5 +1,6 @@
 // steady_findings.cpp — words, tables and plots of steady cycles.
 #include "studies/steady/steady_findings.h"
+#include "engine/numerics/angles.h"
 #include "studies/run/compare.h"
 
 #include <fmt/format.h>
@@ -20,8 +21,6 @@
 
 namespace kurbel {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 SpeedUnit speed_unit_of(const SteadyStudy& s) {
   return s.cycles.empty() || !s.cycles.front().model ? SpeedUnit{} : s.cycles.front().model->scene.speed_unit;
@@ -211,13 +210,13 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
         if (t.name == channel) {
           if (plot.series.empty()) si_unit = t.unit;
           plot.series.push_back({.name = c.label, .role = role_of(c), .x = t.x, .y = t.y});
-          for (double& x : plot.series.back().x) x *= degrees;
+          for (double& x : plot.series.back().x) x *= in_degrees;
         }
   if (const CycleTraces* last = whole_cycle(s.cycles.back()))
     for (const Trace& t : last->traces)
       if (t.name == measured_trace(channel)) {
         plot.series.push_back(marks({.name = "measured", .role = Role::reference, .x = t.x, .y = t.y}));
-        for (double& x : plot.series.back().x) x *= degrees;
+        for (double& x : plot.series.back().x) x *= in_degrees;
       }
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));

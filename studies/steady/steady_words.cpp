@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 
@@ -13,7 +13,6 @@ namespace kurbel {
 namespace {
 
 std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
-constexpr double degrees = 180 / std::numbers::pi;
 
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
@@ -33,7 +32,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
       "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' "
       "worth "
       "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
-      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * degrees,
+      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * in_degrees,
       c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
       c.point.rounds, c.point.derivatives, c.cost, c.cost_limit,
       c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; the run-up takes most" : "", 1e3 * c.cpu_seconds,

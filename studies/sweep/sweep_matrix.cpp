@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t most_dots = 2400, most_parameters = 4, most_figures = 3;  // dots: in all tiles together
+constexpr std::size_t most_dots = 2400, most_rows = 4, most_columns = 3;  // dots: in all tiles together
 
 std::string after_number(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 
@@ -47,7 +47,7 @@ std::vector<Variable> variables_of(const SweepStudyResult& s) {
   const std::vector<std::size_t> figures = figures_drawn(s);
   std::vector<std::size_t> parameters;
   if (!figures.empty()) parameters = parameters_for(s, figures.front());
-  for (std::size_t k = 0; k < parameters.size() && k < most_parameters; ++k) {
+  for (std::size_t k = 0; k < parameters.size() && k < most_rows; ++k) {
     const SweptParameter& p = s.identity.parameters[parameters[k]];
     list.push_back({.name = p.path,
                     .unit = after_number(pretty_unit(p.unit)),
@@ -55,7 +55,7 @@ std::vector<Variable> variables_of(const SweepStudyResult& s) {
                     .words = p.words});
     find_ends(list.back(), s.rows);
   }
-  for (std::size_t k = 0; k < figures.size() && k < most_figures; ++k) {
+  for (std::size_t k = 0; k < figures.size() && k < most_columns; ++k) {
     const SweptFigure& f = s.identity.figures[figures[k]];
     list.push_back(
         {.name = f.name, .unit = "", .value = [at = figures[k]](const SweepRow& r) { return value_in(r, at); }});

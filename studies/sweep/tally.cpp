@@ -59,9 +59,10 @@ void end(LimitCount& c, const SweepIdentity& identity) {
 }
 
 // The few worst rows of a figure: by its limit; without one the greatest.
-class Worst {
+class WorstRows {
  public:
-  Worst(std::size_t figure, const SweepIdentity& identity, const std::vector<FigureLimit>& limits) : figure_(figure) {
+  WorstRows(std::size_t figure, const SweepIdentity& identity, const std::vector<FigureLimit>& limits)
+      : figure_(figure) {
     const auto limit =
         std::find_if(limits.begin(), limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
     few_ = !limits.empty() && limit == limits.end() ? 0 : identity.figures.size() > 4 ? 1 : 3;
@@ -100,7 +101,7 @@ bool is_shifted_sobol(const SweepIdentity& identity) {
 SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& limits) {
   const SweepIdentity& identity = store.identity();
   SweepTally t;
-  std::vector<Worst> worst;
+  std::vector<WorstRows> worst;
   std::map<std::string, Failures> by_reason;
   for (std::size_t k = 0; k < identity.figures.size(); ++k)
     t.spreads.push_back({.figure = identity.figures[k]}), worst.emplace_back(k, identity, limits);
@@ -119,7 +120,7 @@ SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& lim
   for (auto& [reason, f] : by_reason) t.failures.push_back(std::move(f));
   std::stable_sort(t.failures.begin(), t.failures.end(),
                    [](const Failures& a, const Failures& b) { return a.count > b.count; });
-  for (Worst& w : worst) t.worst.push_back(std::move(w.rows()));
+  for (WorstRows& w : worst) t.worst.push_back(std::move(w.rows()));
   return t;
 }
 
