@@ -75,28 +75,29 @@ Plot efficiency_plot(const WormPair& pair) {
 Findings findings_of(const BevelPair& b) {
   check(b);
   const BevelErrors e(b);
-  const Lines rows = {{"of the wheels", "symbol", "1", "2", "±", "unit"},
-                      {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), "0", ""},
-                      {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree),
-                       error_text(largest_error(e.cone_angle) / degree), "°"},
-                      {"reference diameter, outer end", "d_e", number(in_mm * b.reference_diameter(0)),
-                       number(in_mm * b.reference_diameter(1)), error_text(in_mm * e.reference_diameter), "mm"},
-                      {"cone distance, outer end", "R_e", number(in_mm * b.cone_distance()),
-                       number(in_mm * b.cone_distance()), error_text(in_mm * e.cone_distance), "mm"},
-                      {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)),
-                       error_text(largest_error(e.virtual_teeth)), ""}};
+  const Lines rows = {
+      {"of the wheels", "symbol", "1", "2", "±", "unit"},
+      {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), "0", ""},
+      {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree),
+       error_text(largest_error(e.cone_angle) / degree), "°"},
+      {"reference diameter, outer end", "d_e", number(in_millimetres * b.reference_diameter(0)),
+       number(in_millimetres * b.reference_diameter(1)), error_text(in_millimetres * e.reference_diameter), "mm"},
+      {"cone distance, outer end", "R_e", number(in_millimetres * b.cone_distance()),
+       number(in_millimetres * b.cone_distance()), error_text(in_millimetres * e.cone_distance), "mm"},
+      {"virtual spur teeth (Tredgold)", "z_v", number(b.virtual_teeth(0)), number(b.virtual_teeth(1)),
+       error_text(largest_error(e.virtual_teeth)), ""}};
   const FormulaCard cones{
       .title = "Pitch cones (theory 6.14)",
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
                              b.ratio(), std::cos(b.shaft_angle), b.cone_angle(0) / degree, b.cone_angle(1) / degree)};
-  Findings f =
-      made("Bevel pair",
-           fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
-                       "those of spur wheels with {:.1f} and {:.1f} teeth.",
-                       b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree,
-                       b.cone_angle(1) / degree, in_mm * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
-           rows, cones);
+  Findings f = made(
+      "Bevel pair",
+      fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
+                  "those of spur wheels with {:.1f} and {:.1f} teeth.",
+                  b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree, b.cone_angle(1) / degree,
+                  in_millimetres * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
+      rows, cones);
   f.tell("ratio", b.ratio());
   f.tell("ratio_error", units_of_rounding * b.ratio());
   f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
@@ -119,7 +120,8 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
       {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), "0", ""},
       {"ratio", "u", number(w.ratio()), text(&WormPair::ratio), ""},
       {"lead angle", "γ", number(w.lead_angle() / degree), text(&WormPair::lead_angle, 1 / degree), "°"},
-      {"centre distance", "a", number(in_mm * w.centre_distance()), text(&WormPair::centre_distance, in_mm), "mm"},
+      {"centre distance", "a", number(in_millimetres * w.centre_distance()),
+       text(&WormPair::centre_distance, in_millimetres), "mm"},
       {"friction angle", "ρ′", number(w.friction_angle() / degree), text(&WormPair::friction_angle, 1 / degree), "°"},
       {"efficiency, worm drives", "η", number(w.efficiency()), text(&WormPair::efficiency), ""},
       {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()),

@@ -27,7 +27,7 @@
 
 namespace kurbel {
 
-inline constexpr double in_mm = 1e3;  // a length [m] times this is in mm
+inline constexpr double in_millimetres = 1e3;  // a length [m] times this is in mm
 inline constexpr double part_moved = 0x1p-30;
 inline constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
 

@@ -12,7 +12,7 @@
 namespace kurbel {
 namespace {
 
-std::string length(double v) { return std::isfinite(v) ? fmt::format("{:.4f}", in_mm * v) : "—"; }
+std::string length(double v) { return std::isfinite(v) ? fmt::format("{:.4f}", in_millimetres * v) : "—"; }
 std::string angle(double v) { return fmt::format("{:.4f}", v / degree); }
 
 const char* word_of(Finding finding) {
@@ -35,9 +35,10 @@ std::string shape_of(const GearPair& p) {
 
 std::string summary_of(const GearStage& s) {
   const GearPair& p = s.pair;
-  std::string text = fmt::format("{}: {} {}/{}, m_n = {:g} mm, a_w = {:.4f} mm, α_wt = {:.3f}°, ε_α = {:.3f}", s.name,
-                                 shape_of(p), p.data.teeth[0], p.data.teeth[1], in_mm * p.data.module,
-                                 in_mm * std::abs(p.centre_distance), p.working_angle / degree, p.contact_ratio);
+  std::string text =
+      fmt::format("{}: {} {}/{}, m_n = {:g} mm, a_w = {:.4f} mm, α_wt = {:.3f}°, ε_α = {:.3f}", s.name, shape_of(p),
+                  p.data.teeth[0], p.data.teeth[1], in_millimetres * p.data.module,
+                  in_millimetres * std::abs(p.centre_distance), p.working_angle / degree, p.contact_ratio);
   if (p.overlap_ratio > 0) text += fmt::format(", ε_β = {:.3f}", p.overlap_ratio);
   const Finding worst = worst_of(s);
   if (worst < Finding::warning) return text + ": sound";
@@ -200,7 +201,7 @@ Rows path_table(const GearStage& s) {
       .only_for_people(
           "ρ₂ [mm]", [](P p) { return p.curvature[1]; }, length)
       .only_for_people(
-          "± [mm]", [](P p) { return p.length_error; }, [](double e) { return error_text(in_mm * e); })
+          "± [mm]", [](P p) { return p.length_error; }, [](double e) { return error_text(in_millimetres * e); })
       .only_for_people(s.speed ? "v_g [m/s]" : "v_g/ω₁ [mm]",
                        [&](P p) {
                          return s.speed ? read_as(s.pair.sliding_speed(p.g, *s.speed), {.digits = 5})
@@ -265,7 +266,8 @@ std::string path_csv(const GearPair& p) {
 
 std::string outline_csv(const GearWheel& w) {
   std::string text = "x [mm],y [mm]\n";
-  for (const OutlinePoint& q : wheel_outline(w, 16)) text += fmt::format("{:.7f},{:.7f}\n", in_mm * q.x, in_mm * q.y);
+  for (const OutlinePoint& q : wheel_outline(w, 16))
+    text += fmt::format("{:.7f},{:.7f}\n", in_millimetres * q.x, in_millimetres * q.y);
   return text;
 }
 
@@ -280,16 +282,17 @@ std::vector<FormulaCard> formulas_of(const GearStage& s) {
       .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
                              involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
                              p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle), p.working_angle / degree)});
-  list.push_back(FormulaCard{
-      .title = "Centre distance (theory 6.6)",
-      .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
-      .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", in_mm * one.transverse_module,
-                             p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
-                             std::cos(p.working_angle), in_mm * p.centre_distance)});
-  list.push_back(FormulaCard{.title = "Contact ratio (theory 6.9)",
-                             .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
-                             .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", in_mm * p.end,
-                                                    in_mm * p.start, in_mm * p.base_pitch, p.contact_ratio)});
+  list.push_back(FormulaCard{.title = "Centre distance (theory 6.6)",
+                             .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
+                             .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm",
+                                                    in_millimetres * one.transverse_module,
+                                                    p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
+                                                    std::cos(p.working_angle), in_millimetres * p.centre_distance)});
+  list.push_back(
+      FormulaCard{.title = "Contact ratio (theory 6.9)",
+                  .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
+                  .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", in_millimetres * p.end,
+                                         in_millimetres * p.start, in_millimetres * p.base_pitch, p.contact_ratio)});
   list.push_back(FormulaCard{.title = "Specific sliding at both ends (theory 6.11)",
                              .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
                              .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}",
@@ -330,7 +333,8 @@ void add_key_figures(Findings& f, const Gears& g) {
                            std::isfinite(error) ? 0 : 3, means});
     };
     const auto distance = [](const GearPair& p) { return std::abs(p.centre_distance); };
-    add("centre distance", in_mm * distance(s.pair), "mm", in_mm * s.error_of(distance), "", "centre_distance");
+    add("centre distance", in_millimetres * distance(s.pair), "mm", in_millimetres * s.error_of(distance), "",
+        "centre_distance");
     add("contact ratio ε_α", s.pair.contact_ratio, "", s.error_of(&GearPair::contact_ratio), "", "contact_ratio");
     add("greatest specific sliding", greatest_specific_sliding(s.pair), "", s.error_of(greatest_specific_sliding, 1),
         "at the foot of a flank", "specific_sliding");

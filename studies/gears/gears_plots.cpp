@@ -41,13 +41,13 @@ Series over_path(const GearPair& p, const std::string& name, Role role, const st
   std::vector<double> shown = along_path(p);
   std::erase_if(shown, [&](double g) { return !std::isfinite(value(g)) || std::abs(value(g)) > shown_sliding; });
   return series_of(
-      name, role, shown, [](double g) { return in_mm * g; }, value);
+      name, role, shown, [](double g) { return in_millimetres * g; }, value);
 }
 
 std::vector<EventMark> path_marks(const GearPair& p) {
   std::vector<EventMark> marks;
   for (const char name : {'A', 'B', 'C', 'D', 'E'})
-    marks.push_back({in_mm * p.point(name), fmt::format("{}{}", name, name == 'C' ? ", pitch point" : "")});
+    marks.push_back({in_millimetres * p.point(name), fmt::format("{}{}", name, name == 'C' ? ", pitch point" : "")});
   return marks;
 }
 
@@ -58,8 +58,8 @@ Plot sliding_plot(const GearStage& s) {
           .x = {"place on the path of contact g", "mm"},
           .y = {s.speed ? "sliding speed v_g" : "sliding speed over pitch-line speed", s.speed ? "m/s" : ""},
           .series = {series_of(
-              "flank of wheel 1 over that of wheel 2", Role::elastic, along_path(p), [](double g) { return in_mm * g; },
-              [&](double g) { return p.sliding_speed(g, omega); })},
+              "flank of wheel 1 over that of wheel 2", Role::elastic, along_path(p),
+              [](double g) { return in_millimetres * g; }, [&](double g) { return p.sliding_speed(g, omega); })},
           .marks = path_marks(p)};
 }
 
@@ -83,9 +83,10 @@ Plot thickness_plot(const MeshedWheel& w, int i) {
           .y = {"transverse tooth thickness s_t", "mm"},
           .series = {series_of(
               fmt::format("wheel {}", i + 1), i == 0 ? Role::elastic : Role::orange, diameters,
-              [](double d) { return in_mm * 0.5 * std::abs(d); }, [&](double d) { return in_mm * w.thickness(d); })},
-          .marks = {{in_mm * 0.5 * std::abs(w.reference_diameter), "reference circle"},
-                    {in_mm * 0.5 * std::abs(w.working_diameter), "working circle"}}};
+              [](double d) { return in_millimetres * 0.5 * std::abs(d); },
+              [&](double d) { return in_millimetres * w.thickness(d); })},
+          .marks = {{in_millimetres * 0.5 * std::abs(w.reference_diameter), "reference circle"},
+                    {in_millimetres * 0.5 * std::abs(w.working_diameter), "working circle"}}};
 }
 
 }  // namespace
