@@ -97,6 +97,7 @@ StudyOutput natural_modes(Asked& a) {
 
 StudyOutput forces_in_joints(Asked& a) {
   ForcesOptions o;
+  o.rigid_behind = true;
   o.watch = a.watch;
   o.positions = a.options.whole("positions", 4, 3600).value_or(o.positions);
   o.mechanism = a.options.text("mechanism");
