@@ -81,7 +81,7 @@ void write(Writer& w, const Plot& plot) {
       w.field("dashed", series.dashed);
       w.field("points", series.points || !series.line);
       w.field("line", series.line);
-      if (!plot.bars && stands_behind(series)) w.field("behind", true);
+      if (stands_behind(plot, series)) w.field("behind", true);
       w.field("x", points.x, 8);
       w.field("y", points.y, 7);
       if (!points.labels.empty()) w.field("labels", points.labels);
@@ -348,16 +348,19 @@ std::string escaped(std::string_view text) {
 
 }  // namespace
 
-bool stands_behind(const Series& series) {
-  return series.role == Role::rigid && series.line && !series.dashed && series.text_at_start.empty() &&
-         series.text_at_end.empty();
+bool stands_behind(const Plot& plot, const Series& series) {
+  const auto is_rigid = [](const Series& s) {
+    return s.role == Role::rigid && s.line && !s.dashed && s.text_at_start.empty() && s.text_at_end.empty();
+  };
+  return !plot.bars && is_rigid(series) && std::any_of(plot.series.begin(), plot.series.end(), [&](const Series& s) {
+    return s.line && s.role != Role::reference && !is_rigid(s);
+  });
 }
 
 std::vector<std::size_t> order_of_drawing(const Plot& plot) {
   std::vector<std::size_t> order(plot.series.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!plot.bars)
-    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return stands_behind(plot.series[i]); });
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return stands_behind(plot, plot.series[i]); });
   return order;
 }
 

@@ -111,7 +111,7 @@
   // The greatest magnitude of each curve that runs over time or speed, where there are few of them.
   function peaksOf(plot) {
     const level = s => Math.max(...s.y) - Math.min(...s.y) <= 1e-6 * Math.max(...s.y.map(Math.abs));
-    const front = plot.series.filter(s => s.line && !s.points && !s.dashed && !saysItself(s) && s.role !== 'rigid' && s.role !== 'reference' && s.x.length > 20 && !level(s));
+    const front = plot.series.filter(s => s.line && !s.points && !s.dashed && !saysItself(s) && !s.behind && s.role !== 'reference' && s.x.length > 20 && !level(s));
     if (plot.map || plot.bars || isLocus(plot) || !front.length || front.length > 3) return [];
     return front.map(s => {
       let k = 0;

@@ -270,6 +270,9 @@ TEST(Report, DrawsTheRigidMachineBehind) {
     EXPECT_EQ(series[0]["name"], dashed ? "elastic" : "rigid");
     EXPECT_EQ(series[0].contains("behind"), !dashed);
     EXPECT_FALSE(series[1].contains("behind"));
+    Plot alone = plot(dashed);
+    alone.series.erase(alone.series.begin());
+    EXPECT_FALSE(stands_behind(alone, alone.series.front())) << "there is nothing before it";
     const std::string script = gnuplot_files(report)[1].text;
     EXPECT_EQ(script.find("index 1 ") < script.find("index 0 "), !dashed) << script;
     EXPECT_EQ(script.find("lw 4.5") != std::string::npos, !dashed) << script;
