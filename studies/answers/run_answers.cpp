@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "studies/answers/motor_figures.h"
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/ratings.h"
@@ -59,13 +60,33 @@ class RunWords {
   const Periods& p_;
 };
 
+void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
+  for (const Figure& f : r.figures) {
+    if (f.name != Name::own("thermal_use", f.of).text || !(f.value - f.error.value_or(0) > 1)) continue;
+    const Section* motor = r.model ? r.model->scene.find(f.of) : nullptr;
+    if (!motor) continue;
+    if (std::optional<Answer> answer = overload_answer(*motor, f.value)) answers.push_back(std::move(*answer));
+  }
+}
+
 }  // namespace
+
+std::optional<Answer> overload_answer(const Section& motor, double use) {
+  const std::optional<double> rated = rated_torque_of(motor);
+  if (motor.has("duty") || !rated || !(use > 1)) return {};
+  return Answer{Question::bears,
+                fmt::format("\"{}\" gets too hot: the RMS torque of its steady motion is {:.0f} % of the rated one; it "
+                            "holds from a rated torque of {:.4g} N·m on",
+                            motor.name, 100 * use, *rated * use),
+                use};
+}
 
 std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
   if (!r.complete) return {{Question::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
   std::vector<Answer> answers = r.answers;
-  if (answers.empty())
+  if (std::none_of(answers.begin(), answers.end(), [](const Answer& a) { return a.question == Question::runs; }))
     if (std::string words = RunWords(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
+  overloaded_motors(r, answers);
   if (r.unconfirmed()) answers.push_back({Question::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
   for (Answer& a : answers) a.sentence = capitalised(whose + a.sentence);
   return answers;

@@ -376,9 +376,10 @@ class Simulation {
   }
   // Does it do its work at all?
   void judge_motion(const RunOutcome& outcome) {
-    if (const std::optional<Stall> stall = stalled(equations_, outcome)) result_.notes.push_back(in_words(*stall));
     result_.answers = motion_answers(equations_, outcome, result_.periods, result_.figures, !result_.cycles.empty(),
                                      result_.begins_at);
+    if (const std::optional<Stall> stall = stalled(equations_, outcome))
+      result_.notes.push_back(outcome.complete ? result_.answers.front().sentence : in_words(*stall));
   }
 
   std::shared_ptr<const Model> model_;
