@@ -37,6 +37,7 @@ int forces(const ForcesArguments& arguments) {
   options.positions = arguments.positions;
   options.mechanism = arguments.mechanism;
   options.simulate = !arguments.no_run;
+  options.rigid_behind = true;
   if (!arguments.effects.empty()) options.effects = parse_effects(arguments.effects, scene);
   if (!arguments.speed.empty())
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);

@@ -148,6 +148,7 @@ StudyOutput with_sheet(StudyOutput output, std::string html) {
 
 StudyOutput forces_in_joints(Asked& a) {
   ForcesOptions o;
+  o.rigid_behind = true;
   o.watch = a.watch;
   o.positions = a.options.whole("positions", 4, 3600).value_or(o.positions);
   o.mechanism = a.options.text("mechanism");

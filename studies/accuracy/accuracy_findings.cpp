@@ -144,7 +144,8 @@ Rows level_table(const AccuracyStudy& study) {
   for (std::size_t i = 0; i < study.figures.size(); ++i)
     table
         .only_for_people(
-            fmt::format("{} [{}]", study.figures[i].name, pretty_unit(study.figures[i].unit)),
+            study.figures[i].name +
+                (study.figures[i].unit.empty() ? "" : fmt::format(" [{}]", pretty_unit(study.figures[i].unit))),
             [i](L m) {
               return std::isnan(m.value[i]) ? "—" : figure_text(m.value[i], m.floor[i] * std::abs(m.value[i])).value;
             })

@@ -71,7 +71,7 @@ Series front_series(const AccuracyStudy& study, Member wanted, Error error) {
 }
 
 Role level_role(std::size_t level, std::size_t fullest) {
-  return level == fullest ? Role::elastic : level == 0 ? Role::rigid : further_role(level - 1);
+  return level == 0 ? Role::rigid : level == fullest ? Role::elastic : further_role(level - 1);
 }
 
 Plot work_precision(const AccuracyStudy& study, std::size_t level) {

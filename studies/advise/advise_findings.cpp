@@ -112,7 +112,7 @@ Plot plane(const Advice& a) {
   for (const Series& s : plot.series)
     for (const double x : s.x) low = std::min(low, x), high = std::max(high, x);
   plot.series.push_back({.name = fmt::format("tolerance {:.3g} %", 100 * a.tolerance),
-                         .role = Role::rigid,
+                         .role = Role::reference,
                          .x = {low, high},
                          .y = {100 * a.tolerance, 100 * a.tolerance},
                          .dashed = true});
@@ -131,11 +131,11 @@ Findings findings_of(const Advice& a) {
              .tells_diagnosis = false};
   f.answer(a.complete ? Question::figures : Question::runs, a.conclusion, a.complete ? 0 : 100);
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
-  f.figures = {{"deviation", 100 * chosen.deviation, "", 100 * chosen.error, "% at most, measured", 3, "deviation"},
-               {"time of the full model", 1e3 * full.cpu_seconds, "", 1e3 * a.time_spread * full.cpu_seconds,
-                "ms a run", 3, "processor_time"},
-               {"time of the lean model", 1e3 * chosen.cpu_seconds, "", 1e3 * a.time_spread * chosen.cpu_seconds,
-                "ms a run", 3, "processor_time"},
+  f.figures = {{"deviation", 100 * chosen.deviation, "%", 100 * chosen.error, "at most, measured", 3, "deviation"},
+               {"time of the full model", 1e3 * full.cpu_seconds, "ms", 1e3 * a.time_spread * full.cpu_seconds, "a run",
+                3, "processor_time"},
+               {"time of the lean model", 1e3 * chosen.cpu_seconds, "ms", 1e3 * a.time_spread * chosen.cpu_seconds,
+                "a run", 3, "processor_time"},
                {"sets run", static_cast<double>(a.tried.size()), "", 0, "", 3, "sets_run"}};
   const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
   f.tell("within", a.tolerance);

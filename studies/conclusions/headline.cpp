@@ -62,12 +62,14 @@ int significant_digits(std::string_view number) {
   return static_cast<int>(digits.size());
 }
 
-std::string headline_number(double value) {
+std::string rounded_number(double value, int digits) {
   if (!std::isfinite(value)) return "—";
-  const std::string shown = fmt::format("{:.{}g}", value + 0.0, headline_digits);
+  const std::string shown = fmt::format("{:.{}g}", value + 0.0, digits);
   const double round = std::strtod(shown.c_str(), nullptr), size = std::abs(round);
-  return size >= 1e4 && size < 1e9 ? fmt::format("{:.0f}", round) : shown;
+  return shown.find('e') != std::string::npos && size >= 1e4 && size < 1e9 ? fmt::format("{:.0f}", round) : shown;
 }
+
+std::string headline_number(double value) { return rounded_number(value, headline_digits); }
 
 std::string headline(std::string_view text) {
   std::string said;

@@ -13,6 +13,9 @@ inline constexpr int headline_digits = 4;
 //     "724.8855 ± 1e-06 N·m in \"shaft_10001\""  →  "724.9 N·m in \"shaft_10001\""
 std::string headline(std::string_view text);
 
+// Rounded to so many significant digits; from 1e4 to 1e9 without an exponent: 410470, not 4.1047e+05.
+std::string rounded_number(double value, int digits);
+
 // A number as a headline has it: 19092.63 → "19090", 0.10438192 → "0.1044", 1.0 → "1".
 std::string headline_number(double value);
 

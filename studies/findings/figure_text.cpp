@@ -51,8 +51,8 @@ double units_of(double error, int place) { return std::ceil(error / power_of_ten
 FigureText figure_text(double value, const std::optional<double>& error) {
   if (!std::isfinite(value)) return {"—", ""};
   value += 0.0;  // no −0
-  if (!error || !std::isfinite(*error)) return {fmt::format("{:.{}g}", value, digits_without_error), ""};
-  if (*error == 0) return {fmt::format("{:.{}g}", value, digits_if_exact), "± 0"};
+  if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
+  if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
   // The place of the error's last digit, then of the value's.
   const double size = std::abs(*error);
   int place = exponent_of(size);
@@ -67,6 +67,13 @@ FigureText figure_text(double value, const std::optional<double>& error) {
   const bool fixed = upper >= 1e-5 && upper < 1e9;
   return {written(shown + 0.0, place), "± " + (fixed ? fmt::format("{:.{}f}", upper, std::max(0, -place))
                                                      : fmt::format("{:.{}e}", upper, units >= 10 ? 1 : 0))};
+}
+
+TileText tile_text(double value, const std::optional<double>& error, int digits) {
+  const FigureText text = figure_text(value, error);
+  std::string known = digits > 0 ? rounded_number(value, digits) : text.value;
+  if (significant_digits(known) <= headline_digits) return {std::move(known), "", text.error};
+  return {headline_number(value), std::move(known), text.error};
 }
 
 std::string with_error(double value, const std::optional<double>& error, std::string_view unit) {

@@ -24,6 +24,12 @@ struct FigureText {
 
 FigureText figure_text(double value, const std::optional<double>& error);
 
+// A figure on a tile: rounded as a headline rounds, and below it what is known where that is more.
+struct TileText {
+  std::string value, known, error;  // "6257", "6257.16998", "± 0.00006"
+};
+TileText tile_text(double value, const std::optional<double>& error, int digits = 0);  // digits: 0: by the error
+
 // "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
 std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "studies/conclusions/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/output.h"
 
@@ -44,8 +45,15 @@ void show(Cards& cards, const Rows& rows) {
 void show(Cards& cards, const Sentences& words) {
   if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
 }
+// A plot of nothing is none.
+bool shows_nothing(const Card& card) {
+  const Plot* plot = std::get_if<Plot>(&card);
+  return plot && !plot->map &&
+         std::all_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.x.empty(); });
+}
 void show(Cards& cards, const Drawn& drawn) {
-  for (Card& card : drawn.cards()) cards.push_back(std::move(card));
+  for (Card& card : drawn.cards())
+    if (!shows_nothing(card)) cards.push_back(std::move(card));
 }
 void show(Cards&, const Field&) {}
 
@@ -122,7 +130,10 @@ Report page_of(const Findings& f) {
       std::visit([&](const auto& what) { show(cards[static_cast<std::size_t>(*s.chapter)], what); }, s.what);
   for (std::size_t i = 0; i < cards.size(); ++i)
     if (!cards[i].empty()) page.add(f.chapters[i]).cards = std::move(cards[i]);
-  for (KeyFigure& figure : page.figures) figure.means = definition_id(figure.means);
+  for (KeyFigure& figure : page.figures) {
+    figure.means = definition_id(figure.means);
+    figure.note = headline(figure.note);
+  }
   page.meanings = meanings_of(page);
   return page;
 }

@@ -30,6 +30,7 @@ ReadableUnit readable_unit(double largest, const std::string& si_unit, const Spe
     if (largest >= 2e3) return {"k" + unit, 1e-3};
     return {unit, 1};
   }
+  if (si_unit == "Pa" && largest >= 2e5) return {"MPa", 1e-6};
   if (si_unit == "rad") return largest < 0.2 ? ReadableUnit{"mrad", 1e3} : ReadableUnit{"rad", 1};
   return {pretty_unit(si_unit), 1};
 }

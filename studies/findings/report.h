@@ -116,6 +116,7 @@ struct MachineView {
     std::string name, kind;              // kind "gap": parts that are left out
     double ratio_in = 1, ratio_out = 1;  // speed over the crank's
     bool elastic = false;
+    bool slips = false;  // its two shafts turn apart
     bool crank = false;  // of a mechanism
     int row = 0;         // 0: the main line
   };
@@ -152,7 +153,8 @@ struct MachineView {
     std::string label;
     Role role = Role::elastic;
     std::vector<double> angle;                             // of the crank, or of the reduction link [rad]
-    std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it [rad]
+    std::vector<std::vector<double>> twist_in, twist_out;  // against the link, reduced to it, less the slips [rad]
+    std::vector<std::vector<double>> slip_in, slip_out;    // by how much it has slipped against the link, reduced [rad]
     std::vector<std::vector<double>> torque;               // [N·m]
     // Per linkage on its output, positive towards its greatest x [N], or angle [N·m]; empty where there is none.
     std::vector<std::vector<double>> force;

@@ -23,6 +23,7 @@
 #include <variant>
 #include <vector>
 
+#include "studies/conclusions/headline.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {
@@ -112,7 +113,7 @@ struct ReadAs {
 
 inline std::string read_as(double v, const ReadAs& r = {}) {
   const double x = r.factor * v;
-  return std::isfinite(x) ? fmt::format("{:.{}g}", x == 0 ? 0.0 : x, r.digits) : std::string(r.otherwise);
+  return std::isfinite(x) ? rounded_number(x == 0 ? 0.0 : x, r.digits) : std::string(r.otherwise);
 }
 inline std::string read_as(const std::string& text, const ReadAs& = {}) { return text; }
 template <std::integral T>

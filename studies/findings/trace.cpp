@@ -45,7 +45,7 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
   for (const Channel& channel : channels_) {
     const QuantityKind what = channel.name.what;
     if (what == QuantityKind::torque || what == QuantityKind::force || what == QuantityKind::load_torque ||
-        what == QuantityKind::speed || what == QuantityKind::position)
+        what == QuantityKind::speed || what == QuantityKind::slip || what == QuantityKind::position)
       over_angle_.push_back(traces_->over_time.size());
     traces_->over_time.push_back({channel.name.text, channel.unit, {}, {}, what, channel.name.of});
   }

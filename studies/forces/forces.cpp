@@ -149,7 +149,7 @@ Effects effects_of(const Scene& scene, const ForcesOptions& options, const Slide
 
 class Study {
  public:
-  Study(const Scene& scene, const ForcesOptions& options, const Section& section) : options_(options) {
+  Study(const Scene& scene, const ForcesOptions& options, const Section& section) : scene_(scene), options_(options) {
     out_.title = scene.heading();
     out_.speed_unit = scene.speed_unit;
     out_.scene_file = scene.file;
@@ -160,6 +160,7 @@ class Study {
     const Effects effects = effects_of(scene, options, out_.joints);
     if (!effects.gravity) out_.data.gravity = 0;
     machine_.emplace(scene, effects, section.name, options);
+    effects_ = effects;
     loads_.emplace(scene, section.name, effects);
     if (effects.joint_friction && !out_.joints.frictionless()) loads_->add_edges(turnings_of(out_.data));
     const SliderCrankJoints given = out_.joints;
@@ -179,7 +180,7 @@ class Study {
       options_.watch.say("second problem: the motion that the machine keeps");
       simulated = machine_->solve(*loads_, {out_.notes, out_.complete, out_.diagnosis});
     }
-    if (simulated) solve_second(*simulated);
+    if (simulated) solve_second(*simulated), solve_rigid();
     LinkageCycle links = linkage_cycle(out_.data, *loads_, simulated ? simulated->along : prescribed_);
     if (simulated)
       for (const SimulatedMotion::Other& other : simulated->others)
@@ -246,11 +247,20 @@ class Study {
     }
   }
 
+  void solve_rigid() {
+    out_.elastic = machine_->is_elastic();
+    if (!out_.elastic || !options_.rigid_behind) return;
+    if (const auto rigid = rigid_motion(scene_, effects_, out_.mechanism, *loads_, options_))
+      out_.rigid = cycle_along(*statics_, *loads_, *rigid);
+  }
+
   static constexpr double same_physics = 1e-7;  // tables of the mechanism, and what the step leaves of friction's laws
   static constexpr double rounding_of_torque =
       1e-3;  // of the crank pin's load at the radius: less is no torque to measure by
 
+  const Scene& scene_;
   const ForcesOptions& options_;
+  Effects effects_;
   Forces out_;
   std::optional<MachineMotion> machine_;
   std::optional<OutputLoads> loads_;

@@ -33,7 +33,8 @@ struct ForcesOptions {
   std::string mechanism;        // empty: the first slider-crank
   // Of the second problem's machine; default: the scene's, with the joints' friction where they have any.
   std::optional<Effects> effects = {};
-  bool simulate = true;  // the second problem, too
+  bool simulate = true;       // the second problem, too
+  bool rigid_behind = false;  // and that of the rigid machine, for a page's curves
   // Further angles of the first problem that are looked at [rad], chosen when its loads are known.
   std::function<std::vector<double>(const PrescribedCycle&)> also = {};
   Watch watch = {};
@@ -140,6 +141,8 @@ struct Forces {
   double rotating_moment = 0;     // of crank and the rod's share in the crank pin, towards the pin [kg·m]
   double reciprocating_mass = 0;  // of slider and the rod's share in the slider pin [kg]
   std::optional<ForceCycle> prescribed, simulated;
+  std::optional<ForceCycle> rigid;            // the second problem of an elastic machine without elasticity, for plots
+  bool elastic = false;                       // the second problem's machine is
   std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
   std::vector<CyclePosition> also;            // of the first problem, at the further angles that were asked for
   std::vector<Counterweight> counterweights;  // the first: as it is

@@ -14,7 +14,22 @@
 namespace kurbel {
 namespace {
 
-Role role_of(const ForceCycle& c) { return c.label == "simulated" ? Role::elastic : Role::rigid; }
+// One of the curves of a plot: the rigid machine behind, the elastic one in front.
+struct ForceCurve {
+  const ForceCycle* cycle;
+  const char* name;
+  Role role;
+};
+
+std::vector<ForceCurve> force_curves_of(const Forces& f) {
+  std::vector<ForceCurve> curves;
+  if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
+  if (f.prescribed) curves.push_back({&*f.prescribed, "prescribed: constant speed", Role::reference});
+  if (f.simulated)
+    curves.push_back({&*f.simulated, f.elastic ? "simulated, elastic" : "simulated, rigid",
+                      f.elastic ? Role::elastic : Role::rigid});
+  return curves;
+}
 
 using Quantity = std::function<double(const CyclePosition&)>;
 
@@ -37,7 +52,7 @@ Plot angle_plot(const std::string& title, const std::string& quantity) {
 Plot both(const Forces& f, const std::string& title, const std::string& quantity, const std::string& unit,
           const Quantity& value) {
   Plot plot = angle_plot(title, quantity);
-  for (const ForceCycle* c : problems_of(f)) plot.series.push_back(over_angle(c->label, role_of(*c), *c, value));
+  for (const ForceCurve& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
   return unit.empty() ? plot : in_readable_unit(std::move(plot), unit);
 }
 
@@ -47,8 +62,8 @@ Plot guide_point_plot(const Forces& f) {
   plot.note = "Beyond the guide's ends both edges bear.";
   // Where N passes through zero the point runs away to infinity: left out beyond three guides.
   const double reach = 3 * std::max({f.joints.guide.length, f.joints.guide.width, f.data.radius});
-  for (const ForceCycle* c : problems_of(f))
-    plot.series.push_back(over_angle(c->label, role_of(*c), *c, [&](const CyclePosition& p) {
+  for (const ForceCurve& c : force_curves_of(f))
+    plot.series.push_back(over_angle(c.name, c.role, *c.cycle, [&](const CyclePosition& p) {
       return std::abs(p.forces.guide_point) < reach ? p.forces.guide_point : std::nan("");
     }));
   if (f.joints.guide.length > 0)
@@ -75,9 +90,9 @@ Plot locus(const Forces& f, const std::string& title, const std::string& x, cons
            const std::function<Force2(const CyclePosition&)>& force) {
   Plot plot{.title = title, .x = {x, ""}, .y = {y, ""}, .series = {}};
   double largest = 0;
-  for (const ForceCycle* c : problems_of(f)) {
-    Series& s = plot.series.emplace_back(Series{.name = c->label, .role = role_of(*c), .x = {}, .y = {}});
-    for (const CyclePosition& p : c->curve) {
+  for (const ForceCurve& c : force_curves_of(f)) {
+    Series& s = plot.series.emplace_back(Series{.name = c.name, .role = c.role, .x = {}, .y = {}});
+    for (const CyclePosition& p : c.cycle->curve) {
       const Force2 v = force(p);
       s.x.push_back(v.x);
       s.y.push_back(v.y);
@@ -164,7 +179,7 @@ Plot counterweight_plot(const Forces& f) {
     largest = std::max(largest, c.peak_force);
     const std::size_t i = plot.series.size();
     plot.series.push_back(
-        series_of(c.name, i == 0 ? Role::rigid : further_role(i - 1), c.shaking, &Force2::x, &Force2::y));
+        series_of(c.name, i == 0 ? Role::reference : further_role(i - 1), c.shaking, &Force2::x, &Force2::y));
     plot.series.back().dashed = i == 0;
   }
   return in_forces(std::move(plot), largest);

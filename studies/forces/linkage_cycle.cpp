@@ -408,6 +408,10 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   out.simulated->label = "simulated";
   out.simulated->description = motion->description;
   mark_unbounded(out.unbounded, *out.simulated);
+  out.elastic = machine.is_elastic();
+  if (!out.elastic || !options.rigid_behind) return out;
+  if (const auto rigid = rigid_motion(scene, effects, section.name, loads, options))
+    out.rigid = linkage_cycle(data, loads, *rigid);
   return out;
 }
 

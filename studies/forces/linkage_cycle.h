@@ -90,7 +90,9 @@ struct LinkageStudy {
   SpeedUnit speed_unit;
   bool rocks = false;  // the output is an angle
   std::optional<LinkageCycle> prescribed, simulated;
-  std::vector<PositionForces> also;  // of the first problem, at the further angles that were asked for
+  std::optional<LinkageCycle> rigid;  // the second problem of an elastic machine without elasticity, for plots
+  bool elastic = false;               // the second problem's machine is
+  std::vector<PositionForces> also;   // of the first problem, at the further angles that were asked for
   UnboundedReactions unbounded;
   std::vector<std::string> notes;
   bool complete = true;

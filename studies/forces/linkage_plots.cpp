@@ -18,7 +18,22 @@ using Quantity = std::function<double(P)>;
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
-Role role_of(const LinkageCycle& c) { return c.label == "simulated" ? Role::elastic : Role::rigid; }
+// One of the curves of a plot: the rigid machine behind, the elastic one in front.
+struct LinkageCurve {
+  const LinkageCycle* cycle;
+  const char* name;
+  Role role;
+};
+
+std::vector<LinkageCurve> linkage_curves_of(const LinkageStudy& f) {
+  std::vector<LinkageCurve> curves;
+  if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
+  if (f.prescribed) curves.push_back({&*f.prescribed, "prescribed: constant speed", Role::reference});
+  if (f.simulated)
+    curves.push_back({&*f.simulated, f.elastic ? "simulated, elastic" : "simulated, rigid",
+                      f.elastic ? Role::elastic : Role::rigid});
+  return curves;
+}
 
 Series over_angle(const std::string& name, Role role, const LinkageCycle& c, const Quantity& value) {
   return series_of(
@@ -28,7 +43,7 @@ Series over_angle(const std::string& name, Role role, const LinkageCycle& c, con
 Plot both(const LinkageStudy& f, const std::string& title, const std::string& quantity, const std::string& unit,
           const Quantity& value) {
   Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}, .series = {}};
-  for (const LinkageCycle* c : problems_of(f)) plot.series.push_back(over_angle(c->label, role_of(*c), *c, value));
+  for (const LinkageCurve& c : linkage_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
   return in_readable_unit(std::move(plot), unit);
 }
 
@@ -83,11 +98,11 @@ std::vector<Plot> polar_plots(const LinkageStudy& f) {
               .y = {"across", ""},
               .series = {}};
     double largest = 0;
-    for (const LinkageCycle* c : problems_of(f)) {
+    for (const LinkageCurve& c : linkage_curves_of(f)) {
       plot.series.push_back(series_of(
-          c->label, role_of(*c), c->curve, [k](P p) { return p.forces.joints[k].force.x; },
+          c.name, c.role, c.cycle->curve, [k](P p) { return p.forces.joints[k].force.x; },
           [k](P p) { return p.forces.joints[k].force.y; }));
-      for (P p : c->curve) largest = std::max(largest, p.forces.joints[k].force.magnitude());
+      for (P p : c.cycle->curve) largest = std::max(largest, p.forces.joints[k].force.magnitude());
     }
     const double factor = readable_unit(largest, "N").factor;
     plot = in_readable_unit(std::move(plot), "N", largest);

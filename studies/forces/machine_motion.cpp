@@ -123,6 +123,7 @@ MachineMotion::MachineMotion(const Scene& scene, const Effects& effects, const s
       forces_(model_, component) {}
 
 bool MachineMotion::deforms() const { return forces_.deforms(); }
+bool MachineMotion::is_elastic() const { return !model_->elastic.empty(); }
 
 double MachineMotion::start_speed() const {
   Equations equations(model_, false);
@@ -412,6 +413,24 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
     out.notes.push_back(fmt::format("the simulated motion is the last whole cycle of the scene's run ({})", why));
   motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
   return motion;
+}
+
+std::optional<MotionAlong> rigid_motion(const Scene& scene, const Effects& effects, const std::string& component,
+                                        OutputLoads& loads, const ForcesOptions& options) {
+  try {
+    const MachineMotion machine(scene, without_elasticity(effects), component, options);
+    if (machine.is_elastic()) return {};
+    std::vector<std::string> notes;
+    bool complete = true;
+    std::string diagnosis;
+    std::optional<SimulatedMotion> motion = machine.solve(loads, {notes, complete, diagnosis});
+    if (!motion || !complete) return {};
+    return std::move(motion->along);
+  } catch (const SceneError&) {
+    return {};
+  } catch (const std::runtime_error&) {  // its way does not come again between two tolerances
+    return {};
+  }
 }
 
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {

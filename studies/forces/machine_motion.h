@@ -39,7 +39,8 @@ class MachineMotion {
 
   double start_speed() const;  // of the crank [rad/s]
   double rated_speed() const;
-  bool deforms() const;  // its joints have clearance, or its rod bends
+  bool deforms() const;     // its joints have clearance, or its rod bends
+  bool is_elastic() const;  // its shafts twist
   // What went wrong and what is not steady is told in `notes`. Empty where the crank goes through no whole cycle.
   struct Account {
     std::vector<std::string>& notes;
@@ -81,6 +82,11 @@ class MachineMotion {
   Crank crank_;
   DeformedMechanism forces_;
 };
+
+// Of the same machine without elasticity, to be drawn behind it. Empty where the machine is rigid itself, or where the
+// rigid one makes no machine or turns the crank through no whole cycle.
+std::optional<MotionAlong> rigid_motion(const Scene& scene, const Effects& effects, const std::string& component,
+                                        OutputLoads& loads, const ForcesOptions& options);
 
 // Of the first problem, and where it comes from.
 struct CrankSpeed {

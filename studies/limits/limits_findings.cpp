@@ -21,6 +21,18 @@ std::string use_of(const Verdict& v) {
   return share + " UNDECIDED";
 }
 
+Tone tone_of(Compliance state) {
+  switch (state) {
+    case Compliance::holds:
+      return Tone::good;
+    case Compliance::exceeded:
+      return Tone::bad;
+    case Compliance::undecided:
+      break;
+  }
+  return Tone::fair;
+}
+
 // With its error where that shows.
 std::string readable(const Verdict& v) {
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
@@ -45,26 +57,33 @@ std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
 }  // namespace
 
 Rows verdict_table(const std::vector<Verdict>& verdicts) {
-  return table_of("verdicts", "What the components may bear", verdicts)
-      .headed("limits")
-      .text_in(3)
-      .column("component", "component", &Verdict::component)
-      .column("requirement", "requirement", &Verdict::requirement)
-      .column("note", "note", &Verdict::note)
-      .only_for_programs("value", &Verdict::value)
-      .only_for_programs("error", &Verdict::error)
-      .only_for_programs("bound", &Verdict::bound)
-      .only_for_programs("limit", &Verdict::limit)
-      .only_for_programs("unit", &Verdict::unit)
-      .only_for_programs("holds", &Verdict::holds)
-      .only_for_programs("verdict", [](const Verdict& v) { return std::string(name_of(v.state())); })
-      .only_for_people("value", readable)
-      .only_for_people("limit",
-                       [](const Verdict& v) {
-                         const ReadableUnit unit = readable_unit(v.limit, v.unit);
-                         return fmt::format("{} {}", read_as(unit.factor * v.limit, {.digits = 5}), unit.unit);
-                       })
-      .only_for_people("use", use_of);
+  Rows table =
+      table_of("verdicts", "What the components may bear", verdicts)
+          .headed("limits")
+          .text_in(3)
+          .column("component", "component", &Verdict::component)
+          .column("requirement", "requirement", &Verdict::requirement)
+          .column("note", "note", &Verdict::note)
+          .only_for_programs("value", &Verdict::value)
+          .only_for_programs("error", &Verdict::error)
+          .only_for_programs("bound", &Verdict::bound)
+          .only_for_programs("limit", &Verdict::limit)
+          .only_for_programs("unit", &Verdict::unit)
+          .only_for_programs("holds", &Verdict::holds)
+          .only_for_programs("verdict", [](const Verdict& v) { return std::string(name_of(v.state())); })
+          .only_for_people("value", readable)
+          .only_for_people("limit",
+                           [](const Verdict& v) {
+                             const ReadableUnit unit = readable_unit(v.limit, v.unit);
+                             return fmt::format("{} {}", read_as(unit.factor * v.limit, {.digits = 5}), unit.unit);
+                           })
+          .only_for_people("use", use_of);
+  // On the page the use has the colour of its verdict.
+  for (const Verdict& v : verdicts) {
+    table.tones.emplace_back(table.headings().size(), Tone::none);
+    table.tones.back().back() = tone_of(v.state());
+  }
+  return table;
 }
 
 Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,

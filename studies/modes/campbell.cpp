@@ -16,6 +16,8 @@ namespace kurbel::modes {
 namespace {
 
 constexpr std::size_t critical_shown = 16, rays_shown = 10, modes_named = 12;
+constexpr double least_circle = 1e-3;  // of the severest critical speed's share
+constexpr double least_ray = 0.02;     // of the strongest order's torque
 
 std::string readable(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -61,13 +63,17 @@ std::vector<std::size_t> orders_shown(const ModesStudy& m) {
   const auto show = [&](std::size_t r) {
     if (shown.size() < rays_shown && std::find(shown.begin(), shown.end(), r) == shown.end()) shown.push_back(r);
   };
-  for (const std::size_t i : severest_critical(m, 12)) show(m.critical[i].harmonic);
+  const std::vector<std::size_t> severe = severest_critical(m, 12);
+  for (const std::size_t i : severe)
+    if (const double most = m.critical[severe.front()].share;
+        std::isinf(most) || m.critical[i].share > least_circle * most)
+      show(m.critical[i].harmonic);
   std::vector<std::pair<double, std::size_t>> strength;
   for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
     strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
   std::sort(strength.begin(), strength.end());
   for (const auto& [negative, r] : strength)
-    if (negative < 1e-6 * strength.front().first) show(r);
+    if (negative < least_ray * strength.front().first) show(r);
   std::sort(shown.begin(), shown.end());
   return shown;
 }
@@ -79,6 +85,15 @@ double top_of(const ModesStudy& m) {
   for (const std::size_t i : severe)
     if (m.critical[i].share > 0.05 * m.critical[severe.front()].share)
       top = std::max(top, hertz(m.critical[i].order * m.critical[i].speed));
+  // Up to where the strongest order is at the operating speed, unless that leaves the modes no room.
+  constexpr double most_above = 6;
+  std::size_t strongest = 0;
+  double most = 0;
+  for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
+    if (const double size = m.excitations.strength(r, m.drive.at.speed); size > most * (1 + 1e-9))
+      most = size, strongest = r;
+  if (strongest > 0)
+    top = std::max(top, std::min(most_above * top, m.excitations.order(strongest) * hertz(std::abs(m.drive.at.speed))));
   if (severe.empty())
     for (const std::size_t r : orders_shown(m)) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
   return 1.15 * top;
@@ -109,7 +124,7 @@ Series circles(const ModesStudy& m, const std::vector<std::size_t>& orders) {
   for (const CriticalSpeed& c : m.critical) most = std::max(most, c.share);
   for (const CriticalSpeed& c : m.critical) {
     if (std::find(orders.begin(), orders.end(), c.harmonic) == orders.end()) continue;
-    if (!(c.share > 1e-3 * most) && !std::isinf(c.share)) continue;
+    if (!(c.share > least_circle * most) && !std::isinf(c.share)) continue;
     s.x.push_back(m.speed_unit.of(c.speed));
     s.y.push_back(hertz(c.order * c.speed));
     s.sizes.push_back(std::isinf(c.share) ? 3 : std::isinf(most) ? 1 : 0.7 + 2.3 * std::sqrt(c.share / most));

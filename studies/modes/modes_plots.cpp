@@ -112,7 +112,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
       .y = {"torque", ""},
       .series = {
           curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
-          dashed(curve("sum of amplitudes", Role::rigid, [](const JointResponse& r) { return r.amplitude_sum; })),
+          dashed(curve("sum of amplitudes", Role::sky, [](const JointResponse& r) { return r.amplitude_sum; })),
           dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
   mark_spots(m, j, plot);
   if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0)
@@ -120,8 +120,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
         dashed(level(m, "allowed at 10 Hz", Role::vermillion, limits.vibratory / limits.temperature_factor)));
   for (const BarredRange& b : m.barred) {
     if (b.joint != j) continue;
-    plot.marks.push_back({m.speed_unit.of(b.from), "barred from"});
-    plot.marks.push_back({m.speed_unit.of(b.to), "to"});
+    plot.bands.push_back({m.speed_unit.of(b.from), m.speed_unit.of(b.to), "barred", Role::vermillion});
     plot.note += fmt::format("{}Barred {:.5g} … {} by {}.", plot.note.empty() ? "" : " ", m.speed_unit.of(b.from),
                              m.speed_unit.text(b.to, 5), b.reason);
   }
@@ -142,9 +141,9 @@ Plot order_plot(const ModesStudy& m) {
     response.y.push_back(std::abs(m.here.orders[j][r]));
   }
   plot.series.push_back(std::move(response));
-  if (!m.cycle) return plot;
+  if (!m.cycle) return in_readable_unit(std::move(plot), "N*m");
   plot.series.back().name = "linear drive";
-  Series really{.name = "steady motion", .role = Role::rigid, .x = {}, .y = {}};
+  Series really{.name = "steady motion", .role = Role::orange, .x = {}, .y = {}};
   const std::vector<Complex>& orders = m.cycle->orders[j];
   const double end = m.excitations.order(m.excitations.harmonics);
   for (std::size_t r = 1; r < orders.size() && static_cast<double>(r) * m.cycle_order <= end * (1 + 1e-9); ++r) {
@@ -152,7 +151,7 @@ Plot order_plot(const ModesStudy& m) {
     really.y.push_back(std::abs(orders[r]));
   }
   plot.series.push_back(std::move(really));
-  return plot;
+  return in_readable_unit(std::move(plot), "N*m");
 }
 
 void mark_modes(const ModesStudy& m, Plot& plot, double end) {
@@ -169,15 +168,17 @@ Plot spectrum_plot(const ModesStudy& m, const TorqueHistory& h) {
             .series = {lines_of(h.channel, h.spectrum, end)},
             .note = fmt::format("Hann window, lines {:.3g} Hz apart; from the end of the run.", h.spectrum.resolution)};
   mark_modes(m, plot, end);
-  return plot;
+  return in_readable_unit(std::move(plot), "N*m");
 }
 
 Plot history_orders_plot(const ModesStudy& m, const TorqueHistory& h) {
-  return {.title = fmt::format("Order analysis of the simulated {}", h.channel),
-          .x = {"order of the turn of " + m.link, ""},
-          .y = {"amplitude", "N·m"},
-          .series = {lines_of(h.channel, h.orders, m.highest_order)},
-          .note = fmt::format("Resampled over the angle; lines {:.3g} orders apart.", h.orders.resolution)};
+  return in_readable_unit(
+      Plot{.title = fmt::format("Order analysis of the simulated {}", h.channel),
+           .x = {"order of the turn of " + m.link, ""},
+           .y = {"amplitude", "N·m"},
+           .series = {lines_of(h.channel, h.orders, m.highest_order)},
+           .note = fmt::format("Resampled over the angle; lines {:.3g} orders apart.", h.orders.resolution)},
+      "N*m");
 }
 
 }  // namespace

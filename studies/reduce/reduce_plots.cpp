@@ -39,7 +39,7 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
     plot.series[0].x.push_back(s.harmonics[n].order);
     plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude);
   }
-  return plot;
+  return in_readable_unit(std::move(plot), s.unit);
 }
 
 // Where an inertia stands in the drawing: compliance from the first one along the x-axis, branches below each other.
@@ -125,8 +125,8 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
                                        [k](const ReducedPosition& p) { return p.share[k]; }));
   plots.push_back(std::move(inertia));
   plots.push_back(std::move(slope));
-  plots.push_back(std::move(torque));
-  if (!shares.series.empty()) plots.push_back(std::move(shares));
+  plots.push_back(in_readable_unit(std::move(torque), n.torque_unit));
+  if (!shares.series.empty()) plots.push_back(in_readable_unit(std::move(shares), n.torque_unit));
   return plots;
 }
 

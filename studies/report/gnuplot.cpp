@@ -164,15 +164,18 @@ std::string script_of(const Plot& plot, const std::string& name) {
     text += fmt::format("'{}.dat' index {} using 1:2:4:5:6:7:3 with boxxyerror fs solid noborder lc palette title {}{}",
                         name, plot.series.size(), quoted(fmt::format("{} [{}]", plot.map->name, plot.map->unit)),
                         plot.series.empty() ? "" : ", \\\n     ");
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+  bool first = true;
+  for (const std::size_t i : order_of_drawing(plot)) {
     const Series& s = plot.series[i];
-    text += fmt::format("{}'{}.dat' index {} with {} lw 1.5 {}lc rgb '{}' title {}", i ? ", \\\n     " : "", name, i,
-                        plot.bars  ? "boxes"
-                        : !s.line  ? s.sizes.empty() ? "points pt 7 ps 0.9" : "points pt 7 ps 0.4"
-                        : s.points ? "linespoints pt 7 ps 0.5"
-                                   : "lines",
-                        s.dashed || s.role == Role::reference ? "dt 2 " : "", colour_of(s.role),
-                        s.text_at_start.empty() && s.text_at_end.empty() ? quoted(s.name) : "''");
+    text +=
+        fmt::format("{}'{}.dat' index {} with {} lw {} {}lc rgb '{}' title {}", first ? "" : ", \\\n     ", name, i,
+                    plot.bars  ? "boxes"
+                    : !s.line  ? s.sizes.empty() ? "points pt 7 ps 0.9" : "points pt 7 ps 0.4"
+                    : s.points ? "linespoints pt 7 ps 0.5"
+                               : "lines",
+                    !plot.bars && stands_behind(s) ? 4.5 : 1.5, s.dashed || s.role == Role::reference ? "dt 2 " : "",
+                    colour_of(s.role), s.text_at_start.empty() && s.text_at_end.empty() ? quoted(s.name) : "''");
+    first = false;
   }
   return text + fmt::format(
                     "\nset terminal pngcairo size 1350,720 noenhanced font 'sans,14' background 'white'\nset output "

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine/scene/units.h"
@@ -71,7 +72,8 @@ void write(Writer& w, const Plot& plot) {
   w.key("x"), write(w, plot.x);
   w.key("y"), write(w, plot.y);
   w.key("series");
-  w.list(plot.series, [&](const Series& series) {
+  w.list(order_of_drawing(plot), [&](std::size_t i) {
+    const Series& series = plot.series[i];
     const Series points = drawn(series);
     w.object([&] {
       w.field("name", series.name);
@@ -79,6 +81,7 @@ void write(Writer& w, const Plot& plot) {
       w.field("dashed", series.dashed);
       w.field("points", series.points || !series.line);
       w.field("line", series.line);
+      if (!plot.bars && stands_behind(series)) w.field("behind", true);
       w.field("x", points.x, 8);
       w.field("y", points.y, 7);
       if (!points.labels.empty()) w.field("labels", points.labels);
@@ -195,6 +198,7 @@ void write(Writer& w, const MachineView& machine) {
       w.field("ratioIn", part.ratio_in);
       w.field("ratioOut", part.ratio_out);
       w.field("elastic", part.elastic);
+      if (part.slips) w.field("slips", true);
       w.field("crank", part.crank);
       w.field("row", static_cast<double>(part.row));
     });
@@ -219,6 +223,10 @@ void write(Writer& w, const MachineView& machine) {
       w.field("angle", motion.angle, 7);
       w.field("twistIn", motion.twist_in, 4);
       w.field("twistOut", motion.twist_out, 4);
+      if (!motion.slip_in.empty()) {
+        w.field("slipIn", motion.slip_in, 5);
+        w.field("slipOut", motion.slip_out, 5);
+      }
       w.field("torque", motion.torque, 4);
       w.field("force", motion.force, 4);
       w.field("bend", motion.bend, 4);
@@ -283,8 +291,9 @@ std::string json_of(const Report& report, const Letterhead& head) {
     w.list(report.figures, [&](const KeyFigure& figure) {
       w.object([&] {
         w.field("name", figure.name);
-        const FigureText text = figure_text(figure.value, figure.error);
-        w.field("value", figure.digits > 0 ? fmt::format("{:.{}g}", figure.value, figure.digits) : text.value);
+        const TileText text = tile_text(figure.value, figure.error, figure.digits);
+        w.field("value", text.value);
+        if (!text.known.empty()) w.field("known", text.known);
         w.field("unit", pretty_unit(figure.unit));
         w.field("error", text.error);
         w.field("note", figure.note);
@@ -338,6 +347,19 @@ std::string escaped(std::string_view text) {
 }
 
 }  // namespace
+
+bool stands_behind(const Series& series) {
+  return series.role == Role::rigid && series.line && !series.dashed && series.text_at_start.empty() &&
+         series.text_at_end.empty();
+}
+
+std::vector<std::size_t> order_of_drawing(const Plot& plot) {
+  std::vector<std::size_t> order(plot.series.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!plot.bars)
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return stands_behind(plot.series[i]); });
+  return order;
+}
 
 Series drawn(const Series& series) {
   Series s = series;

@@ -37,16 +37,16 @@
     const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
     const traces = plot.map ? [mapTrace(plot)] : [];
     for (const s of plot.series) traces.push({
-      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: !saysItself(s) && !(s.sizes && s.sizes.some(size => size !== s.sizes[0])),
+      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: Boolean(s.name) && !saysItself(s) && !(s.sizes && s.sizes.some(size => size !== s.sizes[0])),
       marker: {color: colour(s.role), size: s.sizes ? s.sizes.map(size => 9 * size) : s.line ? 6 : 9, ...s.sizes ? {opacity: 0.75, line: {color: colour('card'), width: s.sizes[0] < 0.7 ? 0.4 : 1}} : {}},
       ...plot.bars ? {} : {
         mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
-        line: {color: colour(s.role), width: saysItself(s) ? (s.role === 'rigid' || s.role === 'reference' ? 1 : 2.2) : s.role === 'rigid' ? 3 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
+        line: {color: colour(s.role), width: saysItself(s) ? (s.role === 'rigid' || s.role === 'reference' ? 1 : 2.2) : s.behind ? 4.5 : 1.6, dash: s.dashed || s.role === 'reference' ? 'dash' : 'solid'},
       },
       ...s.labels ? {text: s.labels.map(plain)} : {}, ...saysItself(s) ? {hoverinfo: 'skip'} : {},
       ...saysItself(s) ? {} : {hovertemplate: s.sizes ? '%{text}<extra></extra>' : `${s.labels ? '%{text}<br>' : ''}${reading}<extra>${plain(s.name)}</extra>`},
     });
-    traces.push(...peaksOf(plot));
+    traces.push(...againOnTop(plot), ...peaksOf(plot));
     if (plot.marks.length) traces.push({
       x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => plain(m.text)), name: 'events', yaxis: 'y2', type: 'scatter',
       mode: 'markers', showlegend: false, cliponaxis: true, marker: {symbol: 'line-ns-open', size: 9, color: colour('vermillion'), line: {width: 1.4}},
@@ -101,9 +101,17 @@
       hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
     };
   }
+  // Where a curve in front swings so often that it fills a plane, what stands behind is traced thinly upon it.
+  function againOnTop(plot) {
+    const turns = s => s.y.reduce((sum, y, i) => sum + (i > 1 && (y - s.y[i - 1]) * (s.y[i - 1] - s.y[i - 2]) < 0 ? 1 : 0), 0);
+    if (!plot.series.some(s => !s.behind && s.line && !saysItself(s) && turns(s) > 120)) return [];
+    return plot.series.filter(s => s.behind).flatMap(s => [['card', 2.6], ['rigid', 1.4]].map(([name, width]) => (
+      {x: s.x, y: s.y, type: 'scatter', mode: 'lines', line: {color: colour(name), width}, showlegend: false, hoverinfo: 'skip'})));
+  }
   // The greatest magnitude of each curve that runs over time or speed, where there are few of them.
   function peaksOf(plot) {
-    const front = plot.series.filter(s => s.line && !s.points && !s.dashed && !saysItself(s) && s.role !== 'rigid' && s.role !== 'reference' && s.x.length > 20);
+    const level = s => Math.max(...s.y) - Math.min(...s.y) <= 1e-6 * Math.max(...s.y.map(Math.abs));
+    const front = plot.series.filter(s => s.line && !s.points && !s.dashed && !saysItself(s) && s.role !== 'rigid' && s.role !== 'reference' && s.x.length > 20 && !level(s));
     if (plot.map || plot.bars || isLocus(plot) || !front.length || front.length > 3) return [];
     return front.map(s => {
       let k = 0;
@@ -116,26 +124,45 @@
     });
   }
   // Names on an axis; of more lines the first alone where the page is narrow.
-  const placesOf = axis => ({tickvals: axis.names.map((_, i) => i + 1), ticktext: axis.names.map(name => plain(narrow() ? name.split('\n')[0] : name))});
+  const shortName = name => narrow() ? name.split('\n')[0] : name;
+  const placesOf = (names, text = names.map(shortName)) => ({tickvals: names.map((_, i) => i + 1), ticktext: text.map(plain)});
+  // Words of a name below each other, so that each line is at most so long; null: a word alone is longer.
+  function inLines(name, most) {
+    const lines = [''];
+    for (const word of name.split(/(?<=[ ._\n])/)) {
+      if (word.trimEnd().length > most) return null;
+      if ((lines[lines.length - 1] + word).trimEnd().length > most || /\n$/.test(lines[lines.length - 1])) lines.push('');
+      lines[lines.length - 1] += word;
+    }
+    return lines.length > 4 ? null : lines.map(line => line.trim()).join('\n');
+  }
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
     const given = plot.x.least !== undefined && plot.x.greatest !== undefined ? {range: [plot.x.least, plot.x.greatest]} : {};
-    if (plot.x.names) return {...given, ...placesOf(plot.x), tickangle: plot.x.names.map(name => name.split('\n')[0]).join('').length > (narrow() ? 30 : 90) ? -35 : 0};
+    if (plot.x.names) {
+      const room = (narrow() ? window.innerWidth - 120 : plot.wide ? 1200 : 520) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
+      return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: -35})};
+    }
     if (given.range) return given;
     if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
     const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
   }
   function layoutOf(plot) {
-    const axis = given => ({
-      title: {text: withUnit(given), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
+    // A logarithmic axis of few decades has 2 and 5 between its powers of ten.
+    const ticks = (given, along) => {
+      const values = plot.series.flatMap(s => s[along]).filter(v => v > 0);
+      return given.log && values.length && Math.log10(Math.max(...values) / Math.min(...values)) < 2.5 ? {dtick: 'D2'} : {};
+    };
+    const axis = (given, along) => ({
+      ...ticks(given, along), title: {text: withUnit(given), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
       linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', hoverformat: '.6~g',
     });
     const layout = {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
       margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
-      legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0,
-      xaxis: {...axis(plot.x), ...rangeOf(plot)}, yaxis: {...axis(plot.y), ...(plot.y.names ? placesOf(plot.y) : {})}, dragmode: narrow() ? false : 'zoom',
+      legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0 && !(plot.bars && plot.x.names && plot.series.every(s => s.x.length === 1)),
+      xaxis: {...axis(plot.x, 'x'), ...rangeOf(plot)}, yaxis: {...axis(plot.y, 'y'), ...(plot.y.names ? placesOf(plot.y.names) : {})}, dragmode: narrow() ? false : 'zoom',
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
     if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];
@@ -162,10 +189,26 @@
     }
     // "6 · 4 × cylinder" and "2  ring against flywheel, 280 Hz": where the page is narrow their numbers alone.
     const short = text => narrow() ? text.split(' ')[0] : text;
+    // A level line's name stands above it where circles, rays and bands leave most room: of places along it the emptiest.
+    const namePlace = (s, text) => {
+      const from = x ? x[0] : s.x[0], to = x ? x[1] : s.x[s.x.length - 1], width = Math.min(0.9, 7.2 * (text.length + 2) / (narrow() ? window.innerWidth - 100 : across - 120)) * (to - from);
+      const crowd = at => {
+        const within = (value, pad) => value > at - pad && value < at + width + pad, pad = 0.012 * (to - from);
+        let sum = 0;
+        for (const other of plot.series) {
+          if (other.sizes) other.x.forEach((cx, i) => { if (within(cx, pad) && y && Math.abs(other.y[i] - s.y[0]) < 0.06 * (y[1] - y[0])) sum += 3; });
+          else if (other.textAtEnd && other.x.length === 2 && other.y[1] !== other.y[0] && within(other.x[0] + (s.y[0] - other.y[0]) / (other.y[1] - other.y[0]) * (other.x[1] - other.x[0]), 0)) sum += 0.5;
+        }
+        for (const band of plot.bands || []) if (band.to > at - pad && band.from < at + width + pad) sum += band.from === band.to ? 2 : 0.6;
+        return sum;
+      };
+      const places = Array.from({length: 25}, (_, i) => from + i / 24 * (to - from - width));
+      return places.reduce((a, b) => crowd(b) < crowd(a) - 1e-9 ? b : a);
+    };
     const right = [], top = [];
     for (const s of plot.series) {
       const last = s.x.length - 1, font = {size: 11, color: colour(s.role)};
-      if (s.textAtStart && last >= 0) annotations.push({x: s.x[0], y: s.y[0], text: plain(short(s.textAtStart)), xanchor: 'left', yanchor: 'bottom', showarrow: false, font: {...font, size: 12}, bgcolor: colour('card'), opacity: 0.9, borderpad: 1});
+      if (s.textAtStart && last >= 0) annotations.push({x: namePlace(s, short(s.textAtStart)), y: s.y[0], text: plain(short(s.textAtStart)), xanchor: 'left', yanchor: 'bottom', showarrow: false, font: {...font, size: 12}, bgcolor: colour('card'), opacity: 0.9, borderpad: 1});
       if (!s.textAtEnd || last < 0) continue;
       const words = {x: s.x[last], y: s.y[last], text: plain(short(s.textAtEnd)), showarrow: false, font};
       if (y && s.y[last] >= y[1] * (1 - 1e-6)) top.push(words);
@@ -180,7 +223,7 @@
       for (let i = 1; i < list.length; ++i) list[i][along] = Math.max(list[i][along], list[i - 1][along] + step);
     };
     if (y) spread(right, 'y', y, 15 / high);
-    if (x) spread(top, 'x', x, 15 / Math.min(across, window.innerWidth));
+    if (x) spread(top, 'x', x, (narrow() ? 22 : 24) / Math.min(across, window.innerWidth));
     const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
     right.forEach(a => annotations.push({...a, x: 1, xref: 'paper', yref: y ? 'paper' : 'y', xanchor: 'left', yanchor: 'middle', xshift: 3}));
     top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: narrow() ? 'center' : 'left', yanchor: 'bottom', textangle: narrow() ? 0 : -40}));
@@ -231,11 +274,19 @@
       tool.onclick = event => { event.preventDefault(); act(); };
     }
     const entry = {plot, place, drawn: false};
+    // Names that a narrow diagram has no room for.
+    const named = narrow() ? plot.series.filter(s => s.textAtStart) : [];
+    if (named.length) {
+      const list = make('div', 'legend', null, card);
+      for (const s of named) make('span', 'is-' + s.role, s.textAtStart, list);
+    }
     if (plot.note) make('p', 'note', plot.note, card);
     plots.push(entry);
   }
   function drawPlot(entry) {
-    Plotly.react(entry.place, tracesOf(entry.plot), layoutOf(entry.plot), {responsive: true, displaylogo: false, displayModeBar: false});
+    const {plot, place} = entry, layout = layoutOf(plot);
+    if (root.classList.contains('printing')) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
+    Plotly.react(place, tracesOf(plot), layout, {responsive: true, displaylogo: false, displayModeBar: false});
     entry.drawn = true;
   }
   const drawAll = () => plots.forEach(drawPlot);
@@ -281,17 +332,19 @@
     const element = make('table', '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
     const kind = column => column < table.textColumns ? 'text' : '';
-    table.columns.forEach((text, i) => make('th', kind(i), text, head));
-    const body = make('tbody', '', null, element);
+    // Long names break behind their dots and underscores.
+    const write = (text, place, breaks) => text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
+    table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
+    const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
+    if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} of ${table.rows.length} rows; the page has all.`, card);
     table.rows.forEach((row, r) => {
-      const line = make('tr', '', null, body);
+      const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
-        const cell = make('td', [kind(i), tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        const cell = make('td', [kind(i), text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         if (table.hints && table.hints[r][i]) cell.title = table.hints[r][i];
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
-        // Long names break behind their dots and underscores.
-        text.split(/(?<=[._])/).forEach((piece, k) => { if (k && kind(i)) make('wbr', '', null, place); place.append(piece); });
+        write(text, place, kind(i));
       });
     });
   }
@@ -314,12 +367,15 @@
   function addMachine(m, card) {
     card.classList.add('machine');
     const front = m.motions[m.motions.length - 1], ghosts = m.motions.slice(0, -1);
+    card.style.setProperty('--front', `var(--${front.role})`);
+    card.style.setProperty('--behind', `var(--${ghosts.length ? ghosts[0].role : 'rigid'})`);
     const head = make('header', '', null, card);
     make('h3', '', m.title, head);
-    const stage = make('div', 'stage' + (m.linkages.length ? '' : ' alone') + (m.linkages.length > 1 ? ' many' : ''), null, card);
+    const stage = make('div', 'stage', null, card);
     const shaftLine = drawShaftLine(m, front, stage);
     const drawings = m.linkages.length > 1 ? make('div', 'linkages', null, stage) : stage;
     const mechanisms = m.linkages.map((g, k) => drawLinkage(m, g, k, front, ghosts, drawings));
+    arrange(stage, shaftLine, mechanisms.map(mechanism => mechanism.svg));
 
     // Controls.
     const controls = make('div', 'controls', null, card);
@@ -354,8 +410,9 @@
     loads.type = 'checkbox';
     make('span', '', 'forces and torques', loadsLabel);
     const legend = make('div', 'legend', null, card);
-    make('span', 'is-elastic', front.label + (front.twistIn.length ? `: twists reduced to ${m.link}, enlarged ${m.enlargement.toLocaleString('en')} ×` : ''), legend).className = 'is-elastic';
-    make('span', 'is-rigid', ghosts.length ? ghosts.map(g => g.label).join(', ') : 'without twist', legend);
+    make('span', 'is-front', front.label + (front.twistIn.length ? `: twists reduced to ${m.link}, enlarged ${m.enlargement.toLocaleString('en')} ×` : ''), legend);
+    if (ghosts.length) make('span', 'is-behind', `${ghosts.map(g => g.label).join(', ')}, behind`, legend);
+    else if (front.twistIn.length) make('span', 'is-untwisted', 'without twist', legend);
     make('span', 'plain', `all shafts are drawn at the speed of ${m.link}`, legend);
 
     // One frame.
@@ -365,8 +422,8 @@
       const place = (now - m.time[0]) / span * last;
       const i = Math.min(Math.floor(place), last - 1), share = place - i;
       const at = list => list && list.length ? list[i] + share * (list[i + 1] - list[i]) : 0;
-      shaftLine(at, loads.checked);
-      mechanisms.forEach(mechanism => mechanism(at, loads.checked));
+      shaftLine.update(at, loads.checked);
+      mechanisms.forEach(mechanism => mechanism.update(at, loads.checked));
       const angle = at(front.angle), within = ((angle % m.cycle) + m.cycle) % m.cycle;
       timeSlider.value = (now - m.time[0]) / span;
       angleSlider.value = within * 180 / Math.PI;
@@ -416,6 +473,24 @@
     for (const list of front.twistIn.length ? [...front.twistIn, ...front.twistOut] : front.force)
       list.forEach((value, i) => { if (Math.abs(value) > highest * 1.001) { highest = Math.abs(value); most = i; } });
     show(m.time[most]);
+  }
+
+  // Shaft line and mechanism beside each other, equally high, where that leaves the line's words readable; else below.
+  // Words come out at some 13 pixels however much the drawing is enlarged, and end within it.
+  function arrange(stage, line, linkages) {
+    const box = line.svg.viewBox.baseVal, ratio = svg => svg.viewBox.baseVal.width / svg.viewBox.baseVal.height;
+    const room = Math.min(1400, window.innerWidth) - (narrow() ? 44 : 110), high = linkages.length === 1 ? room / (ratio(line.svg) + ratio(linkages[0])) : 0;
+    const beside = window.innerWidth > 900 && high > 0.75 * box.height;
+    if (beside) {
+      stage.classList.add('beside');
+      stage.style.setProperty('--sides', [line.svg, linkages[0]].map(svg => `minmax(0, ${ratio(svg).toFixed(3)}fr)`).join(' '));
+    }
+    const words = Math.min(13 / Math.min(beside ? high / box.height : room / box.width, parseFloat(line.svg.style.maxHeight) / box.height), 24);
+    line.svg.style.setProperty('--words', `${words.toFixed(1)}px`);
+    for (const [text, middle] of line.names) {
+      const half = 0.31 * words * text.textContent.length + 2;
+      place(text, {x: Math.min(Math.max(middle, half), box.width - half)});
+    }
   }
 
   // What stands on a shaft, seen from the side: each draws itself about (x, y) and says how thick it is along the shaft.
@@ -476,6 +551,32 @@
       for (const s of [-1, 1]) draw('path', {d: `M${x - 8},${y + 22 * s} q-7,${20 * s} 8,${26 * s} q15,${-6 * s} 8,${-26 * s} Z`, class: 'body'}, svg);
       return 26;
     },
+    bearing(svg, x, y) {  // a pedestal
+      body(svg, x, y, 30, 40, 'body', 6);
+      for (const s of [-1, 1]) stroke(svg, x - 15, y + 20 * s, x + 15, y + 20 * s, 3);
+      draw('polygon', {points: `${x - 9},${y + 20} ${x + 9},${y + 20} ${x + 18},${y + 46} ${x - 18},${y + 46}`, class: 'body'}, svg);
+      for (let k = -2; k <= 2; ++k) stroke(svg, x + 8 * k, y + 46, x + 8 * k - 6, y + 53);
+      return 30;
+    },
+    differential(svg, x, y) {  // cage with its bevel gears
+      body(svg, x, y, 56, 96, 'body', 8);
+      for (const s of [-1, 1]) {
+        draw('polygon', {points: `${x + 22 * s},${y - 24} ${x + 22 * s},${y + 24} ${x + 10 * s},${y + 12} ${x + 10 * s},${y - 12}`, class: 'shaft'}, svg);
+        draw('polygon', {points: `${x - 22},${y + 36 * s} ${x + 22},${y + 36 * s} ${x + 11},${y + 23 * s} ${x - 11},${y + 23 * s}`, class: 'shaft'}, svg);
+      }
+      return 56;
+    },
+    wedge(svg, x, y) {
+      body(svg, x, y, 14, 60);
+      draw('polygon', {points: `${x + 7},${y + 42} ${x + 40},${y + 42} ${x + 7},${y + 20}`, class: 'part'}, svg);
+      return 14;
+    },
+    slide(svg, x, y) {  // a block on its way
+      body(svg, x, y, 14, 60);
+      body(svg, x + 24, y + 36, 30, 16, 'part', 1);
+      stroke(svg, x, y + 45, x + 46, y + 45, 2);
+      return 14;
+    },
     screw(svg, x, y) {
       body(svg, x, y, 66, 30, 'shaft', 1);
       for (let k = -4; k <= 4; ++k) stroke(svg, x + 7 * k - 3, y + 15, x + 7 * k + 3, y - 15, 1.4);
@@ -484,31 +585,67 @@
     },
   };
   const stepsDown = kind => ['gearbox', 'gear mesh', 'belt', 'worm gear'].includes(kind);
+  const couples = kind => /coupling$/.test(kind) && kind !== 'fluid coupling' || kind === 'universal joint';
+
+  // Pairs of wheels, pulleys with their belt, worm and wheel: from the shaft at y to the one at `out`.
+  function drawStep(svg, x, y, out, p) {
+    const i = Math.abs(p.ratioIn / p.ratioOut), high = i > 1 ? 1 / i : 1;
+    if (p.kind === 'belt') {  // both pulleys in one plane, the belt about them
+      const down = Math.sign(out - y), small = Math.min(20, 46 * high), large = Math.min(40, small / Math.max(high, 0.2));
+      const first = i > 1 ? small : large, second = i > 1 ? large : small;
+      draw('rect', {x: x - 6, y: Math.min(y - down * first, out + down * second), width: 12, height: Math.abs(out - y) + first + second, rx: 5, class: 'belt'}, svg);
+      body(svg, x, y, 20, 2 * first - 5, 'body', 2);
+      body(svg, x, out, 20, 2 * second - 5, 'body', 2);
+    } else if (p.kind === 'worm gear') {
+      body(svg, x, out, 12, 76);
+      for (let k = -4; k <= 4; ++k) stroke(svg, x - 6, out + 8 * k, x + 6, out + 8 * k, 0.5);
+      body(svg, x - 6, y, 56, 28, 'body', 2);
+      for (let k = -3; k <= 3; ++k) stroke(svg, x - 9 + 8 * k, y + 14, x - 3 + 8 * k, y - 14, 1.4);
+    } else {
+      const rIn = 12 + 30 * Math.sqrt(high) * (i > 1 ? 0.6 : 1), rOut = Math.max(60 - rIn, 14);
+      for (const [c, at, r] of [[x - 10, y, rIn], [x + 10, out, rOut]]) {
+        body(svg, c, at, 14, 2 * r, 'body', 2);
+        for (let k = -3; k <= 3; ++k) stroke(svg, c - 7, at + k * r / 3.6, c + 7, at + k * r / 3.6, 0.5);
+      }
+    }
+  }
+
+  // Of each line of parts; of a long one both ends, and where the page is narrow one piece below the other.
+  function lanesOf(m) {
+    const most = 14, atOnce = narrow() ? 5 : Infinity, lanes = [];
+    for (const row of [...new Set(m.parts.map(p => p.row))]) {
+      let list = m.parts.map((p, k) => ({p, k})).filter(e => e.p.row === row).map(e => e.p.kind === 'gap' ? null : e);
+      if (list.length > most + 1) list = [...list.slice(0, most / 2), null, ...list.slice(-most / 2)];
+      const pieces = Math.ceil(list.length / atOnce) || 1, length = Math.ceil(list.length / pieces);
+      for (let i = 0; i < pieces; ++i) lanes.push({row, list: list.slice(i * length, (i + 1) * length), begins: i === 0, ends: i === pieces - 1});
+    }
+    return lanes;
+  }
 
   // Parts side by side, a line painted along the shafts, and a dial below each part.
   function drawShaftLine(m, front, stage) {
     const ghost = m.motions.length > 1 ? m.motions[0] : null;
-    const rows = [...new Set(m.parts.map(p => p.row))];
-    const gap = 22, most = 14, R = 13;
-    // Steps down a row; where they add up, dials stand lower. Ties run below them.
+    const lanes = lanesOf(m), gap = 22, R = 13;
+    // Steps down and up a lane: what they add up to makes room above and below. Ties run below the dials.
     const stepOf = p => stepsDown(p.kind) ? (p.kind === 'belt' ? 52 : 34) * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : 0;
-    const lowest = Math.max(...rows.map(row => { let at = 0, low = 0; for (const p of m.parts) if (p.row === row) { at += stepOf(p); low = Math.max(low, at); } return low; }));
-    const lower = Math.max(0, lowest - 34), rowHeight = (m.ties.length ? 325 : 295) + lower;
-    let partsOf = rows.map(row => m.parts.map((p, k) => ({p, k})).filter(e => e.p.row === row).map(e => e.p.kind === 'gap' ? null : e));
-    partsOf = partsOf.map(list => list.length > most + 1 ? [...list.slice(0, most / 2), null, ...list.slice(-most / 2)] : list);
+    const halfOf = p => p.kind === 'flywheel' || p.kind === 'brake' ? 64 : 54;
+    let raise = 0, deepest = 0;
+    for (const {list} of lanes) {
+      let at = 0;
+      for (const e of list) if (e) { at += stepOf(e.p); deepest = Math.max(deepest, at + halfOf(e.p)); raise = Math.max(raise, -at); }
+    }
+    const axis = 112 + raise, dials = axis + deepest + 62, tied = m.ties.length || lanes.some(lane => !lane.begins), rowHeight = dials + (tied ? 71 : 41);
     const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
-    const width = Math.max(420, ...partsOf.map(lengthOf));
-    if (width > 1050) stage.classList.add('alone');
-    else if (width < 620) stage.classList.add('short');
-    const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * rows.length}`, class: 'line', role: 'img'}, stage);
+    const width = Math.max(420, ...lanes.map(lane => lengthOf(lane.list)));
+    const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * lanes.length}`, class: 'line', role: 'img'}, stage);
+    svg.style.maxHeight = `${460 * lanes.length}px`;
     draw('title', {}, svg, 'Shaft line');
-    const updates = [], stations = [];
-    const ends = [], shaftsOf = [];  // of each row: its first and last point; of each part: its two shafts
-    const under = draw('g', {}, svg);  // ties between the rows, behind everything
-    partsOf.forEach((list, r) => {
-      let x = gap + (width - lengthOf(list)) / 2;
-      let y = rowHeight * r + 105;
-      let line = [];
+    const updates = [], stations = [], names = [];
+    const ends = [], shaftsOf = [];  // of each lane: its first and last point; of each part: its two shafts
+    const under = draw('g', {}, svg);  // ties between the lanes, behind everything
+    lanes.forEach(({row, list, begins, ends: closes}, r) => {
+      const comesFrom = !begins || m.ties.some(tie => tie.row === row && !tie.atEnd), goesTo = !closes || m.ties.some(tie => tie.row === row && tie.atEnd);
+      let x = gap + (width - lengthOf(list)) / 2, y = rowHeight * r + axis, line = [];
       stations.push(line);
       list.forEach((entry, n) => {
         if (!entry) {
@@ -517,93 +654,95 @@
           x += 40 + gap;
           return;
         }
-        const {p, k} = entry, w = partWidth(p), kind = p.kind, middle = x + w / 2;
+        const {p, k} = entry, w = partWidth(p), kind = p.kind, middle = x + w / 2, out = y + stepOf(p);
         // Shafts to both neighbours.
         const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
-        const out = y + stepOf(p);
-        shaftsOf[k] = {middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
+        shaftsOf[k] = {lane: r, middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
         ends[r] = {first: ends[r] ? ends[r].first : {x: x - gap / 2, y}, last: {x: x + w + gap / 2, y: out}};
-        if (n > 0 || kind === 'coupling' || stepsDown(kind)) shaft(x - gap / 2, middle, y);
-        if (n < list.length - 1 || kind === 'coupling' || stepsDown(kind)) shaft(middle, x + w + gap / 2, out);
+        const joins = couples(kind) || stepsDown(kind);
+        if (n > 0 || comesFrom || joins) shaft(x - gap / 2, middle, y);
+        if (n < list.length - 1 || goesTo || joins) shaft(middle, x + w + gap / 2, out);
         line.push({x: x - gap / 2, y, k, side: 'twistIn'});
         if (stepsDown(kind)) {
           line.push({x: middle - 6, y, k, side: 'twistIn'});
           stations.push(line = []);
           line.push({x: middle + 6, y: out, k, side: 'twistOut'});
-          const i = Math.abs(p.ratioIn / p.ratioOut), high = i > 1 ? 1 / i : 1;
-          const rIn = 12 + 30 * Math.min(1, Math.pow(high, 0.5)) * (i > 1 ? 0.6 : 1), rOut = 60 - rIn > 14 ? 60 - rIn : 14;
-          if (kind === 'belt') {  // both pulleys in one plane, the belt about them
-            const down = Math.sign(out - y), small = Math.min(20, 46 * Math.min(1, high)), large = Math.min(40, small / Math.max(high, 0.2));
-            const first = i > 1 ? small : large, second = i > 1 ? large : small;
-            draw('rect', {x: middle - 6, y: Math.min(y - down * first, out + down * second), width: 12, height: Math.abs(out - y) + first + second, rx: 5, class: 'belt'}, svg);
-            body(svg, middle, y, 20, 2 * first - 5, 'body', 2);
-            body(svg, middle, out, 20, 2 * second - 5, 'body', 2);
-          } else {
-            body(svg, middle - 10, y, 14, 2 * rIn, 'body', 2);
-            body(svg, middle + 10, out, 14, 2 * rOut, 'body', 2);
-            for (const [c, at, r] of [[middle - 10, y, rIn], [middle + 10, out, rOut]])
-              for (let k = -3; k <= 3; ++k) stroke(svg, c - 7, at + k * r / 3.6, c + 7, at + k * r / 3.6, 0.5);
-          }
-          draw('text', {x: middle, y: y - 62, 'text-anchor': 'middle', class: 'soft'}, svg, `i = ${+(p.ratioIn / p.ratioOut).toPrecision(4)}`);
-        } else if (kind === 'coupling') {
+          drawStep(svg, middle, y, out, p);
+          draw('text', {x: middle, y: Math.min(y, out) - 62, 'text-anchor': 'middle', class: 'soft'}, svg, `i = ${+(p.ratioIn / p.ratioOut).toPrecision(4)}`);
+        } else if (couples(kind)) {
           line.push({x: middle - 12, y, k, side: 'twistIn'}, {x: middle + 12, y, k, side: 'twistOut'});
           for (const s of [-1, 1]) draw('rect', {x: middle + (s < 0 ? -26 : 12), y: y - 34, width: 14, height: 68, rx: 3, class: 'body'}, svg);
-          if (p.elastic) draw('polyline', {points: [-12, -8, -4, 0, 4, 8, 12].map((d, j) => `${middle + d},${y - 24 + (j % 2 ? -5 : 5)}`).join(' '), class: 'front', 'stroke-width': 1.6}, svg);
+          if (kind === 'universal joint') {
+            for (const s of [-1, 1]) { stroke(svg, middle - 12, y - 22 * s, middle + 2, y, 6); stroke(svg, middle + 12, y - 22 * s, middle - 2, y, 6); }
+            draw('circle', {cx: middle, cy: y, r: 6, class: 'dial'}, svg);
+          } else if (p.elastic) draw('polyline', {points: [-12, -8, -4, 0, 4, 8, 12].map((d, j) => `${middle + d},${y - 24 + (j % 2 ? -5 : 5)}`).join(' '), class: 'front', 'stroke-width': 1.6}, svg);
           else draw('rect', {x: middle - 12, y: y - 27, width: 24, height: 6, class: 'shaft'}, svg);
         } else {
-          const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : p.crank ? 72 : kind === 'load' ? 84 : 84;
+          const height = /flywheel/.test(kind) ? 128 : /motor|turbine/.test(kind) ? 92 : 84;
           const plainThick = /flywheel/.test(kind) ? 34 : /motor|turbine/.test(kind) ? w - 16 : p.crank ? 0 : 26;
           const drawn = symbols[kind] ? symbols[kind](svg, middle, y, p) : 0;
           const thick = drawn || plainThick;
-          if (thick && !drawn) draw('rect', {x: middle - thick / 2, y: y - height / 2, width: thick, height, rx: /motor/.test(kind) ? 8 : 3, class: 'body'}, svg);
-          if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) draw('line', {x1: middle - thick / 2 + 8, x2: middle + thick / 2 - 8, y1: y - height / 2 + j * height / 6, y2: y - height / 2 + j * height / 6, stroke: 'var(--metal-edge)', 'stroke-width': .6}, svg);
+          if (thick && !drawn) body(svg, middle, y, thick, height, 'body', /motor/.test(kind) ? 8 : 3);
+          if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) stroke(svg, middle - thick / 2 + 8, y - height / 2 + j * height / 6, middle + thick / 2 - 8, y - height / 2 + j * height / 6, 0.6);
           if (p.crank) {
             shaft(middle, middle + 22, y);
-            const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg);
+            const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg), at0 = y;
             updates.push(at => {
               const h = 40 * Math.sin(at(front.angle));
-              place(web, {y: y + Math.min(0, -h) - 10, height: Math.abs(h) + 20});
-              place(pin, {y: y - h - 6});
+              place(web, {y: at0 + Math.min(0, -h) - 10, height: Math.abs(h) + 20});
+              place(pin, {y: at0 - h - 6});
             });
           }
-          if (!/motor|turbine/.test(kind) || n > 0) line.push({x: middle - thick / 2, y, k, side: 'twistIn', hidden: thick > 60});
+          if (!/motor|turbine/.test(kind) || n > 0 || comesFrom) line.push({x: middle - thick / 2, y, k, side: 'twistIn'});
           line.push({x: middle + thick / 2 + (p.crank ? 14 : 0), y, k, side: 'twistOut'});
-          if (n === 0) line.shift();
+          if (n === 0 && !comesFrom) line.shift();
         }
-        if (n < list.length - 1) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
+        if (n < list.length - 1 || goesTo) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
         // Name, and the dial.
         const name = p.name.length > 16 ? p.name.slice(0, 15) + '…' : p.name;
-        draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name);
-        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + 254 + lower, svg));
+        names.push([draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name), middle]);
+        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + dials, svg));
         x += w + gap;
         y = out;
       });
     });
-    // A line begins, and may end, at a shaft of another: drawn as a way round the dials.
-    const rowOf = k => rows.indexOf(m.parts[k].row);
-    m.ties.forEach((tie, n) => {
-      const to = shaftsOf[tie.part], own = ends[rows.indexOf(tie.row)];
-      if (!to || !own) return;
-      const a = tie.out ? to.out : to.in, b = tie.atEnd ? own.last : own.first, r = rowOf(tie.part);
-      const shelf = rowHeight * r + 292 + lower + 8 * (n % 3), aside = tie.atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
-      draw('polyline', {points: `${to.middle},${a.y} ${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
+    // A line begins, and may end, at a shaft of another, and goes on below where it was cut: drawn as a way round the dials.
+    const tie = (from, a, b, atEnd, n) => {
+      const shelf = rowHeight * from.lane + dials + 42 + 8 * (n % 3), aside = atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
+      draw('polyline', {points: `${from.middle},${a.y} ${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
+    };
+    m.ties.forEach((t, n) => {
+      const to = shaftsOf[t.part], own = t.atEnd ? lanes.findLastIndex(lane => lane.row === t.row) : lanes.findIndex(lane => lane.row === t.row);
+      if (!to || !ends[own]) return;
+      const a = t.out ? to.out : to.in;
+      tie(to, a, t.atEnd ? ends[own].last : ends[own].first, t.atEnd, n);
       draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
-    const angleOf = (motion, s, at) => at(motion.angle) + (motion[s.side].length ? m.enlargement * at(motion[s.side][s.k]) : 0);
+    lanes.forEach((lane, r) => { if (!lane.begins && ends[r] && ends[r - 1]) tie({lane: r - 1, middle: ends[r - 1].last.x}, ends[r - 1].last, ends[r].first, false, 0); });
+    const angleOf = (motion, s, at) => at(motion.angle) + apartOf(m, motion, s.k, s.side === 'twistOut', at);
     for (const line of stations.filter(l => l.length > 1)) {
-      const background = draw('polyline', {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '5 4'}, svg);
+      const background = draw('polyline', ghost ? {class: 'ghost', 'stroke-width': 8} : {class: 'untwisted'}, svg);
       const paint = draw('polyline', {class: 'front', 'stroke-width': 3.2, 'stroke-linejoin': 'round'}, svg);
       updates.push(at => {
         const pointsOf = angle => line.map(s => `${s.x.toFixed(1)},${(s.y - R * Math.sin(angle(s))).toFixed(2)}`).join(' ');
         place(paint, {points: pointsOf(s => angleOf(front, s, at)), opacity: Math.cos(angleOf(front, line[0], at)) >= 0 ? 1 : 0.25});
-        place(background, {points: pointsOf(s => ghost ? angleOf(ghost, s, at) : at(front.angle)), opacity: Math.cos(at(ghost ? ghost.angle : front.angle)) >= 0 ? 1 : 0.25});
+        if (ghost || front.twistIn.length) place(background, {points: pointsOf(s => ghost ? angleOf(ghost, s, at) : at(front.angle) + slipOf(front, s.k, s.side === 'twistOut', at)), opacity: Math.cos(at(ghost ? ghost.angle : front.angle)) >= 0 ? 0.6 : 0.15});
       });
     }
-    return (at, loads) => updates.forEach(update => update(at, loads));
+    return {svg, names, update: (at, loads) => updates.forEach(update => update(at, loads))};
   }
 
+  // By how much a part's shaft stands before the link: its twist enlarged, its slip as it is.
+  function apartOf(m, motion, k, out, at) {
+    const twist = out ? motion.twistOut : motion.twistIn;
+    return (twist.length ? m.enlargement * at(twist[k]) : 0) + slipOf(motion, k, out, at);
+  }
+  function slipOf(motion, k, out, at) {
+    const slip = out ? motion.slipOut : motion.slipIn;
+    return slip ? at(slip[k]) : 0;
+  }
   const hand = (x, y, r, angle) => ({x1: x, y1: y, x2: x + r * Math.cos(angle), y2: y - r * Math.sin(angle)});
-  const withPrefix = (value, unit) => Math.abs(value) >= 1e6 ? `${(value / 1e6).toPrecision(3)} M${unit}` : Math.abs(value) >= 1000 ? `${(value / 1000).toPrecision(3)} k${unit}` : `${Math.abs(value) < 0.5 ? 0 : +value.toPrecision(3)} ${unit}`;
+  const withPrefix = (value, unit) => Math.abs(value) >= 1e6 ? `${+(value / 1e6).toPrecision(3)} M${unit}` : Math.abs(value) >= 1000 ? `${+(value / 1000).toPrecision(3)} k${unit}` : `${Math.abs(value) < 0.5 ? 0 : +value.toPrecision(3)} ${unit}`;
   function drawArrowHead(path, head, x, y, direction, size) {
     const c = Math.cos(direction), s = Math.sin(direction);
     place(head, {points: [[size, 0], [-size * 0.5, size * 0.65], [-size * 0.5, -size * 0.65]].map(([a, b]) => `${x + a * c - b * s},${y - a * s - b * c}`).join(' ')});
@@ -614,7 +753,7 @@
     const r = 27;
     draw('circle', {cx: x, cy: y, r, class: 'dial'}, svg);
     const wedge = draw('path', {class: 'wedge'}, svg);
-    const grey = draw('line', {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '4 3'}, svg);
+    const grey = draw('line', ghost ? {class: 'ghost', 'stroke-width': 7, opacity: 0.6} : {class: 'untwisted'}, svg);
     const input = draw('line', {class: 'front', 'stroke-width': 1.6, opacity: .65}, svg), output = draw('line', {class: 'front', 'stroke-width': 3}, svg);
     const torque = front.torque[k] || [];
     const shown = torque.length > 0;
@@ -622,13 +761,13 @@
     const group = draw('g', {}, svg), arc = draw('path', {class: 'arrow'}, group), head = draw('polygon', {class: 'head'}, group);
     const text = draw('text', {x, y: y - 44, 'text-anchor': 'middle', class: 'load'}, group);
     return (at, loads) => {
-      const base = at(front.angle), a = base + (front.twistIn.length ? m.enlargement * at(front.twistIn[k]) : 0), b = base + (front.twistOut.length ? m.enlargement * at(front.twistOut[k]) : 0);
-      place(grey, hand(x, y, r, at((ghost || front).angle)));
+      const base = at(front.angle), a = base + apartOf(m, front, k, false, at), b = base + apartOf(m, front, k, true, at);
+      place(grey, hand(x, y, r, ghost ? at(ghost.angle) + apartOf(m, ghost, k, true, at) : base + slipOf(front, k, true, at)));
       place(input, hand(x, y, r, a));
       place(output, hand(x, y, r, b));
       // What slips has turned apart by many turns: the part of one is shown.
       const apart = (b - a) % (2 * Math.PI), to = a + apart, sweep = apart > 0 ? 0 : 1;
-      place(wedge, {d: Math.abs(apart) < 1e-3 ? '' : `M${x},${y} L${x + r * Math.cos(a)},${y - r * Math.sin(a)} A${r},${r} 0 ${Math.abs(apart) > Math.PI ? 1 : 0} ${sweep} ${x + r * Math.cos(to)},${y - r * Math.sin(to)} Z`});
+      place(wedge, {d: Math.abs(apart) < 1e-3 || !(m.parts[k].elastic || m.parts[k].slips) ? '' : `M${x},${y} L${x + r * Math.cos(a)},${y - r * Math.sin(a)} A${r},${r} 0 ${Math.abs(apart) > Math.PI ? 1 : 0} ${sweep} ${x + r * Math.cos(to)},${y - r * Math.sin(to)} Z`});
       group.setAttribute('visibility', loads && shown ? 'visible' : 'hidden');
       if (!loads || !shown) return;
       const value = at(torque), turn = 2.6 * value / largest, R = r + 7, start = Math.PI / 2 - turn / 2, end = start + turn;
@@ -659,8 +798,8 @@
     const scale = 380 / Math.max(w, h), padding = 18;
     const bends = front.bend && front.bend[which] || [], bent = bends.length > 0;
     const firstShift = 2 * m.linkages.slice(0, which).reduce((sum, l) => sum + l.gaps.length, 0);
-    const top = g.gaps.length ? 104 : 36;  // above all, the scale bar and the gaps
-    const W = Math.max(w * scale + 2 * padding, 250, 124 * g.gaps.length), H = h * scale + padding + top;
+    const top = g.gaps.length ? 104 : bent ? 54 : 36;  // above all, the scale bar and the gaps
+    const W = Math.max(w * scale + 2 * padding, 130, 150 * g.gaps.length), H = h * scale + padding + top;
     const X = (u, v) => (u * c - v * s - (Math.max(...xs) + Math.min(...xs)) / 2) * scale + W / 2;
     const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + top;
     const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
@@ -689,10 +828,10 @@
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
     draw('text', {x: 10, y: 30, class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
 
-    if (bent) draw('text', {x: 10, y: H - 8, class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    if (bent) draw('text', {x: 10, y: 48, class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
     // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
     const gaps = g.gaps.map((gap, k) => {
-      const x = W - 62 - 124 * k, y = 42, wide = 12, R = 36;
+      const x = W - 76 - 150 * k, y = 42, wide = 12, R = 36;
       draw('circle', {cx: x, cy: y, r: R, class: 'dial'}, svg);
       draw('text', {x, y: y + R + 16, class: 'soft', 'text-anchor': 'middle'}, svg, `${gap.joint}, gap ${+(gap.size * 1000).toPrecision(3)} mm`);
       const journal = draw('circle', {r: R - wide, class: 'body'}, svg), centre = draw('circle', {r: 2.5, class: 'tie-end'}, svg);
@@ -718,7 +857,7 @@
       return Array.from({length: 17}, (_, i) => [0, 1].map(k => a[k] + i / 16 * (b[k] - a[k]) + bend * Math.sin(Math.PI * i / 16) * across[k]));
     }
     function linkage(parent, ghost) {
-      const ghostly = {class: 'ghost', 'stroke-width': 2, 'stroke-dasharray': '6 4'};
+      const ghostly = {class: 'ghost', 'stroke-width': 13, 'stroke-linecap': 'round', 'stroke-linejoin': 'round', opacity: 0.45};
       // The pin's circle, where it comes round: the view of a crank that rocks ends at its arc.
       const radius = Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]), spread = list => Math.max(...list) - Math.min(...list);
       if (!ghost && Math.min(spread(g.x[1]), spread(g.y[1])) > 1.9 * radius) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: radius * scale, class: 'dial'}, parent);
@@ -742,13 +881,14 @@
         return points;
       };
     }
-    const main = linkage(svg, false);
     const shadows = ghosts.map(() => linkage(svg, true));
+    const main = linkage(svg, false);
     const largest = own.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
     const group = draw('g', {}, svg), arrow = draw('path', {class: 'arrow', 'stroke-width': 4, fill: 'none'}, group), head = draw('polygon', {class: 'head'}, group);
     const onLeft = X(g.x[end][0], g.y[end][0]) > 0.6 * W;  // the figure stands where the arrow does not
     const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
-    return (at, loads) => {
+    return {svg, update};
+    function update(at, loads) {
       const points = main(g.ratio * at(front.angle), bent ? g.bendEnlargement * at(bends) : 0);
       gaps.forEach(show => show(at));
       ghosts.forEach((ghost, i) => shadows[i](g.ratio * at(ghost.angle)));
@@ -767,7 +907,7 @@
         place(arrow, {d: `M${x + R * Math.cos(start)},${y - R * Math.sin(start)} A${R},${R} 0 0 ${turn > 0 ? 0 : 1} ${x + R * Math.cos(stop)},${y - R * Math.sin(stop)}`});
         drawArrowHead(arrow, head, x + R * Math.cos(stop), y - R * Math.sin(stop), stop + (turn > 0 ? 1 : -1) * Math.PI / 2, Math.abs(turn) < 0.08 ? 0 : 8);
       }
-    };
+    }
   }
 
   // --- two wheels in mesh ----------------------------------------------------------------------------------------------
@@ -913,7 +1053,7 @@
     (figure.means ? meaningOf(figure.means, name) : name).append(figure.name);
     const value = make('div', 'value', figure.value + ' ', box);
     make('span', 'unit', figure.unit, value);
-    if (figure.error) make('div', 'error', `${figure.error} ${figure.unit}`, box);
+    if (figure.error || figure.known) make('div', 'error', [figure.known, figure.error, figure.unit].filter(Boolean).join(' '), box);
     if (figure.note) make('div', 'note', figure.note, box);
   }
   const makers = {plot: addPlot, table: addTable, formula: addFormula, text: addText, machine: addMachine, gears: addGears};
@@ -941,17 +1081,20 @@
 
   // Colours follow the system; print is light and unfolded.
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
-  const print = matchMedia('print');
-  let opened = [];
+  // Before pages are made of it: what is opened later would not be counted, nor printed.
+  let opened = null;
   function printing(on) {
+    if (on === (opened !== null)) return;
     if (on) {
       opened = [...document.querySelectorAll('details:not([open]):not(.licence)')];
       opened.forEach(details => { details.open = true; });
     } else {
       opened.forEach(details => { details.open = false; });
-      opened = [];
+      opened = null;
     }
+    root.classList.toggle('printing', on);
     drawAll();
   }
-  print.addEventListener('change', event => printing(event.matches));
+  addEventListener('beforeprint', () => printing(true));
+  addEventListener('afterprint', () => printing(false));
 })();

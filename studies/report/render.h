@@ -11,6 +11,10 @@ namespace kurbel {
 // Points of a series that a page holds; longer ones are thinned with their peaks kept.
 inline constexpr std::size_t points_per_series = 2400;
 
+// The rigid machine's curve, thick and grey, behind those of others; and a plot's series in the order of drawing.
+bool stands_behind(const Series& series);
+std::vector<std::size_t> order_of_drawing(const Plot& plot);
+
 // A series as it is drawn: of a longer curve what keeps its peaks, of a longer cloud of markers some, drawn by
 // chance, with what is said of them. What is left of a thinned curve has neither labels nor sizes.
 Series drawn(const Series& series);

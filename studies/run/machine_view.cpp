@@ -59,8 +59,10 @@ void add_parts(MachineView& view, const Model& model) {
     part.ratio_out = model.node_ratio[at(ports.out)];
     for (const Network::ShaftElement& element : model.network.elements)
       part.crank = part.crank || (element.component == name && mechanism_of(element));
-    for (const ElasticJoint& joint : model.elastic)
-      part.elastic = part.elastic || model.network.joints[at(joint.joint)].component == name;
+    for (const ElasticJoint& joint : model.elastic) {
+      if (model.network.joints[at(joint.joint)].component != name) continue;
+      (joint.slips || joint.springless ? part.slips : part.elastic) = true;
+    }
     view.parts.push_back(std::move(part));
   };
   if (model.scene.lines.empty())
@@ -136,6 +138,41 @@ void add_linkages(MachineView& view, const Model& model) {
     if (static_cast<int>(e) != model.reduction_element) add(model.network.elements[e]);
 }
 
+// What has slipped apart is no twist to enlarge: from part to part along each line, beginning where the line does, the
+// turns between the two shafts of what slips are taken out of the twists and told apart; none are left at the link.
+void tell_slips_apart(MachineView::Motion& motion, const MachineView& view) {
+  if (std::none_of(view.parts.begin(), view.parts.end(), [](const MachineView::Part& p) { return p.slips; })) return;
+  const std::size_t frames = view.time.size();
+  const std::vector<double> none(frames, 0.0);
+  motion.slip_in.assign(view.parts.size(), none), motion.slip_out.assign(view.parts.size(), none);
+  int row = -1;
+  std::vector<double> so_far = none;
+  for (std::size_t k = 0; k < view.parts.size(); ++k) {
+    const MachineView::Part& part = view.parts[k];
+    if (part.row != row) {
+      row = part.row, so_far = none;
+      for (const MachineView::Tie& tie : view.ties)
+        if (tie.row == row && !tie.at_end && at(tie.part) < k)
+          so_far = (tie.out ? motion.slip_out : motion.slip_in)[at(tie.part)];
+    }
+    const auto &in = motion.twist_in[k], &out = motion.twist_out[k];
+    motion.slip_in[k] = so_far;
+    if (part.slips && in.size() == frames && out.size() == frames)
+      for (std::size_t i = 0; i < frames; ++i) so_far[i] += out[i] - in[i];
+    motion.slip_out[k] = so_far;
+  }
+  std::size_t link = 0;
+  while (link + 1 < view.parts.size() && view.parts[link].name != view.link) ++link;
+  const std::vector<double> there = motion.slip_in[link];
+  for (std::size_t k = 0; k < view.parts.size(); ++k)
+    for (const auto& [slip, twist] :
+         {std::pair(&motion.slip_in[k], &motion.twist_in[k]), std::pair(&motion.slip_out[k], &motion.twist_out[k])})
+      for (std::size_t i = 0; i < frames; ++i) {
+        (*slip)[i] -= there[i];
+        if (twist->size() == frames) (*twist)[i] -= (*slip)[i];
+      }
+}
+
 MachineView::Motion motion_of(const Result& r, const MachineView& view, Role role) {
   const Model& model = *r.model;
   const Traces& traces = *r.traces;
@@ -144,11 +181,12 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
                              .angle = sampled(traces.find("angle"), view.time),
                              .twist_in = {},
                              .twist_out = {},
+                             .slip_in = {},
+                             .slip_out = {},
                              .torque = {},
                              .force = {},
                              .bend = {},
                              .shift = {}};
-  bool any_twist = false;
   for (const MachineView::Part& part : view.parts) {
     if (part.kind == "gap") {
       for (auto* lists : {&motion.twist_in, &motion.twist_out, &motion.torque}) lists->emplace_back();
@@ -159,9 +197,12 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
     motion.twist_out.push_back(ports.in == ports.out ? motion.twist_in.back()
                                                      : sampled(traces.find(Traces::node_key(ports.out)), view.time));
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
-    for (const auto& twists : {motion.twist_in.back(), motion.twist_out.back()})
-      for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
   }
+  tell_slips_apart(motion, view);
+  bool any_twist = false;
+  for (const auto* side : {&motion.twist_in, &motion.twist_out})
+    for (const auto& twists : *side)
+      for (const double twist : twists) any_twist = any_twist || std::abs(twist) > 1e-12;
   for (const MachineView::Linkage& linkage : view.linkages) {
     motion.force.emplace_back();
     for (const char* load : {"force.", "load_torque."})

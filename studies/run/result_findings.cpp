@@ -110,6 +110,7 @@ Rows limits_table(const Result& r) {
   constexpr std::size_t most = 12, most_states = 3;
   return table_of("", fmt::format("What kept the steps short, {} model", r.label), r.statistics.limits)
       .people_see_first(most)
+      .text_in(3)
       .only_for_people("element", [](const LimitedSteps& l) { return l.element.empty() ? "—" : l.element; })
       .only_for_people("by", &LimitedSteps::by)
       .only_for_people("states",
@@ -272,6 +273,7 @@ void show_motion(Findings& f, const Results& results) {
   const Chapter plots =
       f.chapter(results.back()->traces->last_cycles.empty() ? "Over time" : "Over time and over the crank's angle");
   f.draw(plots, [results] { return motion_plots(results); });
+  f.draw(f.chapter("What drives, slips and heats"), [results] { return drive_plots(results); });
   if (const std::size_t all = couplings(*results.back()).size(); all > most_torque_plots)
     f.show(plots, Text{.title = "Further couplings",
                        .body = fmt::format("Torques are plotted for the {} couplings with the largest peaks, of {}; "

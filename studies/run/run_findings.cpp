@@ -24,6 +24,11 @@ KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& spee
   return {in_words(f), speed.of(f.value), speed.name, error, note, 0, f.name};
 }
 
+std::string processor_time_in_words(const Result& r) {
+  const double seconds = r.statistics.cpu_seconds;
+  return seconds < 1 ? with_unit(1e3 * seconds, "ms", 3) : with_unit(seconds, "s", 3);
+}
+
 // --- one run ---
 
 Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_terminal) {
@@ -173,7 +178,7 @@ std::vector<KeyFigure> key_figures_of(const Result& r) {
                      static_cast<double>(r.coordinates),
                      "",
                      {},
-                     fmt::format("{:.3g} ms of processor time a run", 1e3 * r.statistics.cpu_seconds),
+                     processor_time_in_words(r) + " of processor time a run",
                      0,
                      "coordinates"});
   return figures;
@@ -200,11 +205,12 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
   add(first_of(c.b, QuantityKind::delta));
   add(first_of(c.b, QuantityKind::cycle_fluctuation));
   add(first_of(c.b, QuantityKind::mid_speed));
+  const bool short_run = c.b.statistics.cpu_seconds < 1;
   figures.push_back({"processor time of a run",
-                     1e3 * c.b.statistics.cpu_seconds,
-                     "ms",
+                     (short_run ? 1e3 : 1) * c.b.statistics.cpu_seconds,
+                     short_run ? "ms" : "s",
                      {},
-                     fmt::format("{}: {:.3g} ms", c.a.label, 1e3 * c.a.statistics.cpu_seconds),
+                     fmt::format("{}: {}", c.a.label, processor_time_in_words(c.a)),
                      3,
                      "processor_time"});
   return figures;

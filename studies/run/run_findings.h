@@ -61,6 +61,8 @@ std::vector<std::string> couplings(const Result& result);
 
 MachineView machine_view(const Results& results);
 std::vector<Plot> motion_plots(const Results& results);
+// Torque, power and current of what drives; of what slips by how much, and the heat that this makes.
+std::vector<Plot> drive_plots(const Results& results);
 
 // --- what findings of one run and of two compared share (result_findings.cpp) ---
 

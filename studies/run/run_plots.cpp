@@ -26,9 +26,25 @@ Role role_of(const Result& r, const Results& all) {
   return all.size() > 1 && &r == all.front() ? Role::orange : Role::elastic;
 }
 
+// Events that no eye tells apart are one mark, with what the first few of them are.
 std::vector<EventMark> marks_of(const Result& r) {
+  constexpr double apart = 1.0 / 300;  // of the time shown
+  constexpr std::size_t most_told = 3;
   std::vector<EventMark> marks;
-  for (const Event& e : r.events) marks.push_back({e.t, e.component + ": " + e.what});
+  std::vector<std::string> told;
+  std::size_t count = 0;
+  for (const Event& e : r.events) {
+    const std::string words = e.component + ": " + e.what;
+    if (marks.empty() || e.t - marks.back().x > apart * (r.until - r.begins_at))
+      marks.push_back({e.t, words}), told = {words}, count = 1;
+    else if (++count, std::find(told.begin(), told.end(), words) == told.end())
+      told.push_back(words);
+    if (count < 2) continue;
+    marks.back().text = fmt::format("{} events: ", count);
+    for (std::size_t k = 0; k < told.size() && k < most_told; ++k)
+      marks.back().text += fmt::format("{}{}", k ? ", " : "", told[k]);
+    if (told.size() > most_told) marks.back().text += ", …";
+  }
   return marks;
 }
 
@@ -155,8 +171,8 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
   return plot;
 }
 
-// A trace over the angle at the angles of another one.
-std::vector<double> at_angles(const Trace& trace, const std::vector<double>& angles) {
+// A trace at the places of another one.
+std::vector<double> at_places(const Trace& trace, const std::vector<double>& angles) {
   std::vector<double> values;
   for (const double angle : angles) {
     const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
@@ -202,7 +218,7 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
     }
     if (!travel || !force) continue;
     plot.series.push_back(
-        {.name = r->label, .role = role_of(*r, results), .x = at_angles(*travel, force->x), .y = force->y});
+        {.name = r->label, .role = role_of(*r, results), .x = at_places(*travel, force->x), .y = force->y});
     for (const double x : travel->y) farthest = std::max(farthest, std::abs(x));
     for (const double y : force->y) largest = std::max(largest, std::abs(y));
   }
@@ -246,11 +262,30 @@ std::pair<std::string, std::string> of_joint_or_rod(const Trace& trace) {
   return {};
 }
 
+// Product of two traces of each model over time, on the times of the first; nothing where a model has not both.
+std::optional<Plot> product_over_time(const Results& results, const std::string& channel, const std::string& times,
+                                      const std::string& title, const std::string& label) {
+  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .series = {}, .marks = marks_of(*results.back())};
+  for (const Result* r : results) {
+    const Trace *first = r->traces->find(channel), *second = r->traces->find(times);
+    if (!first || !second || first->x.empty() || second->x.empty()) continue;
+    Series s{.name = r->label, .role = role_of(*r, results), .x = first->x, .y = at_places(*second, first->x)};
+    for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] *= first->y[i];
+    plot.series.push_back(std::move(s));
+  }
+  if (plot.series.empty() || largest_of(plot) == 0) return {};
+  return in_readable_unit(std::move(plot), "W");
+}
+
+std::string told_figure(const Result& r, const std::string& name, const char* words) {
+  const Figure* figure = r.find(name);
+  return figure ? fmt::format("{} {}", words, told_shortly(figure->value, figure->unit, speed_unit_of(r)))
+                : std::string();
+}
+
 // A word that fits the plot's marks, where there are any.
 void note_marks(Plot& plot) {
-  if (!plot.marks.empty() && plot.note.empty())
-    plot.note =
-        fmt::format("Ticks below: {} event{}; hover to read.", plot.marks.size(), plot.marks.size() == 1 ? "" : "s");
+  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks below: events; hover to read.";
 }
 
 }  // namespace
@@ -322,6 +357,38 @@ std::vector<Plot> motion_plots(const Results& results) {
   for (const Trace& trace : front.traces->over_time)
     if (trace.what == QuantityKind::position) add(indicator_diagram(results, trace.of, trace.unit != "m"));
   for (const Result* r : results) plots.push_back(energy_plot(*r));
+  return plots;
+}
+
+std::vector<Plot> drive_plots(const Results& results) {
+  std::vector<Plot> plots;
+  if (!drawable(results)) return plots;
+  constexpr std::size_t most = 16;
+  const auto add = [&](std::optional<Plot> plot, const std::string& note = {}) {
+    if (!plot || plots.size() >= most) return;
+    plot->note = note;
+    note_marks(*plot);
+    plots.push_back(std::move(*plot));
+  };
+  const Result& front = *results.back();
+  for (const WorkAccount& account : front.model->accounts) {
+    const std::string& name = account.name;
+    if (account.kind != Account::driving || !front.traces->find("torque." + name)) continue;
+    add(over_time(results, "torque." + name, fmt::format("Torque of {}", name), "torque"),
+        told_figure(front, "motor_rms_torque." + name, "RMS over the run:"));
+    add(product_over_time(results, "torque." + name, "speed." + name, fmt::format("Power of {}", name), "power"),
+        told_figure(front, "motor_mean_power." + name, "Mean over the run:"));
+  }
+  for (const Trace& trace : front.traces->over_time) {
+    if (trace.unit == "A")
+      add(over_time(results, trace.name, fmt::format("Current of {}", trace.of), "current"),
+          told_figure(front, "motor_rms_current." + trace.of, "RMS over the run:"));
+    if (trace.what != QuantityKind::slip || largest({&trace}) == 0) continue;
+    add(over_time(results, trace.name, fmt::format("Slip of {}", trace.of), "speed of one side against the other"));
+    add(product_over_time(results, "torque." + trace.of, trace.name,
+                          fmt::format("What slip turns into heat in {}", trace.of), "power"),
+        told_figure(front, Name::make(QuantityKind::slip_heat, trace.of).text, "Heat over the run:"));
+  }
   return plots;
 }
 

@@ -222,6 +222,31 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));
 }
 
+// Torque times speed of a motor.
+std::optional<Plot> power_over_angle(const SteadyStudy& s, const std::string& motor) {
+  Plot plot{.title = fmt::format("Power of {} over a steady cycle", motor),
+            .x = {s.link + " angle", "°"},
+            .y = {"power", ""},
+            .series = {}};
+  for (const SteadyCycle& c : s.cycles) {
+    const Trace *torque = nullptr, *speed = nullptr;
+    if (const CycleTraces* cycle = whole_cycle(c))
+      for (const Trace& t : cycle->traces) {
+        if (t.name == "torque." + motor) torque = &t;
+        if (t.name == "speed." + motor) speed = &t;
+      }
+    if (!torque || !speed) continue;
+    Series& power =
+        plot.series.emplace_back(Series{.name = c.label, .role = role_of(c), .x = torque->x, .y = torque->y});
+    for (std::size_t i = 0; i < power.x.size(); ++i) {
+      power.y[i] *= at_angle(*speed, power.x[i]);
+      power.x[i] *= in_degrees;
+    }
+  }
+  if (plot.series.empty()) return {};
+  return in_readable_unit(std::move(plot), "W");
+}
+
 Plot diagram_plot(const SteadyStudy& s) {
   const OperatingDiagram& d = *s.diagram;
   const auto speed = [&d](const MeanTorques& m) { return d.speed_unit.of(m.omega); };
@@ -290,7 +315,16 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
     const std::string& name = last.model->torque_joints[i].component;
     add("torque." + name, "Torque in " + name, "transmitted torque");
   }
-  for (const MotorUse& m : last.motors) add("torque." + m.component, "Torque of " + m.component, "torque");
+  for (const MotorUse& m : last.motors) {
+    add("torque." + m.component, "Torque of " + m.component, "torque");
+    if (auto power = power_over_angle(s, m.component)) plots.push_back(std::move(*power));
+  }
+  const CycleTraces* shown = whole_cycle(last);
+  for (const Trace& t : shown ? shown->traces : std::vector<Trace>{}) {
+    const bool moves = std::any_of(t.y.begin(), t.y.end(), [](double y) { return y != 0; });
+    if (t.what == QuantityKind::slip && moves) add(t.name, "Slip of " + t.of, "speed of one side against the other");
+    if (t.what == QuantityKind::force && moves) add(t.name, "Force on the slider of " + t.of, "force");
+  }
   return plots;
 }
 
@@ -384,7 +418,11 @@ Findings findings_of(const SteadyStudy& s) {
   say_operation(f, operation, s);
   if (any) {
     f.draw(cycle, [&s] { return cycle_plots(s); });
-    f.draw(stability, [&s] { return multiplier_plot(s); });
+    // Of multipliers that are nearly zero a picture shows a dot.
+    constexpr double seen = 0.05;
+    if (std::any_of(s.cycles.begin(), s.cycles.end(),
+                    [](const SteadyCycle& c) { return c.found && c.point.largest() > seen; }))
+      f.draw(stability, [&s] { return multiplier_plot(s); });
     for (const SteadyCycle& c : s.cycles)
       if (c.found) f.say(stability, multiplier_table(c));
     if (!ratings.empty()) {

@@ -96,7 +96,8 @@ Rows influence_table(const SweepStudyResult& s) {
   table.only_for_programs("total", of_total(&Index::value));
   table.only_for_programs("total_low", of_total(&Index::low));
   table.only_for_programs("total_high", of_total(&Index::high));
-  return table;
+  constexpr std::size_t most_at_once = 24;
+  return table.fold(table.count > most_at_once);
 }
 
 // --- figures ---
@@ -170,8 +171,11 @@ std::string conclusion_of(const SweepStudyResult& s) {
   if (s.tally.failed) text += fmt::format(", {} failed", counted(s.tally.failed));
   if (s.tally.unconfirmed) text += fmt::format(", {} not confirmed", counted(s.tally.unconfirmed));
   for (const LimitCount& c : s.tally.limits)
-    text += fmt::format("; {}: {} of {} hold{}", c.limit, counted(c.holds), counted(c.decided()),
-                        c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
+    if (c.decided() == 0 && c.undecided == 0)
+      text += fmt::format("; {}: no variant has that figure", c.limit);
+    else
+      text += fmt::format("; {}: {} of {} hold{}", c.limit, counted(c.holds), counted(c.decided()),
+                          c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
   for (const FigureInfluence& f : s.influences) {
     if (f.ranked.empty()) continue;
     const Influence& most = f.ranked.front();

@@ -52,7 +52,11 @@ std::vector<ShareRow> share_rows(const UncertaintyStudy& s) {
   return rows;
 }
 Rows share_table(const UncertaintyStudy& s) {
-  return table_of("shares", "Which tolerance makes the deviation", share_rows(s))
+  constexpr std::size_t most_at_once = 40;
+  std::vector<ShareRow> rows = share_rows(s);
+  const bool is_long = rows.size() > most_at_once;
+  return table_of("shares", "Which tolerance makes the deviation", std::move(rows))
+      .fold(is_long)
       .text_in(2)
       .column("figure", "figure", &ShareRow::figure)
       .column("parameter", "tolerance", &ShareRow::parameter)

@@ -48,6 +48,32 @@ try {
     // Nothing sticks out sideways.
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), `wider than ${width} px`);
 
+    // The rigid machine stands behind the elastic one, and is thicker, whatever the order of the data.
+    const behind = await page.$$eval('.plot', list => list.map(place => {
+      const data = place.data || [], lines = data.filter(t => /lines/.test(t.mode || '') && t.showlegend !== false && !t.fill);
+      const grey = getComputedStyle(document.documentElement).getPropertyValue('--rigid').trim();
+      const at = lines.findIndex(t => t.line.color === grey);
+      return {title: place.parentElement.querySelector('h3').textContent, at, widths: lines.map(t => t.line.width)};
+    }));
+    for (const {title, at, widths} of behind)
+      if (at > 0 || at === 0 && widths.length > 1) assert.ok(at === 0 && widths[0] >= 2 * Math.max(...widths.slice(1)), `"${title}": rigid does not stand behind`);
+
+    // Words on the machine are readable, end within the drawing and do not cover each other.
+    const words = await page.$$eval('.machine svg.line', list => list.map(svg => {
+      const box = element => { const {left, right, top, bottom} = element.getBoundingClientRect(); return {left, right, top, bottom, text: element.textContent}; };
+      return {frame: box(svg), words: [...svg.querySelectorAll('text')].filter(t => t.textContent && getComputedStyle(t).visibility !== 'hidden').map(box)};
+    }));
+    for (const drawing of words) drawing.words.forEach((a, i) => {
+      assert.ok(a.bottom - a.top >= 9, `"${a.text}" is ${a.bottom - a.top} px high`);
+      assert.ok(a.left >= drawing.frame.left - 1 && a.right <= drawing.frame.right + 1 && a.top >= drawing.frame.top - 1, `"${a.text}" is cut`);
+      for (const b of drawing.words.slice(0, i))
+        assert.ok(a.right <= b.left + 1 || b.right <= a.left + 1 || a.bottom <= b.top + 2 || b.bottom <= a.top + 2, `"${a.text}" covers "${b.text}"`);
+    });
+
+    // Headings and tiles keep their words within their cards; tables that are wider scroll in their own.
+    const wide = await page.$$eval('h1, h2, h3, summary, .conclusion, .figure div, .card .note, .legend, .tools', list => list.filter(e => e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0).map(e => e.textContent.slice(0, 60)));
+    assert.deepEqual(wide, [], `words stick out at ${width} px`);
+
     // The machine, or a pair of wheels, moves when played, and follows its sliders; reports of studies may have neither.
     const moves = await page.$('.machine') !== null, wheels = await page.$('.gears') !== null;
     if (moves) {
@@ -71,9 +97,19 @@ try {
     const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.tools a.csv').first().click()]);
     assert.match(download.suggestedFilename(), /\.csv$/);
 
-    // Prints to pages.
-    const pdf = await page.pdf();
+    // Prints to pages: unfolded and at the paper's width before they are counted, as it was afterwards.
+    await page.evaluate(() => addEventListener('beforeprint', () => {
+      const right = document.querySelector('main').getBoundingClientRect().right;
+      window.printed = {
+        folded: document.querySelectorAll('details:not([open]):not(.licence)').length,
+        cut: [...document.querySelectorAll('.plot svg.main-svg')].filter(svg => svg.getBoundingClientRect().right > right + 1 || svg.getBoundingClientRect().height > svg.closest('.plot').clientHeight + 1).length,
+      };
+    }));
+    const folded = await page.$$eval('details:not([open])', list => list.length);
+    const pdf = await page.pdf({preferCSSPageSize: true});
     assert.ok(pdf.length > 20000 && pdf.subarray(0, 5).toString() === '%PDF-', 'prints to PDF');
+    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, cut: 0});
+    assert.equal(await page.$$eval('details:not([open])', list => list.length), folded, 'folded again');
 
     assert.deepEqual(complaints, []);
     assert.deepEqual(requests.slice(1), [], 'nothing but the page itself is asked for');

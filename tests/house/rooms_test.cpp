@@ -165,6 +165,18 @@ TEST(House, MechanismsKnowNoDrivetrainAndTheReportNoStudy) {
       }
 }
 
+// docs/rooms.svg shows every house and every room of the engine: "engine/run", or "periodic" beside another.
+TEST(House, ThePictureShowsEveryRoom) {
+  std::string picture;
+  for (const std::string& line : lines_of("docs/rooms.svg")) picture += line + "\n";
+  std::vector<std::string> shown(houses.begin(), houses.end());
+  shown.insert(shown.end(), {"python", "report"});
+  for (const std::string& room : rooms_in_order())
+    if (room.starts_with("engine/")) shown.push_back(room.substr(room.find('/') + 1));
+  for (const std::string& name : shown)
+    EXPECT_TRUE(std::regex_search(picture, std::regex("[> /]" + name + "[<,: /]"))) << name;
+}
+
 TEST(House, RoomsHoldAtMostTwentyFiles) {
   for (const std::string& room : rooms_in_order()) {
     const auto family = families.find(room);

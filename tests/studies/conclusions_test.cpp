@@ -27,6 +27,15 @@ TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
   EXPECT_EQ(headline("from 12345…67891 to −2.000012"), "from 12340…67890 to −2");
 }
 
+// Torques of machines are no powers of ten to be read.
+TEST(Headline, NumbersBelowABillionHaveNoExponent) {
+  EXPECT_EQ(rounded_number(410469.7, 5), "410470");
+  EXPECT_EQ(rounded_number(-1.08e6, 4), "-1080000");
+  EXPECT_EQ(rounded_number(12345.678, 6), "12345.7");
+  EXPECT_EQ(rounded_number(2.5e9, 4), "2.5e+09");
+  EXPECT_EQ(rounded_number(1.2345e-7, 3), "1.23e-07");
+}
+
 TEST(Headline, CountsSignificantDigitsAsTheyAreWritten) {
   EXPECT_EQ(significant_digits("0.0120"), 3);
   EXPECT_EQ(significant_digits("19000"), 2);

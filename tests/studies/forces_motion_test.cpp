@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "studies/forces/forces_findings.h"
+#include "studies/forces/forces_plots.h"
 #include "studies/forces/linkage_cycle.h"
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
@@ -42,6 +43,28 @@ TEST(ForcesOfTheRegime, DoNotDependOnTheLengthOfTheRun) {
   for (std::size_t k = 0; k < joint_count; ++k)
     EXPECT_EQ(a.simulated->reaction[k].value, b.simulated->reaction[k].value);
   EXPECT_TRUE(a.notes.empty());
+}
+
+// Behind an elastic machine's curves stand those of the rigid one: what the study says of it alone, to the last bit.
+TEST(ForcesOfTheRegime, OfTheRigidMachineStandBehind) {
+  const Scene scene = test::scene_file("tests/agreement/swings/worm_losses_shaft.toml");
+  ForcesOptions options;
+  options.rigid_behind = true;
+  const Forces f = find_forces(scene, options);
+  ASSERT_TRUE(f.elastic && f.rigid);
+  options.effects = without_elasticity(scene.effects);
+  const Forces alone = find_forces(scene, options);
+  ASSERT_TRUE(alone.simulated);
+  EXPECT_FALSE(alone.elastic || alone.rigid);
+  EXPECT_EQ(f.rigid->torque.value, alone.simulated->torque.value);
+  EXPECT_NE(f.rigid->torque.value, f.simulated->torque.value);
+  const Plot torque = torque_plot(f), of_rigid = torque_plot(alone);
+  ASSERT_EQ(torque.series.size(), 3u);
+  EXPECT_EQ(torque.series[0].role, Role::rigid);
+  EXPECT_EQ(torque.series[1].role, Role::reference);
+  EXPECT_EQ(torque.series[2].role, Role::elastic);
+  EXPECT_EQ(torque.series[0].y, of_rigid.series[1].y);
+  EXPECT_EQ(of_rigid.series[1].role, Role::rigid);
 }
 
 // M of the links' equilibrium, friction of the joints included, and I ε − Q of the compiled machine are one torque: the

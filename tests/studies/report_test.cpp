@@ -252,6 +252,52 @@ TEST(Report, WritesGnuplotFiles) {
   std::filesystem::remove_all(folder);
 }
 
+// Grey and thick behind whatever else there is, in the page and in gnuplot's figures, however the study lists its models;
+// dashed lines and bars of its colour stay where they are.
+TEST(Report, DrawsTheRigidMachineBehind) {
+  const auto plot = [](bool dashed) {
+    return Plot{.title = "Speed",
+                .x = {"time", "s"},
+                .y = {"speed", "rpm"},
+                .series = {{.name = "elastic", .role = Role::elastic, .x = {0, 1}, .y = {1, 2}},
+                           {.name = "rigid", .role = Role::rigid, .x = {0, 1}, .y = {1, 1}, .dashed = dashed}}};
+  };
+  for (const bool dashed : {false, true}) {
+    SCOPED_TRACE(dashed);
+    Report report{.title = "Order"};
+    report.add("").cards.push_back(plot(dashed));
+    const nlohmann::json series = data_of(html_of(report))["sections"][0]["cards"][0]["series"];
+    EXPECT_EQ(series[0]["name"], dashed ? "elastic" : "rigid");
+    EXPECT_EQ(series[0].contains("behind"), !dashed);
+    EXPECT_FALSE(series[1].contains("behind"));
+    const std::string script = gnuplot_files(report)[1].text;
+    EXPECT_EQ(script.find("index 1 ") < script.find("index 0 "), !dashed) << script;
+    EXPECT_EQ(script.find("lw 4.5") != std::string::npos, !dashed) << script;
+  }
+}
+
+// Of figures that nothing has there is no empty frame.
+TEST(Report, LeavesOutPlotsOfNothing) {
+  Findings f{.title = "Nothing"};
+  const Chapter in = f.chapter("Plots");
+  const auto plot = [](std::vector<double> at) {
+    return Plot{.title = "p", .x = {"x"}, .y = {"y"}, .series = {{.name = "s", .x = at, .y = at}}};
+  };
+  f.draw(in, [&] {
+    return std::vector<Plot>{plot({}), plot({1, 2}), Plot{.title = "none", .x = {}, .y = {}, .series = {}}};
+  });
+  EXPECT_EQ(page_of(f).sections.at(0).cards.size(), 1u);
+}
+
+// The first screen rounds as the conclusion does; what is known stands below.
+TEST(Report, TilesRoundAndTellWhatIsKnown) {
+  const TileText peak = tile_text(8874.28314, 0.0021), drop = tile_text(0.104382, 0.0112), exact = tile_text(10, 0.0);
+  EXPECT_EQ(peak.value + "|" + peak.known + "|" + peak.error, "8874|8874.283|± 0.003");
+  EXPECT_EQ(drop.value + "|" + drop.known + "|" + drop.error, "0.104||± 0.012");
+  EXPECT_EQ(exact.value + "|" + exact.known, "10|");
+  EXPECT_EQ(tile_text(39.281234, {}, 6).known, "39.2812");
+}
+
 // A cloud has no peaks: what is left of it is still what was said of each point; a curve keeps its peaks.
 TEST(Report, ThinnedCloudsKeepWhatTheirPointsAre) {
   Series cloud{.name = "cloud", .x = {}, .y = {}, .points = true, .line = false};
