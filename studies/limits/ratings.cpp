@@ -192,24 +192,24 @@ class Rater {
     const DutyRating rating = duty_rating_fields().read(section_);
     const auto rms = found("motor_rms_torque." + section_.name);
     const auto data = induction_data(section_);
-    if (!rms || !data) return;
+    const double rated = data ? data->rated_torque : section_.number_or("rated_torque", 0);
+    if (!rms || !(rated > 0)) return;
     const auto mends = [&](double times) {
-      return fmt::format("it holds from a rated torque of {:.4g} N·m on", data->rated_torque * times);
+      return fmt::format("it holds from a rated torque of {:.4g} N·m on", rated * times);
     };
     // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
     const bool continuous = !rating.time && !rating.share && result_.find(QuantityKind::run_up_time, "");
     if (const auto use = continuous ? found("thermal_use." + section_.name) : std::nullopt) {
-      add("RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
-          {use->value * data->rated_torque, use->error * data->rated_torque}, data->rated_torque, "N*m", mends);
+      add("RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N", {use->value * rated, use->error * rated}, rated, "N*m",
+          mends);
     } else {
       // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
       const double span = result_.until - result_.begins_at,
                    part = rating.time ? *rating.time / span : rating.share.value_or(1);
-      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, data->rated_torque * std::sqrt(part), "N*m", mends);
+      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, rated * std::sqrt(part), "N*m", mends);
     }
     std::string& note = out_.back().note;
-    note +=
-        fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", data->rated_torque);
+    note += fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", rated);
   }
 
   const Result& result_;

@@ -10,6 +10,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/holding.h"
 #include "studies/answers/motor_figures.h"
+#include "studies/answers/stopping.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/simulate.h"
 
@@ -159,28 +160,11 @@ class Figures {
       run_.figures.back().exact = true;
     }
   }
-  // From the signal that makes the reduction link stop to its rest.
   void collect_stopping() {
-    const std::vector<Event>& events = run_.outcome.events;
-    const auto is_command = [](const Event& e) { return e.kind == EventKind::command; };
-    const std::string name =
-        model_.node_label(model_.shafts[at(model_.shaft_of_node[at(model_.reduction_node)])].reference);
-    for (std::size_t k = 1; k < events.size(); ++k) {
-      if (events[k].component != name || events[k].kind != EventKind::rest) continue;
-      // Back to the signal: the first command after the clutch last locked, or since the link moved.
-      std::size_t begin = k;
-      while (begin > 0 && events[begin - 1].kind != EventKind::lock &&
-             !(events[begin - 1].component == name && events[begin - 1].kind == EventKind::motion))
-        --begin;
-      const auto told =
-          static_cast<std::size_t>(std::find_if(events.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                events.begin() + static_cast<std::ptrdiff_t>(k), is_command) -
-                                   events.begin());
-      if (told == k) continue;
-      add(QuantityKind::stopping_time, link(), events[k].t - events[told].t, "s", model_.scene.run.until, events[k].t);
-      add(QuantityKind::stopping_angle, link(), events[k].angle - events[told].angle, "rad", 1, events[k].t);
-      return;
-    }
+    const auto stopping = first_stopping(model_, run_.outcome.events);
+    if (!stopping) return;
+    add(QuantityKind::stopping_time, link(), stopping->time, "s", model_.scene.run.until, stopping->at);
+    add(QuantityKind::stopping_angle, link(), stopping->angle, "rad", 1, stopping->at);
   }
   // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
   bool comes_again(const CycleRecord& last) const {
@@ -300,7 +284,10 @@ class Figures {
                      .run_up = after_run_up()}))
       run_.figures.push_back(std::move(f));
   }
-  double energy_scale() const { return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-300}); }
+  // Where nothing moves, a part of the work of the rated torque over 1 rad, beside which what is left is rounding.
+  double energy_scale() const {
+    return std::max({run_.energy->turnover, run_.energy->largest_kinetic, 1e-9 * model_.torque_scale});
+  }
 
   const Model& model_;
   Equations& equations_;

@@ -24,6 +24,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/validity/idle_effects.h"
 #include "studies/validity/static_curve.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -349,6 +350,7 @@ class Simulation {
     judge_motion(run.outcome);
     note_regularised(run.outcome.regularised);
     note_arcs(m.network);
+    for (const std::string& note : substitutes(m)) result_.notes.push_back(note);
     for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));

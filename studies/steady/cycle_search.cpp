@@ -17,6 +17,7 @@
 #include "studies/findings/trace.h"
 #include "studies/steady/round_figures.h"
 #include "studies/validity/static_curve.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -283,6 +284,7 @@ class Search {
     out_.motors = std::move(fine.motors);
     out_.work_residual = fine.work_residual;
     out_.notes = static_curve_notes(*map_, out_.point);
+    for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
     if (options_.traces) follow();
   }
 
