@@ -14,7 +14,6 @@
 #include "app/verb.h"
 #include "engine/scene/document.h"
 #include "studies/difference/difference.h"
-#include "studies/files/whole_file.h"
 #include "studies/sweep/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
@@ -148,9 +147,7 @@ int sweep(const SweepArguments& a) {
   const std::vector<SweptFigure> figures = chosen(figures_of(question), a.figures);
   for (const std::string& limit : a.limits) parse_limit(limit, figures);
   check_folder(a.study);
-  if (!a.xlsx.empty())
-    if (const std::string why = why_no_file_at(a.xlsx); !why.empty())
-      throw std::invalid_argument(fmt::format("--xlsx: {}", why));
+  if (!a.xlsx.empty()) check_xlsx(a.xlsx, design.rows() / job.shards);
 
   SweepStore store(a.into, identity_of(a, scene, design, figures));
   Progress progress(a.study.quiet);

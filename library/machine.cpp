@@ -11,6 +11,7 @@
 #include "engine/scene/document.h"
 #include "engine/scene/units.h"
 #include "library/machine_parts.h"
+#include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
 
 namespace kurbel {
@@ -89,6 +90,15 @@ std::vector<std::string> Machine::components() const {
 
 std::string Machine::explain() const {
   return asked_of(*parts_, [&] { return compile(parts_->scene, parts_->scene.effects)->explain(); });
+}
+
+std::vector<std::pair<std::string, std::string>> Machine::figures() const {
+  return asked_of(*parts_, [&] {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const Figure& f : figure_list(*compile(parts_->scene, parts_->scene.effects)))
+      all.emplace_back(f.name, f.unit);
+    return all;
+  });
 }
 
 const FigureValue* FigureValues::find(const std::string& name) const {

@@ -16,6 +16,8 @@
 
 namespace kurbel {
 
+struct MachineQuestion;
+
 struct MachineParts {
   std::string text, file;             // as they were given, without the settings
   std::vector<std::string> settings;  // "main_coupling.stiffness=1 MN*m/rad"
@@ -43,6 +45,9 @@ auto asked_of(const MachineParts& machine, const Ask& ask) {
 }
 
 Watch watch_of(const Watcher& watcher);
+
+// The machine put to one of the sweep's studies.
+MachineQuestion question_of(const MachineParts& machine, const std::string& of, const Watcher& watcher);
 
 // Throws std::out_of_range: `what` has no `name`, but names like it.
 [[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names);

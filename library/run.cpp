@@ -3,10 +3,13 @@
 
 #include <stdexcept>
 
+#include "engine/run/checkpoint.h"
 #include "library/machine_parts.h"
+#include "studies/measured/overlay.h"
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
 #include "studies/tables/trajectory_rows.h"
+#include "studies/trials/trials_findings.h"
 
 namespace kurbel {
 
@@ -18,6 +21,30 @@ struct RunParts {
 };
 
 namespace {
+
+// A run, trials of it where they were wanted, a test's record over it.
+struct ToldRun {
+  WithTrials<Result> tried;
+  bool has_trials = false;
+  std::optional<Overlay> overlay = {};
+};
+Findings findings_of(const ToldRun& run) {
+  Findings findings = run.has_trials ? findings_of(run.tried) : findings_of(run.tried.study);
+  if (run.overlay) show(findings, *run.overlay);
+  return findings;
+}
+
+// Read before anything runs; nothing: none was asked for.
+std::optional<Measurement> measurement_of(const RunChoices& choices, const Model& model) {
+  const MeasurementRequest request{choices.measured, choices.map, choices.shift, choices.offset};
+  if (!request.asked()) return {};
+  const RunSettings& run = model.scene.run;
+  if (run.model != "reduced")
+    throw std::invalid_argument("a test's record belongs to the reduced model; set run.model = \"reduced\"");
+  Measurement measurement = read_measurement(request, channels_of_run(model));
+  if (choices.from_state.empty()) require_overlap(measurement, 0, choices.until.value_or(run.until));
+  return measurement;
+}
 
 FigureValues figures_of(const Result& result) {
   std::vector<FigureValue> all;
@@ -49,6 +76,9 @@ SimulateOptions options_of(const RunChoices& choices, const Scene& scene) {
   if (choices.until && !(*choices.until > 0 && *choices.until < 1e30))
     throw std::invalid_argument("until must be a time > 0 [s]");
   options.until = choices.until;
+  options.go_on_from = choices.from_state;
+  if (!choices.from_state.empty() && scene.run.model != "reduced")
+    throw std::invalid_argument("a state belongs to the reduced model; set run.model = \"reduced\"");
   options.watch = watch_of(choices.watcher);
   return options;
 }
@@ -60,12 +90,22 @@ Run run(const Machine& machine, const RunChoices& choices) {
     const Scene& scene = machine.parts().scene;
     const Effects effects = choices.effects ? parse_effects(*choices.effects, scene) : scene.effects;
     const auto model = compile(scene, effects);
-    const auto result = std::make_shared<const Result>(
-        simulate(model, is_elastic(*model) ? "elastic" : "rigid", options_of(choices, scene)));
-    StudyOutput output = output_of(*result);
-    output.study = result;
+    SimulateOptions options = options_of(choices, scene);
+    const std::optional<Measurement> measurement = measurement_of(choices, *model);
+    if (measurement) options.traces = true;
+    const auto told = std::make_shared<ToldRun>();
+    Result result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
+    told->has_trials = choices.trials;
+    if (choices.trials)
+      told->tried = with_trials(std::move(result), options);
+    else
+      told->tried.study = std::move(result);
+    if (measurement) told->overlay = lay_over(*measurement, told->tried.study);
+    StudyOutput output = rendered(findings_of(*told));
+    output.study = told;
+    const std::shared_ptr<const Result> run(told, &told->tried.study);
     return Run(std::make_shared<const RunParts>(
-        RunParts{result, study_of(std::move(output)), figures_of(*result), trajectory_of(*result)}));
+        RunParts{run, study_of(std::move(output)), figures_of(*run), trajectory_of(*run)}));
   });
 }
 

@@ -11,15 +11,22 @@
 #include "library/study_options.h"
 #include "studies/accuracy/accuracy_findings.h"
 #include "studies/advise/advise_findings.h"
+#include "studies/difference/difference.h"
 #include "studies/effects/effect_study_findings.h"
 #include "studies/forces/forces_findings.h"
 #include "studies/gears/gears.h"
+#include "studies/handout/forces_sheet.h"
+#include "studies/handout/reduce_sheet.h"
+#include "studies/measured/overlay.h"
 #include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
 #include "studies/report/write_output.h"
 #include "studies/run/run_findings.h"
+#include "studies/sheet/paper.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady_findings.h"
+#include "studies/tables/summary_tables.h"
+#include "studies/trials/trials_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
 namespace kurbel {
@@ -58,8 +65,30 @@ SimulateOptions options_of_runs(Asked& a) {
 StudyOutput compared(Asked& a) {
   const auto effects = a.options.effects("effects", a.scene()), against = a.options.effects("against", a.scene());
   const SimulateOptions simulation = options_of_runs(a);
+  const bool trials = !a.options.flag("no_trials");
   if (!a.ready()) return {};
-  return output_of(compare(a.scene(), models_to_compare(a.scene(), effects, against), simulation));
+  Comparison comparison = compare(a.scene(), models_to_compare(a.scene(), effects, against), simulation);
+  if (!trials) return output_of(std::move(comparison));
+  return output_of(with_trials(std::move(comparison), simulation));
+}
+
+// Cycles and a test's record over them.
+struct MeasuredCycles {
+  SteadyStudy study;
+  std::optional<Overlay> overlay;
+};
+Findings findings_of(const MeasuredCycles& measured) {
+  Findings findings = findings_of(measured.study);
+  if (measured.overlay) show(findings, *measured.overlay);
+  return findings;
+}
+StudyOutput cycles_of(Asked& a, const std::vector<Effects>& effects, const SteadyOptions& options,
+                      const MeasurementRequest& request) {
+  std::optional<Measurement> measurement;
+  if (request.asked()) measurement = read_measurement(request, channels_of_cycle(*compile(a.scene(), effects.back())));
+  MeasuredCycles cycles{steady(a.scene(), effects, options), {}};
+  if (measurement) cycles.overlay = lay_over(*measurement, cycles.study);
+  return output_of(std::move(cycles));
 }
 
 StudyOutput steady_cycle(Asked& a) {
@@ -69,12 +98,16 @@ StudyOutput steady_cycle(Asked& a) {
   if (const auto speed = a.options.quantity("mid_speed", "a speed other than 0", "60 rpm")) o.mid_speed = speed;
   o.periods = a.options.whole("periods", 1, 64).value_or(1);
   o.start_search = !a.options.flag("no_start");
+  const MeasurementRequest measured{.file = a.options.text("measured"),
+                                    .maps = a.options.texts("map"),
+                                    .shift = a.options.text("shift"),
+                                    .offsets = a.options.texts("offset")};
   if (!a.ready()) return {};
-  if (effects) return output_of(steady(a.scene(), {*effects}, o));
+  if (effects) return cycles_of(a, {*effects}, o, measured);
   Effects full = a.scene().effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (!is_elastic(*compile(a.scene(), full))) return output_of(steady(a.scene(), {a.scene().effects}, o));
-  return output_of(steady(a.scene(), {without_elasticity(full), full}, o));
+  if (!is_elastic(*compile(a.scene(), full))) return cycles_of(a, {a.scene().effects}, o, measured);
+  return cycles_of(a, {without_elasticity(full), full}, o, measured);
 }
 
 StudyOutput natural_modes(Asked& a) {
@@ -87,12 +120,30 @@ StudyOutput natural_modes(Asked& a) {
   o.at = moment_of(a.options.text("at"), o.speed);
   if (const auto speed = a.options.quantity("speed", "a speed", "300 rpm")) o.speed = speed;
   o.angle = a.options.quantity("angle", "an angle", "90 deg");
-  if (const auto fastest = a.options.quantity("fastest", "a speed > 0", "300 rpm", positive)) o.fastest = *fastest;
-  if (const auto slowest = a.options.quantity("slowest", "a speed ≥ 0", "300 rpm", not_negative)) o.slowest = *slowest;
+  const std::vector<double> range = a.options.quantities("range", "two speeds ≥ 0", "300 rpm", not_negative);
+  if (!range.empty() && (range.size() != 2 || !(range[0] < range[1])))
+    throw std::invalid_argument("range: must be two speeds, the slower first, e.g. 0 rpm and 3000 rpm");
+  if (!range.empty()) o.slowest = range[0], o.fastest = range[1];
+  o.spots = a.options.quantities("spot", "a speed > 0", "250 rpm", positive);
+  o.orders = a.options.quantity("orders", "a plain number > 0", "12", positive).value_or(o.orders);
+  o.barred_factor = a.options.quantity("barred", "a plain number > 0", "1", positive).value_or(o.barred_factor);
   if (!a.ready()) return {};
   Effects effects = asked.value_or(a.scene().effects);
   if (!asked && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
   return output_of(find_modes(a.scene(), effects, o));
+}
+
+// A sheet of the positions to be printed, if it is asked for.
+std::optional<Paper> paper_asked(Asked& a) {
+  const bool wanted = a.options.flag("sheet");
+  const std::string paper = a.options.text("paper");
+  if (!wanted && !paper.empty()) throw std::invalid_argument("paper: is that of the sheet; ask for sheet, too");
+  if (!wanted) return {};
+  return paper_named(paper.empty() ? "A4" : paper);
+}
+StudyOutput with_sheet(StudyOutput output, std::string html) {
+  output.csv.push_back({"sheet.html", [html = std::move(html)] { return html; }});
+  return output;
 }
 
 StudyOutput forces_in_joints(Asked& a) {
@@ -104,8 +155,15 @@ StudyOutput forces_in_joints(Asked& a) {
   o.speed = a.options.quantity("speed", "a speed", "300 rpm");
   o.effects = a.options.effects("effects", a.scene());
   o.simulate = !a.options.flag("no_run");
+  const std::optional<Paper> paper = paper_asked(a);
   if (!a.ready()) return {};
   refuse_forces_of_own(a.scene(), o.mechanism);
+  if (paper) {
+    ForcesSheet sheet = sheet_of(a.scene(), o, *paper, "");
+    std::string html = sheet.html();
+    return with_sheet(sheet.linkage ? output_of(std::move(*sheet.linkage)) : output_of(std::move(*sheet.slider_crank)),
+                      std::move(html));
+  }
   if (chosen_mechanism(a.scene(), o.mechanism).kind->name != "slider-crank")
     return output_of(find_linkage_forces(a.scene(), o));
   return output_of(find_forces(a.scene(), o));
@@ -121,6 +179,8 @@ StudyOutput sized(Asked& a) {
   if (const std::string material = a.options.text("material"); !material.empty()) o.material = material;
   o.diameter = a.options.quantity("diameter", "a length > 0", "1.2 m", positive).value_or(0);
   o.rim_speed = a.options.quantity("rim_speed", "a speed > 0", "30 m/s", positive).value_or(0);
+  o.sheet = a.options.quantity("sheet", "a length > 0", "240 mm", positive);
+  o.simulate = !a.options.flag("no_simulation");
   const std::string form = a.options.text("form"), basis = a.options.text("basis");
   if (!form.empty() && form != "rim" && form != "disc")
     throw std::invalid_argument(fmt::format("form = {}: must be rim or disc", in_quotes(form)));
@@ -144,8 +204,18 @@ StudyOutput reduced(Asked& a) {
   if (!basis.empty() && basis != "classical" && basis != "regime")
     throw std::invalid_argument(fmt::format("basis = {}: must be classical or regime", in_quotes(basis)));
   if (!basis.empty()) o.basis = basis == "classical" ? ReduceBasis::classical : ReduceBasis::regime;
+  const std::optional<Paper> paper = paper_asked(a);
+  ReduceSheetRequest request;
+  request.delta = a.options.quantity("delta", "a plain number", "0.05");
+  request.flywheel = a.options.text("flywheel");
+  if (!paper && (request.delta || !request.flywheel.empty()))
+    throw std::invalid_argument("delta and flywheel are of the sheet's flywheel; ask for sheet, too, or for size");
   if (!a.ready()) return {};
-  return output_of(reduce(a.scene(), o));
+  if (!paper) return output_of(reduce(a.scene(), o));
+  request.paper = *paper;
+  ReduceSheet sheet = sheet_of(a.scene(), o, request);
+  std::string html = sheet.html();
+  return with_sheet(output_of(std::move(sheet.reduction)), std::move(html));
 }
 
 StudyOutput gear_pairs(Asked& a) {
@@ -175,7 +245,15 @@ StudyOutput accuracy_bought(Asked& a) {
   o.figure = a.options.text("figure");
   o.multibody = !a.options.flag("no_multibody");
   o.methods = a.options.names("methods");
-  for (const std::string& method : o.methods) check_method(method, "reduced");
+  for (const std::string& method : o.methods) {
+    check_method(method, "reduced");
+    if (method == "auto")
+      throw std::invalid_argument("methods = \"auto\": changes its method on its way; name the methods to compare");
+  }
+  if (auto tolerances = a.options.numbers("tolerances", 1e-12, 0.01); !tolerances.empty()) {
+    std::sort(tolerances.rbegin(), tolerances.rend());
+    o.tolerances = std::move(tolerances);
+  }
   o.within = a.options.quantity("within", "a relative error > 0", "0.1 %", positive);
   o.budget = a.options.quantity("budget", "a time > 0", "50 ms", positive);
   o.time = a.options.quantity("time", "a time > 0", "60 s", positive).value_or(o.time);
@@ -184,12 +262,11 @@ StudyOutput accuracy_bought(Asked& a) {
 }
 
 StudyOutput uncertain(Asked& a) {
-  MachineQuestion question;
-  question.text = a.machine.text, question.file = a.machine.file, question.settings = a.machine.settings;
-  if (const std::string of = a.options.text("of"); !of.empty()) question.of = study_named(of);
+  const std::string of = a.options.text("of");
+  MachineQuestion question = question_of(a.machine, of.empty() ? "run" : of, {a.watch.interrupted});
   if (a.options.flag("no_error")) question.errors_every = 0;
-  question.interrupted = a.watch.interrupted;
-  UncertaintyOptions o{.figures = a.options.names("figures"), .limits = a.options.names("limits"), .watch = a.watch};
+  UncertaintyOptions o{.figures = a.options.names("figures"), .limits = a.options.texts("limit"), .watch = a.watch};
+  o.biases = !a.options.flag("no_trials");
   if (const auto samples = a.options.whole("samples", 10, 1'000'000)) o.samples = static_cast<std::size_t>(*samples);
   if (const auto seed = a.options.whole("seed", 0, 1 << 30)) o.seed = static_cast<std::uint64_t>(*seed);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -236,6 +313,29 @@ Study study(const std::string& name, const Machine& machine, const Options& give
   AskedOptions options(name, given);
   Asked asked{machine.parts(), options, watch_of(watcher)};
   return asked_of(machine.parts(), [&] { return study_of(named.ask(asked)); });
+}
+
+Study diff(const Machine& a, const Machine& b, const Options& given, const Watcher& watcher) {
+  AskedOptions options("diff", given);
+  std::string of = options.text("of");
+  if (of.empty()) of = "run";
+  MachineQuestion first = question_of(a.parts(), of, watcher), second = question_of(b.parts(), of, watcher);
+  if (options.flag("no_error")) first.errors_every = second.errors_every = 0;
+  first.delta = second.delta = options.quantity("delta", "a plain number", "0.05");
+  if (first.delta && first.of != SweepStudy::size) throw std::invalid_argument("delta: belongs to of = \"size\"");
+  options.refuse_others();
+  try {
+    return study_of(output_of(difference_between(first, second, of)));
+  } catch (const SceneError& error) {
+    throw bad_scene(error);  // of either scene: placed in its file
+  }
+}
+
+std::vector<FigureValue> Study::figures() const {
+  std::vector<FigureValue> all;
+  for (FigureRow& row : summary_tables(parts_->output.json).figures)
+    all.push_back({std::move(row.name), row.value, std::move(row.unit), row.error, row.at, std::move(row.of)});
+  return all;
 }
 
 std::string Study::conclusion() const { return parts_->output.conclusion; }

@@ -17,14 +17,20 @@ class AskedOptions {
  public:
   AskedOptions(std::string study, const Options& given) : study_(std::move(study)), given_(given) {}
 
-  // Empty: not given.
+  // Empty: not given. Throws std::invalid_argument where it is given more than once.
   std::string text(const std::string& name);
+  // All that are given under this name.
+  std::vector<std::string> texts(const std::string& name);
   bool flag(const std::string& name);
   std::optional<int> whole(const std::string& name, int least, int most);
   // In SI; `example` shows the unit, `what` says what it must be.
   std::optional<double> quantity(const std::string& name, const std::string& what, const std::string& example,
                                  const Domain& domain = any_number);
-  std::vector<std::string> names(const std::string& name);  // joined by commas
+  // Each of them, or joined by commas.
+  std::vector<std::string> names(const std::string& name);
+  std::vector<double> numbers(const std::string& name, double least, double most);
+  std::vector<double> quantities(const std::string& name, const std::string& what, const std::string& example,
+                                 const Domain& domain = any_number);
   std::optional<Effects> effects(const std::string& name, const Scene& scene);
 
   // Throws std::invalid_argument for an option that was not asked for.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "studies/sweep/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep.h"
+#include "studies/sweep/sweep_findings.h"
 
 namespace kurbel {
 namespace {
@@ -58,17 +60,37 @@ SweepIdentity identity_of(const Variation& variation, const Design& design, std:
           .rows = design.rows()};
 }
 
-SweepRows rows_in(const SweepStore& store) {
+SweepLine line_of(SweepRow&& row, std::size_t columns) {
+  SweepLine line{row.row, name_of(row.state), std::move(row.diagnosis), std::move(row.parameters), {}, {}};
+  line.figures.resize(columns), line.errors.resize(columns);
+  for (const RowFigure& figure : row.figures)
+    line.figures[figure.figure] = figure.value, line.errors[figure.figure] = figure.error;
+  return line;
+}
+
+SweepRows rows_of(const SweepStore& store, const std::function<void(SweepLine&&)>& take) {
   SweepRows all;
+  for (const SweptParameter& parameter : store.identity().parameters) all.vary.push_back(parameter.given);
   for (const SweptFigure& figure : store.identity().figures) all.columns.push_back({figure.name, figure.unit});
-  for (const SweepRow& row : store.read()) {
-    SweepLine line{row.row, name_of(row.state), row.diagnosis, row.parameters, {}};
-    line.figures.resize(all.columns.size());
-    for (const RowFigure& figure : row.figures) line.figures[figure.figure] = figure.value;
-    all.lines.push_back(std::move(line));
-  }
+  std::size_t there = 0;
+  if (take) store.each([&](SweepRow&& row) { take(line_of(std::move(row), all.columns.size())), ++there; });
+  all.complete = (take ? there : store.count()) == store.identity().rows;
   return all;
 }
+SweepRows held_rows_of(const SweepStore& store) {
+  std::vector<SweepLine> lines;
+  SweepRows all = rows_of(store, [&](SweepLine&& line) { lines.push_back(std::move(line)); });
+  all.lines = std::move(lines);
+  return all;
+}
+
+// The report asks the store again for rows that it does not hold.
+struct KeptSweep {
+  KeptSweep(const std::string& file, const std::vector<std::string>& limits)
+      : store(file), study(study_of(store, limits)) {}
+  SweepStore store;
+  SweepStudyResult study;
+};
 
 SweepRows computed(const Design& design, const SweepIdentity& identity, const SweepChoices& choices,
                    const std::function<Evaluator()>& evaluator) {
@@ -78,13 +100,20 @@ SweepRows computed(const Design& design, const SweepIdentity& identity, const Sw
   read_shard(choices.shard, job);
   SweepStore store(choices.into, identity);
   const SweepEnd end = run_sweep(job, store);
-  SweepRows rows = rows_in(store);
+  SweepRows rows = choices.lines ? held_rows_of(store) : rows_of(store, {});
   rows.computed = end.computed;
   rows.complete = end.complete();
   return rows;
 }
 
 }  // namespace
+
+MachineQuestion question_of(const MachineParts& machine, const std::string& of, const Watcher& watcher) {
+  MachineQuestion question;
+  question.text = machine.text, question.file = machine.file, question.settings = machine.settings;
+  question.of = study_named(of), question.interrupted = watcher.interrupted;
+  return question;
+}
 
 std::vector<std::vector<double>> rows_of(const Variation& variation) {
   const Design design = design_of(variation);
@@ -128,14 +157,37 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
   return computed(design, identity, choices, [&] { return evaluator; });
 }
 
+SweepRows rows_in(const std::string& file, const std::function<void(const SweepLine&)>& visit) {
+  const SweepStore store{std::filesystem::path(file)};
+  return visit ? rows_of(store, [&](SweepLine&& line) { visit(line); }) : held_rows_of(store);
+}
+
+Study sweep_report(const std::string& file, const std::vector<std::string>& limits) {
+  const auto kept = std::make_shared<const KeptSweep>(file, limits);
+  StudyOutput output = rendered(findings_of(kept->study));
+  output.study = kept;
+  return study_of(std::move(output));
+}
+
+std::size_t merge(const std::vector<std::string>& files, const std::string& into) { return merge_sweeps(files, into); }
+
+SweepAnswer answer(const Machine& machine, const std::string& of, bool errors, const Watcher& watcher) {
+  return asked_of(machine.parts(), [&] {
+    MachineQuestion question = question_of(machine.parts(), of, watcher);
+    question.errors_every = errors ? 1 : 0;
+    const MachineAnswer found = answer_of(question);
+    std::vector<FigureValue> figures;
+    for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
+    return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};
+  });
+}
+
 SweepRows sweep(const Machine& machine, const Variation& variation, const std::vector<std::string>& figures,
                 const SweepChoices& choices, const std::string& of) {
   return asked_of(machine.parts(), [&] {
     const MachineParts& parts = machine.parts();
     const Design design = design_of(variation);
-    MachineQuestion question;
-    question.text = parts.text, question.file = parts.file, question.settings = parts.settings;
-    question.of = study_named(of), question.interrupted = choices.watcher.interrupted;
+    const MachineQuestion question = question_of(parts, of, choices.watcher);
     const VariedScene varied(question, design.parameters());
     const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
     const SweepIdentity identity = identity_of(variation, design, wanted,

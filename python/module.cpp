@@ -84,13 +84,14 @@ void bind_machine(py::module_& m) {
       .def_static("from_text", &Machine::from_text, without_lock, py::arg("text"), py::arg("file") = "scene.toml",
                   py::arg("settings") = Settings{}, "Reads a scene's text; data files are looked for beside `file`.")
       .def("with_settings", &Machine::with, without_lock, py::arg("settings"), "The same with further settings put in.")
-      .def_property_readonly("title", &Machine::title)
-      .def_property_readonly("file", &Machine::file)
+      .def_property_readonly("title", &Machine::title, "as the scene says")
+      .def_property_readonly("file", &Machine::file, "its name in messages")
       .def_property_readonly("text", &Machine::text, "the scene's text with its settings put in")
       .def_property_readonly("effects", &Machine::effects, "the effects that the scene names, in words")
-      .def_property_readonly("components", &Machine::components)
+      .def_property_readonly("components", &Machine::components, "along the lines, then by name")
       .def_property_readonly("until", &Machine::until, "end of its run [s]")
       .def_property_readonly("accuracy", &Machine::accuracy, "asked of every figure, over its scale")
+      .def("figures", &Machine::figures, without_lock, "(name, unit) of the figures that its runs may yield.")
       .def("explain", &Machine::explain, without_lock, "What is merged, the coordinates and their inertias.")
       .def("__repr__",
            [](const Machine& m) { return fmt::format("<Machine {}: {}>", m.file(), fmt::join(m.components(), ", ")); });
@@ -99,14 +100,15 @@ void bind_machine(py::module_& m) {
 void bind_study(py::module_& m) {
   py::class_<Study>(m, "StudyOutput", "What a study found.")
       .def_property_readonly("conclusion", &Study::conclusion, "in one line")
-      .def_property_readonly("text", &Study::text, "as the command prints it")
+      .def_property_readonly("text", &Study::text, "all of it, for a terminal")
       .def_property_readonly("json", &Study::json, "summary.json as text")
       .def_property_readonly("html", &Study::html, "the page, whole in itself")
-      .def_property_readonly("complete", &Study::complete)
+      .def_property_readonly("complete", &Study::complete, "it came to its end")
       .def_property_readonly("diagnosis", &Study::diagnosis, "why it is not complete, in words")
       .def_property_readonly("unconfirmed", &Study::unconfirmed, "why the accuracy asked for is not sure; empty: it is")
+      .def_property_readonly("figures", &Study::figures, "of all models, in the order of the summary")
       .def_property_readonly("tables", &Study::tables, "(name, text) of the CSV files")
-      .def("write", &Study::write, py::arg("folder"), py::arg("formats") = "csv",
+      .def("write", &Study::write, without_lock, py::arg("folder"), py::arg("formats") = "csv",
            "summary.json, report.html and tables, whole or not there. Formats of the tables: \"csv,mat,xlsx\".");
   m.def(
       "study",
@@ -114,17 +116,78 @@ void bind_study(py::module_& m) {
         return computed([&](const Watcher& watcher) { return study(name, machine, options, watcher); });
       },
       py::arg("name"), py::arg("machine"), py::arg("options") = Options{});
-  m.def("study_names", &study_names);
-  m.def("option_names", &option_names, py::arg("study"));
+  m.def(
+      "diff",
+      [](const Machine& a, const Machine& b, const Options& options) {
+        return computed([&](const Watcher& watcher) { return diff(a, b, options, watcher); });
+      },
+      py::arg("a"), py::arg("b"), py::arg("options") = Options{});
+  m.def("study_names", &study_names, "What study() may be asked: \"compare\", \"steady\", …");
+  m.def("option_names", &option_names, py::arg("study"), "The options of one of study_names().");
+}
+
+void bind_words(py::module_& m) {
+  m.def(
+      "explain", &explain, py::arg("figure"),
+      "What figures of this name mean: definition, formula, unit, what it is not. Raises ValueError with the nearest.");
+  m.def("explained_figures", &explained_figures, "The names that explain() knows: \"delta\", \"peak_torque\", …");
+  m.def("kinds", &kinds, "What may stand in a scene: \"coupling\", \"induction motor\", \"run\", …");
+  m.def("keys", &keys, py::arg("kind"), "The keys of one of kinds(), a line each: unit, default, domain.");
+  m.def("schema_text", &schema);
+  m.def("example_scenes", &example_scenes, "Machines that new() has a scene of: \"press\", \"pump\", …");
+  m.def("example_scene", &example_scene, py::arg("name"));
+}
+
+// Rows as the package has them: what is varied, the rows' parameters, and of each its figures and why it failed.
+py::tuple as_python(const SweepRows& rows) {
+  py::list parameters, results;
+  for (const SweepLine& line : rows.lines) {
+    py::dict figures;
+    for (std::size_t k = 0; k < rows.columns.size(); ++k)
+      if (line.figures[k])
+        figures[py::str(rows.columns[k].name)] = py::make_tuple(*line.figures[k], line.errors[k], rows.columns[k].unit);
+    parameters.append(line.parameters);
+    results.append(py::make_tuple(figures, line.state == "failed" ? py::object(py::str(line.diagnosis)) : py::none()));
+  }
+  return py::make_tuple(rows.vary, parameters, results);
+}
+
+void bind_sweep(py::module_& m) {
+  m.def(
+      "sweep",
+      [](const Machine& machine, const std::vector<std::string>& vary, const std::string& design, std::uint64_t seed,
+         const std::vector<std::string>& figures, const std::string& of, const std::string& into, int jobs) {
+        return as_python(computed([&](const Watcher& watcher) {
+          return sweep(machine, {vary, design, seed}, figures, {.into = into, .jobs = jobs, .watcher = watcher}, of);
+        }));
+      },
+      py::arg("machine"), py::arg("vary"), py::arg("design"), py::arg("seed"), py::arg("figures"), py::arg("of"),
+      py::arg("into"), py::arg("jobs"));
+  m.def(
+      "rows_in", [](const std::string& file) { return as_python(rows_in(file)); }, py::arg("file"));
+  m.def("sweep_report", &sweep_report, without_lock, py::arg("file"), py::arg("limits"));
+  m.def("merge", &merge, without_lock, py::arg("files"), py::arg("into"),
+        "Shards of one sweep into one file; how many rows it has.");
+  m.def(
+      "answer",
+      [](const Machine& machine, const std::string& of, bool errors) {
+        const SweepAnswer found =
+            computed([&](const Watcher& watcher) { return answer(machine, of, errors, watcher); });
+        py::dict figures;
+        for (const FigureValue& f : found.figures) figures[py::str(f.name)] = f;
+        return py::make_tuple(found.state, found.diagnosis, figures);
+      },
+      py::arg("machine"), py::arg("of"), py::arg("errors"));
 }
 
 void bind_run(py::module_& m) {
   py::class_<FigureValue>(m, "Figure", "A figure in SI units with its measured error.")
-      .def_readonly("name", &FigureValue::name)
+      .def_readonly("name", &FigureValue::name, "\"peak_torque.main_coupling\"; explain() says what it means")
       .def_readonly("value", &FigureValue::value, "in `unit`; speeds in rad/s")
       .def_readonly("unit", &FigureValue::unit, "\"N*m\"; empty: a plain number")
       .def_readonly("error", &FigureValue::error, "measured by further runs, in `unit`; None: not measured")
       .def_readonly("at", &FigureValue::at, "the moment that it belongs to [s], or None")
+      .def_readonly("of", &FigureValue::of, "the model, where a study has several: \"rigid\"; empty: the only one")
       .def("__float__", [](const FigureValue& f) { return f.value; })
       .def("__repr__", [](const FigureValue& f) {
         const std::string error = f.error ? fmt::format(" ± {:.2g}", *f.error) : "";
@@ -132,8 +195,8 @@ void bind_run(py::module_& m) {
       });
   py::class_<Happening>(m, "Event", "Something that happened in a run.")
       .def_readonly("t", &Happening::t, "[s]")
-      .def_readonly("component", &Happening::component)
-      .def_readonly("what", &Happening::what)
+      .def_readonly("component", &Happening::component, "where; empty: the machine as a whole")
+      .def_readonly("what", &Happening::what, "in words: \"sticks\"")
       .def("__repr__",
            [](const Happening& h) { return fmt::format("<Event at {:.6g} s: {}: {}>", h.t, h.component, h.what); });
   py::class_<Run>(m, "RunOutput")
@@ -156,14 +219,30 @@ void bind_run(py::module_& m) {
   m.def(
       "run",
       [](const Machine& machine, std::optional<std::string> effects, std::optional<std::string> method,
-         std::optional<double> accuracy, std::optional<double> until, bool errors, bool plots) {
+         std::optional<double> accuracy, std::optional<double> until, bool errors, bool plots, bool trials,
+         const std::string& measured, const std::vector<std::string>& map, const std::string& shift,
+         const std::vector<std::string>& offset, const std::string& from_state) {
         return computed([&](const Watcher& watcher) {
-          return run(machine, {std::move(effects), std::move(method), accuracy, until, errors, plots, watcher});
+          return run(machine, {.effects = effects,
+                               .method = method,
+                               .accuracy = accuracy,
+                               .until = until,
+                               .errors = errors,
+                               .plots = plots,
+                               .trials = trials,
+                               .measured = measured,
+                               .map = map,
+                               .shift = shift,
+                               .offset = offset,
+                               .from_state = from_state,
+                               .watcher = watcher});
         });
       },
       py::arg("machine"), py::kw_only(), py::arg("effects") = py::none(), py::arg("method") = py::none(),
       py::arg("accuracy") = py::none(), py::arg("until") = py::none(), py::arg("errors") = true,
-      py::arg("plots") = true);
+      py::arg("plots") = true, py::arg("trials") = false, py::arg("measured") = "",
+      py::arg("map") = std::vector<std::string>{}, py::arg("shift") = "",
+      py::arg("offset") = std::vector<std::string>{}, py::arg("from_state") = "");
 }
 
 void bind_motion(py::module_& m) {
@@ -185,12 +264,12 @@ void bind_motion(py::module_& m) {
           "go_to",
           [](Motion& motion, double time) { computed([&](const Watcher& watcher) { motion.go_to(time, watcher); }); },
           py::arg("time"), "On to a time [s], through all events on the way. Interrupted, it stands where it stood.")
-      .def_property_readonly("state", &Motion::state)
+      .def_property_readonly("state", &Motion::state, "this moment, to come back to")
       .def("restore", &Motion::restore, without_lock, py::arg("state"), "Back to a state of this machine.")
       .def("state_from", &Motion::state_from, py::arg("text"), "A state of this machine from its text.")
       .def_property_readonly("names", &Motion::names, "of all that can be looked at")
       .def_property_readonly("units", &Motion::units, "SI, in the order of the names")
-      .def_property_readonly("state_names", &Motion::state_names)
+      .def_property_readonly("state_names", &Motion::state_names, "what the entries of State.y are")
       .def_property_readonly("values", &Motion::values, "of all names, now")
       .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.")
       .def("__repr__", [](const Motion& m) { return fmt::format("<Motion at {:.10g} s>", m.time()); });
@@ -211,6 +290,8 @@ PYBIND11_MODULE(_kurbel, m) {
   bind_study(m);
   bind_run(m);
   bind_motion(m);
+  bind_words(m);
+  bind_sweep(m);
   m.def(
       "rows_of",
       [](const std::vector<std::string>& vary, const std::string& design, std::uint64_t seed) {

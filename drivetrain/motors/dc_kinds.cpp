@@ -10,6 +10,7 @@
 #include "drivetrain/motors/field_weakening.h"
 #include "drivetrain/motors/motors.h"
 #include "drivetrain/motors/rheostat.h"
+#include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 
@@ -113,6 +114,7 @@ struct ShuntKeys {
   double inertia = 0;                                   // [kg·m²]
   CircuitKeys circuit;
   RheostatKeys rheostat;
+  DutyRating duty;
   Window window;
 
   bool electrical() const { return voltage || resistance || constant; }
@@ -151,6 +153,12 @@ void check_field(const Reading<ShuntKeys>& m) {
 }
 
 void check_shunt(const Reading<ShuntKeys>& m) {
+  if (m.duty.duty != DutyRating::Duty::none && m.rated_torque == 0)
+    m.refuse(&ShuntKeys::duty, "\"duty\" is of the rated torque; give \"rated_torque\", too");
+  if (m.duty.duty != DutyRating::Duty::none && m.field)
+    m.refuse(&ShuntKeys::duty,
+             "\"duty\" judges by the torque, which tells the heat of the armature under the full field alone; drop it "
+             "beside \"field\"");
   if (m.electrical()) {
     if (!m.voltage || !m.resistance || !m.constant || m.stall_torque || m.no_load_speed)
       m.refuse("give either stall_torque and no_load_speed, or voltage, resistance and constant");
@@ -193,7 +201,7 @@ const Fields<ShuntKeys>& shunt_fields() {
           .add({.name = "rated_torque",
                 .unit = "N*m",
                 .domain = positive,
-                .doc = "scale of errors; default: stall torque"},
+                .doc = "M_N: scale of errors, and what duty is stated for; default: stall torque"},
                &Keys::rated_torque)
           .add({.name = "braking_resistance",
                 .unit = "Ohm",
@@ -211,6 +219,7 @@ const Fields<ShuntKeys>& shunt_fields() {
           .add(circuit_fields("L of the armature circuit"), &Keys::circuit)
           .add(rheostat_fields(), &Keys::rheostat)
           .add(window_fields(), &Keys::window)
+          .add(duty_rating_fields(), &Keys::duty)
           .check(check_shunt);
   return made;
 }

@@ -211,7 +211,11 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
   std::vector<EngineTorque::Cylinder> cylinders;
   for (std::size_t k = 0; k < angles.size(); ++k) cylinders.push_back({angles[k], 0});
   if (!let_misfire(e, fired, cylinders, diagrams)) return;
-  net.put(node, s.name, EngineTorque(std::move(diagrams), *geometry, std::move(cylinders)), e.window);
+  std::string substitute;
+  if (diagrams.size() > 1 && !e.motored_torque && !e.motored_pressure)
+    substitute = words_of_mirrored(s.name, e.pressure ? "motored_pressure" : "motored_torque");
+  net.put(node, s.name, EngineTorque(std::move(diagrams), *geometry, std::move(cylinders), std::move(substitute)),
+          e.window);
 }
 
 }  // namespace

@@ -41,16 +41,21 @@ struct CylinderGeometry {
 
 class EngineTorque {
  public:
-  static constexpr ShaftTraits is{.account = Account::driving, .uses_angle = true, .guards = 2};
+  static constexpr ShaftTraits is{.account = Account::driving, .uses_angle = true, .guards = 2, .described = true};
 
   struct Cylinder {
     double fires_at = 0;      // φ_k [rad]
     std::size_t diagram = 0;  // which of those given
   };
 
-  // diagrams: of one cylinder each, with the engine's cycle as their period.
-  EngineTorque(std::vector<Curve> diagrams, CylinderGeometry geometry, std::vector<Cylinder> cylinders)
-      : diagrams_(std::move(diagrams)), geometry_(geometry), cylinders_(std::move(cylinders)) {
+  // diagrams: of one cylinder each, with the engine's cycle as their period. substitute: what stands for one that the
+  // scene does not give, in words.
+  EngineTorque(std::vector<Curve> diagrams, CylinderGeometry geometry, std::vector<Cylinder> cylinders,
+               std::string substitute = {})
+      : diagrams_(std::move(diagrams)),
+        geometry_(geometry),
+        cylinders_(std::move(cylinders)),
+        substitute_(std::move(substitute)) {
     std::vector<double> points = edges();
     points.push_back(points.front() + cycle());
     edges_ = Curve(points, std::vector<double>(points.size(), 0.0), Curve::Form::linear, cycle());
@@ -78,6 +83,7 @@ class EngineTorque {
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(edges_, x.angle); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(edges_, x.mode, which); }
   std::string mode_name(int) const { return {}; }  // a diagram's points are no events worth telling
+  std::string describe() const { return substitute_; }
   Rated rated() const {
     double most = 0;
     for (const Curve& diagram : diagrams_) most = std::max(most, diagram.max_abs());
@@ -112,6 +118,7 @@ class EngineTorque {
   std::vector<Curve> diagrams_;
   CylinderGeometry geometry_;
   std::vector<Cylinder> cylinders_;
+  std::string substitute_;
   Curve edges_;
   std::vector<int> piece_;  // of each cylinder's diagram in each piece between edges
 };

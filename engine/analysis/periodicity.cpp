@@ -32,6 +32,15 @@ double common_multiple(const std::vector<NamedPeriod>& periods, const std::strin
       periods.front().period, unit, periods.front().component, odd.period, unit, odd.component));
 }
 
+// Of the law that a component follows once the sequence is over; 0: none that repeats.
+double lasting_period(const Sequence& sequence, const std::string& component) {
+  double period = 0;
+  for (const SequenceStep& step : sequence.steps)
+    if (std::find(step.set.begin(), step.set.end(), component) != step.set.end())
+      period = step.law.empty() ? 0 : step.law.period();
+  return period;
+}
+
 }  // namespace
 
 int prescribed_node(const Model& m) {
@@ -60,6 +69,9 @@ Periodicity periodicity_of(const Model& m) {
     const double begins = e.element->is.starts_anew ? e.window.first_on() : 0;
     result.settled_from = std::max(result.settled_from, begins + e.element->settled_from);
   }
+  for (const CommandTarget& target : m.commands)
+    if (const double period = lasting_period(m.scene.sequence, target.component); period > 0)
+      times.push_back({period, target.component});
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) angles.push_back({turn / m.scale_ratio[at(joint.a)], joint.component});

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/analysis/sequence_ahead.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -75,9 +76,10 @@ class Search {
     }
     for (const PrescribedSpeed& given : m_.network.prescribed)
       if (!given.time.empty()) until = std::max(until, given.time.back());
-    for (const Command& command : state_.modes.command)
-      if (command.rate != 0) until = std::max(until, command.until);
     const Sequence& sequence = m_.scene.sequence;
+    for (const Command& c : state_.modes.command)  // a law that repeats is part of what comes again
+      if (!c.holds_still() && !(c.law >= 0 && sequence.steps[at(c.law)].law.period() > 0))
+        until = std::max(until, c.until);
     if (state_.modes.next_step < sequence.steps.size() && state_.modes.armed_time < no_edge)
       until = std::max(until, state_.modes.armed_time);
     return until;
@@ -325,7 +327,7 @@ class Search {
       why_not_ = point.why;
       return;
     }
-    if (!was_on_its_way(point)) return;
+    if (!was_on_its_way(point) || sequence_goes_on(*map, point.z)) return;
     accept(map, point);
   }
   void spend(const ReturnMap& map) { out_.cost += map.cost(); }

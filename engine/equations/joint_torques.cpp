@@ -63,6 +63,9 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
   add_inertia_and_elements(given);
   add_connections(given);
   for (const Held& one : held) add_held(one, shaft_hold[one.shaft], element_hold);
+  // What closes a loop is no step of the walk: it passes nothing until the loops share, whatever it passed before.
+  for (const auto& loop : loops_.loops())
+    for (const auto& [link, part] : loop) torque_[at(link)] = 0;
   walk_to_the_roots();
   bear_reactions();
   if (loops_.any()) loops_.share(torque_.data());

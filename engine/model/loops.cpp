@@ -135,7 +135,7 @@ void check_rigid_loops(Compilation& c, const Merging& merging) {
                     joint.component, m.node_ratio[at(joint.a)], m.node_ratio[at(joint.b)]));
     c.messages.throw_if_any();
   }
-  if (!relations_are_independent(net, merging.group))
+  if (!relations_are_independent(net, merging.group, merging.gain))
     throw SceneError(
         {{c.messages.file(), place_of_loop(c),
           "a closed loop of shafts with a gear that has losses, or a planetary gear, is rigid all round: how it "

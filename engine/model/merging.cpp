@@ -136,7 +136,7 @@ void check_shafts(Compilation& c) {
   if (merge(net, any_joint, Through::all).groups > 1)
     refuse("a part of the machine is unconnected; check the lines and branches");
   const Merging firm = merge(net, [](const Network::Joint& joint) { return !joint.element; });
-  if (!relations_are_independent(net, firm.group))
+  if (!relations_are_independent(net, firm.group, firm.gain))
     refuse(
         "gears with losses, planetary gears or gears in housings tie the same shafts twice; check the lines and "
         "branches");

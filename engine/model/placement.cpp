@@ -30,10 +30,38 @@ int command_of(const Model& m, const std::string& component) {
   return known == m.commands.end() ? -1 : static_cast<int>(known - m.commands.begin());
 }
 
+// Loads of a mechanism by their names: what of a component can be switched by itself.
+std::vector<std::string> parts_of(const Network& net, const std::string& component) {
+  std::vector<std::string> parts;
+  for (const Network::ShaftElement& e : net.elements)
+    if (e.component == component && e.element->cycle != 0)
+      for (const auto& [name, account] : e.element->further_accounts)
+        if (name.starts_with(component + ".load")) parts.push_back(name);
+  return parts;
+}
+
+std::string component_of(const std::string& said) { return said.substr(0, said.find('.')); }
+
+// Behind the command of a mechanism come those of its loads, in their order: its element finds them there.
 void list_commands(Model& m) {
   for (const SequenceStep& step : m.scene.sequence.steps)
-    for (const std::string& component : step.set)
-      if (command_of(m, component) < 0) m.commands.push_back({component, {}, {}});
+    for (const std::string& said : step.set) {
+      const std::string component = component_of(said);
+      if (command_of(m, component) >= 0) continue;
+      m.commands.push_back({component, {}, {}});
+      for (const std::string& part : parts_of(m.network, component)) m.commands.push_back({part, {}, {}});
+    }
+}
+
+// A load of several chambers is set whole: "press.load2.behind" with "press.load2".
+void set_whole_loads(Model& m) {
+  for (SequenceStep& step : m.scene.sequence.steps)
+    for (std::size_t k = step.set.size(); k-- > 0;) {
+      const std::string said = step.set[k];
+      if (said == component_of(said)) continue;
+      for (const std::string& part : parts_of(m.network, component_of(said)))
+        if (part.starts_with(said + ".")) step.set.push_back(part);
+    }
 }
 
 int own_places(Model& m, const std::string& component, const std::vector<OwnState>& states) {
@@ -97,23 +125,35 @@ void place_on_shafts(Model& m, PoolSet& pools) {
 }
 
 // Of a mechanism its loads are switched; one without any has nothing to be switched.
-bool can_be_set(const Network::ShaftElement& e) {
-  if (e.element->cycle == 0) return true;
-  const auto& accounts = e.element->further_accounts;
-  return std::any_of(accounts.begin(), accounts.end(),
-                     [&](const auto& account) { return account.first.starts_with(e.component + ".load"); });
+bool can_be_set(const Network& net, const Network::ShaftElement& e) {
+  return e.element->cycle == 0 || !parts_of(net, e.component).empty();
 }
 
 // What a sequence may tell a component.
 struct Commandable {
   bool any = false, reversible = true;
   bool switched = false;  // something of it is merely on or off
+  std::string why_not = {};
 };
 
+// A load of a mechanism, by its name: on or off.
+Commandable commandable_part(const Network& net, const std::string& said) {
+  const std::string component = component_of(said);
+  const std::vector<std::string> parts = parts_of(net, component);
+  Commandable is{.reversible = false, .switched = true};
+  is.any = std::find(parts.begin(), parts.end(), said) != parts.end();
+  is.why_not = parts.empty()
+                   ? fmt::format("\"{}\" has no loads that could be set apart; name the component alone", component)
+                   : fmt::format("\"{}\" is no load of \"{}\"{}; allowed: {}", said, component, suggestion(said, parts),
+                                 shortened_list(parts));
+  return is;
+}
+
 Commandable commandable(const Network& net, const std::string& component) {
+  if (component.find('.') != std::string::npos) return commandable_part(net, component);
   Commandable is;
   for (const Network::ShaftElement& e : net.elements)
-    if (e.component == component && can_be_set(e)) {
+    if (e.component == component && can_be_set(net, e)) {
       is.any = true, is.reversible = is.reversible && e.element->is.reversible;
       is.switched = is.switched || !e.element->is.commanded;
     }
@@ -125,6 +165,7 @@ Commandable commandable(const Network& net, const std::string& component) {
 
 // Why this step would do nothing to the component, or something else than it says; empty: it does what it says.
 std::string fault_of(const SequenceStep& step, const std::string& component, const Commandable& is) {
+  if (!is.any && !is.why_not.empty()) return is.why_not;
   if (!is.any)
     return fmt::format(
         "\"{}\" has nothing that can be set; name a motor, a load, a mechanism with loads, a clutch or "
@@ -170,6 +211,7 @@ void track_angles(Compilation& c) {
 
 void place_elements(Compilation& c) {
   Model& m = c.model;
+  set_whole_loads(m);
   list_commands(m);
   PoolSet pools;
   place_connections(m, pools);

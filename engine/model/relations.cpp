@@ -53,14 +53,15 @@ void list_torques(const Network& network, const Network::Relation& relation, int
 
 }  // namespace
 
-bool relations_are_independent(const Network& network, const std::vector<int>& group) {
+bool relations_are_independent(const Network& network, const std::vector<int>& group, const std::vector<double>& gain) {
   if (network.relations.empty()) return true;
   const int groups = 1 + *std::max_element(group.begin(), group.end());
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(network.relations.size()), groups);
   for (std::size_t r = 0; r < network.relations.size(); ++r) {
     const Network::Relation& relation = network.relations[r];
     for (int k = 0; k < relation.members(); ++k)
-      rows(static_cast<Eigen::Index>(r), group[at(relation.node[at(k)])]) += relation.gain[at(k)];
+      rows(static_cast<Eigen::Index>(r), group[at(relation.node[at(k)])]) +=
+          relation.gain[at(k)] * gain[at(relation.node[at(k)])];
   }
   return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rows).rank() == rows.rows();
 }

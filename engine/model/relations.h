@@ -9,8 +9,9 @@
 
 namespace kurbel {
 
-// Each row says something that the others, and the joints, do not. `group`: nodes that joints tie.
-bool relations_are_independent(const Network& network, const std::vector<int>& group);
+// Each row says something that the others, and the joints, do not. `group`: nodes that joints tie;
+// `gain`: how fast each turns by the first of its group.
+bool relations_are_independent(const Network& network, const std::vector<int>& group, const std::vector<double>& gain);
 
 // Losses that are off are dropped; members that stand still (nodes where `stands`) drop out of a relation without
 // losses; what then ties two shafts becomes a joint. Returns the gears' torques as terms over what remains.

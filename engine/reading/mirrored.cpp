@@ -1,5 +1,7 @@
 #include "engine/reading/mirrored.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -55,6 +57,13 @@ CurveData first_half_turn_mirrored(const CurveData& data, double period, bool od
   }
   put(period, made.y.front());  // where an odd table does not pass zero it jumps there, too
   return made;
+}
+
+std::string words_of_mirrored(const std::string& whose, const std::string& key) {
+  return fmt::format(
+      "{}: a cylinder that does not fire has the fired diagram's compression, mirrored about top dead centre, in place "
+      "of its expansion; neither its losses of heat and gas nor its valves are in that; give \"{}\" where they count",
+      whose, key);
 }
 
 }  // namespace kurbel

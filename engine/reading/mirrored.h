@@ -5,6 +5,8 @@
 // pressure is even, a torque odd.
 #pragma once
 
+#include <string>
+
 #include "engine/scene/keys.h"
 
 namespace kurbel {
@@ -12,5 +14,7 @@ namespace kurbel {
 // Where both parts differ at π, the table jumps. Throws std::invalid_argument where it is a formula, and as
 // CurveData::curve() does.
 CurveData first_half_turn_mirrored(const CurveData& data, double period, bool odd);
+// That it stands in for the diagram of a key.
+std::string words_of_mirrored(const std::string& whose, const std::string& key);
 
 }  // namespace kurbel

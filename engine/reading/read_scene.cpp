@@ -97,6 +97,8 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   read_run(r);
   if (!r.messages.empty()) try_components(r);
   r.messages.throw_if_any();
+  place_by_output(r);
+  r.messages.throw_if_any();
   Location first;
   find_speed_unit(r.document, first, r.scene.speed_unit);
   return std::move(r.scene);

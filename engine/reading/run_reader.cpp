@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/section_reader.h"
@@ -57,15 +58,51 @@ const char* output_named(SceneReading& r, const std::string& name) {
   return nullptr;
 }
 
-// What goes to and fro has no angle that grows, and stands while the machine moves.
-void refuse_output(SceneReading& r, const DocumentValue& value, const char* output) {
-  const std::string mechanism = value.text.substr(0, value.text.size() - 7);
-  r.refuse(
-      value.at,
-      fmt::format("start: on = {}: a {} tells no motion of the machine: at its dead centres it stands whatever the "
-                  "crank does (v = x' ω with x' = 0), and it passes each place twice a turn; give angle and speed "
-                  "of the crank, on = {}; masses and forces reduced to the {}: kurbel reduce --to {}",
-                  value.describe(), output, in_quotes(mechanism), output, value.text));
+// Of what goes to and fro a place is given, a velocity and a stroke; of the crank an angle and a speed.
+void check_start_on_output(SceneReading& r, const DocumentValue& start, const char* output) {
+  const OutputStart& given = r.output_start;
+  if (!output) {
+    for (const DocumentEntry* entry : {given.position, given.velocity, given.towards})
+      if (entry)
+        r.refuse(entry->at, fmt::format("start: \"{}\" belongs to the output of a mechanism: on = \"NAME.slider\" or "
+                                        "\"NAME.rocker\"; of a shaft give angle and speed",
+                                        entry->key));
+    return;
+  }
+  for (const char* key : {"angle", "speed"})
+    if (const DocumentEntry* entry = start.find(key))
+      r.refuse(entry->at, fmt::format("start: \"{}\" belongs to a shaft: a {} goes to and fro; give its position, and "
+                                      "velocity and towards where they count, or name the crank: on = {}",
+                                      key, output, in_quotes(r.scene.run.start.on)));
+  if (!given.position)
+    r.refuse(given.on->value.at, fmt::format("start: on = {}: \"position\" is missing", given.on->value.describe()));
+}
+
+// "position", "velocity" and "towards", unless a component has that name: kept for when its mechanism is known.
+bool is_of_output(SceneReading& r, const DocumentEntry& entry) {
+  const std::pair<const char*, const DocumentEntry * OutputStart::*> keys[] = {
+      {"position", &OutputStart::position}, {"velocity", &OutputStart::velocity}, {"towards", &OutputStart::towards}};
+  for (const auto& [key, member] : keys)
+    if (entry.key == key && !r.find(entry.key)) {
+      r.output_start.*member = &entry;
+      return true;
+    }
+  return false;
+}
+
+// Names a shaft, or the output of a mechanism, which is told.
+const char* read_start_on(SceneReading& r, const DocumentEntry& entry) {
+  std::string& on = r.scene.run.start.on;
+  on = entry.value.text;
+  if (const char* output = output_named(r, on)) {
+    r.output_start.on = &entry;
+    on = on.substr(0, on.rfind('.'));
+    return output;
+  }
+  if (!r.find(on) && !r.unreadable.count(on))
+    r.refuse(entry.value.at, fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(),
+                                         suggestion(on, r.component_names()), shortened_list(r.component_names())));
+  return nullptr;
 }
 
 void read_start(SceneReading& r, const DocumentValue& value) {
@@ -85,7 +122,9 @@ void read_start(SceneReading& r, const DocumentValue& value) {
         value.at,
         fmt::format("[run]: start = {}; must be \"rest\", \"equilibrium\" or a table such as {{ speed = \"300 rpm\" }}",
                     value.describe()));
+  const char* output = nullptr;
   for (const DocumentEntry& entry : value.entries) {
+    if (is_of_output(r, entry)) continue;
     if (entry.key == "speed") {
       read_quantity(entry.value, "rad/s", any_number, "start: speed", r.messages, start.speed);
     } else if (entry.key == "angle") {
@@ -95,13 +134,7 @@ void read_start(SceneReading& r, const DocumentValue& value) {
         r.refuse(entry.value.at, fmt::format("start: equilibrium = {}; must be true or false", entry.value.describe()));
       start.equilibrium = entry.value.flag;
     } else if (entry.key == "on") {
-      start.on = entry.value.text;
-      if (const char* output = output_named(r, start.on))
-        refuse_output(r, entry.value, output);
-      else if (!r.find(start.on) && !r.unreadable.count(start.on))
-        r.refuse(entry.value.at,
-                 fmt::format("start: on = {} is no component{}; allowed: {}", entry.value.describe(),
-                             suggestion(start.on, r.component_names()), shortened_list(r.component_names())));
+      output = read_start_on(r, entry);
     } else if (r.find(entry.key) && entry.value.type == Type::table) {
       read_component_start(r, entry);
     } else if (r.find(entry.key)) {
@@ -111,12 +144,13 @@ void read_start(SceneReading& r, const DocumentValue& value) {
     } else if (!r.unreadable.count(entry.key) && !r.explains()) {
       r.refuse(entry.at, fmt::format("start: unknown key {}", in_quotes(entry.key)));
     } else if (!r.unreadable.count(entry.key)) {
-      std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on"};
+      std::vector<std::string> allowed = {"speed", "angle", "equilibrium", "on", "position", "velocity", "towards"};
       for (const std::string& name : r.component_names()) allowed.push_back(name);
       r.refuse(entry.at, fmt::format("start: unknown key {}{}; allowed: {}", in_quotes(entry.key),
                                      suggestion(entry.key, allowed), shortened_list(allowed, "and")));
     }
   }
+  check_start_on_output(r, value, output);
 }
 
 }  // namespace
@@ -145,7 +179,8 @@ void read_run(SceneReading& r) {
     } catch (const std::invalid_argument& does_not_fit) {
       r.refuse(section.where("method"), fmt::format("[run]: {}", does_not_fit.what()));
     }
-  if (const DocumentEntry* start = table.find("start")) read_start(r, start->value);
+  // In the document, which lives as long as the reading: what is told of an output is looked at later.
+  if (const DocumentEntry* start = run ? run->value.find("start") : nullptr) read_start(r, start->value);
   if (const DocumentEntry* output = table.find("output")) read_output(r, output->value);
 }
 

@@ -12,6 +12,11 @@
 
 namespace kurbel {
 
+// A start told for the output of a mechanism, as it stands in the document.
+struct OutputStart {
+  const DocumentEntry *on = nullptr, *position = nullptr, *velocity = nullptr, *towards = nullptr;
+};
+
 // A scene on its way from the document.
 struct SceneReading {
   const std::vector<Kind>& kinds;
@@ -22,7 +27,8 @@ struct SceneReading {
   std::map<std::string, std::size_t> index = {};  // of each component in scene.components
   std::set<std::string> unreadable = {};          // keys and tables that were refused as a whole
   const DocumentEntry* misplaced_line = nullptr;  // a `line` within a table
-  bool lines_sound = true;                        // false: what is not connected follows from an error that was named
+  OutputStart output_start = {};
+  bool lines_sound = true;  // false: what is not connected follows from an error that was named
 
   void refuse(Location at, const std::string& text) { messages.add(at, text); }
   std::vector<std::string> component_names() const;
@@ -42,5 +48,6 @@ void check_connections(SceneReading& r);       // connections.cpp: every name ex
 void put_in_canonical_order(SceneReading& r);  // of lines and components, whatever their order in the file
 void read_effects(SceneReading& r);            // effects_reader.cpp
 void read_run(SceneReading& r);                // run_reader.cpp
+void place_by_output(SceneReading& r);  // output_start.cpp: angle and speed of the crank from those of its output
 
 }  // namespace kurbel

@@ -79,7 +79,7 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
                                        example_of(key)));
     return false;
   }
-  bool kinds_known = true;
+  bool sound = true;  // else something was said, be it of a table used by name, before this component was come to
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const DocumentValue& table = *tables[i];
     const std::string name = value.type == Type::table ? what : fmt::format("{}[{}]", what, i + 1);
@@ -89,11 +89,12 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
       setting.sections.push_back(read_section(table, *kind, key.name, name, messages,
                                               one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"},
                                               allowed));
+      sound = sound && setting.sections.back().sound;
     } else {
-      kinds_known = false;
+      sound = false;
     }
   }
-  return kinds_known;
+  return sound;
 }
 
 bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,

@@ -48,7 +48,7 @@ class StepReader {
     if (step.set.empty())
       messages_.add(set->value.at, fmt::format("{}: set = {}; must be a component or a list of components", what,
                                                set->value.describe()));
-    for (const std::string& name : step.set) check(name, set->value.at, what + ": set");
+    for (const std::string& name : step.set) check_set(name, set->value.at, what + ": set");
     return step;
   }
 
@@ -70,6 +70,11 @@ class StepReader {
                                                   step.law.x()[i] + (step.law.x()[i + 1] - step.law.x()[i]) * k / 100));
     step.to = least;  // what it must be able to be told
     if (step.law.max_abs() > 10 || least < -1) refuse("its values must lie within −1 … 10");
+  }
+  // A component, or a part of one: which it has is seen when it is built.
+  void check_set(const std::string& name, Location at, const std::string& what) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos || !is_component_(name.substr(0, dot))) check(name, at, what);
   }
   void check(const std::string& name, Location at, const std::string& what) {
     if (!is_component_(name))

@@ -17,7 +17,12 @@ struct FigureValue {
   std::string unit;             // "N*m"; empty: a plain number
   std::optional<double> error;  // ±, in `unit`, measured by further runs; empty: not measured
   std::optional<double> at;     // the moment that it belongs to [s]; empty: to none
+  std::string of = {};          // the model that it is of, where a study has several: "rigid"; empty: the only one
 };
+// What figures of this name, or of such words, mean: definition, formula, unit, what it is not. Throws std::invalid_argument
+// with the nearest names.
+std::string explain(const std::string& figure);
+std::vector<std::string> explained_figures();  // the names that explain() knows: "delta", "peak_torque", …
 
 // All that a run found, by their names and in the order of the report.
 class FigureValues {

@@ -22,7 +22,16 @@ struct RunChoices {
   std::optional<double> until = {};         // [s], > 0
   bool errors = true;                       // measured by further runs
   bool plots = true;                        // follow what the page draws
-  Watcher watcher = {};                     // interrupts, and is told the progress
+  // Behind a short run: what the rigid machine would have told, and which effects that are off would move a key figure.
+  bool trials = false;
+  // A test's record (a CSV file) laid over it, as by `--measured`; what is left between them is told as figures:
+  // "residual_rms.torque.main_coupling". Empty: none.
+  std::string measured = {};
+  std::vector<std::string> map = {};     // columns to channels, "T1=torque.main_coupling"
+  std::string shift = {};                // added to its times, "0.2 s"; "fit": found
+  std::vector<std::string> offset = {};  // what a column reads too high, "T1=5 N*m"; "T1=fit", "fit": found
+  std::string from_state = {};           // SavedState::text(): goes on from there; empty: from the scene's start
+  Watcher watcher = {};                  // interrupts, and is told the progress
 };
 
 // Something that happened: a clutch stuck, a load's piece ended, the sequence went on.

@@ -57,6 +57,8 @@ class Machine {
   std::string explain() const;                  // what is merged, the coordinates, their inertias; throws BadScene
   double until() const;                         // end of its run [s]
   double accuracy() const;                      // asked of every figure, over its scale
+  // Names and units of the figures that its runs may yield; throws BadScene where it cannot be compiled.
+  std::vector<std::pair<std::string, std::string>> figures() const;
 
   const MachineParts& parts() const { return *parts_; }  // for kurbel itself
 
@@ -64,5 +66,14 @@ class Machine {
   explicit Machine(std::shared_ptr<const MachineParts> parts) : parts_(std::move(parts)) {}
   std::shared_ptr<const MachineParts> parts_;
 };
+
+// What may stand in a scene: "coupling", "induction motor", "run", …
+std::vector<std::string> kinds();
+// The keys of one of kinds(), a line each: unit, default, domain. Throws std::invalid_argument for another name.
+std::string keys(const std::string& kind);
+// JSON Schema of a scene, draft 2020-12: docs/scene.schema.json.
+std::string schema();
+std::vector<std::string> example_scenes();           // "press", "pump", …
+std::string example_scene(const std::string& name);  // its text, with comments; std::invalid_argument: there is none
 
 }  // namespace kurbel

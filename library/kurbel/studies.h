@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <kurbel/figures.h>
+
 namespace kurbel {
 
 class Machine;
@@ -24,13 +26,16 @@ class Study {
  public:
   explicit Study(std::shared_ptr<const StudyParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
   std::string conclusion() const;                                                        // in one line
-  std::string text() const;                                                              // as the command prints it
+  std::string text() const;                                                              // all of it, for a terminal
   std::string json() const;         // the same for programs: summary.json, docs/summary.schema.json
   std::string html() const;         // the page, whole in itself
   bool complete() const;            // it came to its end …
   std::string diagnosis() const;    // … or why not
   std::string unconfirmed() const;  // why the accuracy asked for is not sure; empty: it is
-  std::vector<std::pair<std::string, std::string>> tables() const;  // CSV files by their names
+  // All figures in the summary, in their order; those of several models have its name in `of`.
+  std::vector<FigureValue> figures() const;
+  // CSV files by their names, and a sheet to be printed where one was asked for ("sheet.html").
+  std::vector<std::pair<std::string, std::string>> tables() const;
   // summary.json, report.html and the tables into a folder, as one result set: whole or not there. Formats of the tables,
   // joined by commas: "csv,mat,xlsx". Throws std::invalid_argument for others, std::runtime_error where it cannot be
   // written.
@@ -40,7 +45,8 @@ class Study {
   std::shared_ptr<const StudyParts> parts_;
 };
 
-// Options by the names that the command has: {"mid_speed", "60 rpm"} is `--mid-speed "60 rpm"`. A flag is "true".
+// Options by the names that the command has: {"mid_speed", "60 rpm"} is `--mid-speed "60 rpm"`. A flag is "true"; what may be
+// given again there may be given again here.
 using Options = std::vector<std::pair<std::string, std::string>>;
 
 // One of study_names() put to a machine. Throws std::invalid_argument for another name, and for an option that the study
@@ -49,11 +55,13 @@ Study study(const std::string& name, const Machine& machine, const Options& opti
 std::vector<std::string> study_names();                           // "compare", "steady", "modes", …
 std::vector<std::string> option_names(const std::string& study);  // "mid_speed", …; std::invalid_argument: no study
 
-// Rigid against elastic, or two sets of effects (`effects`, `against`): the figures of both, and their ratio.
+// Rigid against elastic, or two sets of effects (`effects`, `against`): the figures of both, and their ratio. Behind short
+// runs the effects that are off are tried, unless `no_trials` is "true".
 inline Study compare(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("compare", m, o, w);
 }
-// The motion that a start leads to: δ at every shaft, torques, works, whether it is stable.
+// The motion that a start leads to: δ at every shaft, torques, works, whether it is stable. A test's record is laid over it by
+// `measured`, `map`, `shift`, `offset`.
 inline Study steady(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("steady", m, o, w); }
 // Natural frequencies [Hz], shapes, damping; the response to the machine's own orders.
 inline Study modes(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("modes", m, o, w); }
@@ -79,5 +87,8 @@ inline Study accuracy(const Machine& m, const Options& o = {}, const Watcher& w 
 inline Study uncertainty(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("uncertainty", m, o, w);
 }
+
+// Two machines figure by figure, and what differs in their scenes: `of` ("run", "steady", "modes", "size"), `no_error`, `delta`.
+Study diff(const Machine& a, const Machine& b, const Options& options = {}, const Watcher& watcher = {});
 
 }  // namespace kurbel

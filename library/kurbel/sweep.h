@@ -32,6 +32,7 @@ struct SweepChoices {
   std::string into;           // the file; gone on with where it holds the same sweep
   int jobs = 0;               // threads; 0: one for each core
   std::string shard = "1/1";  // only rows of this shard, I/N with 1 ≤ I ≤ N; kurbel merge puts them together
+  bool lines = true;          // in the answer; false: in the file alone, for rows_in()
   Watcher watcher = {};       // interrupted, it ends with the rows that are done
 };
 
@@ -47,11 +48,13 @@ struct SweepLine {
   std::string diagnosis;                       // of a failed one
   std::vector<double> parameters;              // in the units of `vary`
   std::vector<std::optional<double>> figures;  // in the order of the columns, SI
+  std::vector<std::optional<double>> errors;   // of them; empty: not measured
 };
 // What a sweep's file holds.
 struct SweepRows {
+  std::vector<std::string> vary;     // as it was given
   std::vector<SweepColumn> columns;  // of every line's figures
-  std::vector<SweepLine> lines;      // by row
+  std::vector<SweepLine> lines;      // by row; none where they were not wanted
   std::size_t computed = 0;          // now, and not before
   bool complete = false;             // all of the shard are there
 };
@@ -67,5 +70,24 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
 // Throws BadScene where the machine is none with what is varied, std::invalid_argument as above.
 SweepRows sweep(const Machine& machine, const Variation& variation, const std::vector<std::string>& figures,
                 const SweepChoices& choices, const std::string& of = "run");
+
+// What a sweep's file holds, merged or not. With `visit` lines go there one by one and none is held, however many there are.
+// Throws std::invalid_argument for a file that is none.
+SweepRows rows_in(const std::string& file, const std::function<void(const SweepLine&)>& visit = {});
+// Its report, as `kurbel sweep` tells it: response curves, what moves the figures, failures, the worst machines. Limits as
+// "delta.press <= 0.05". Throws std::invalid_argument for a file or a limit that is none.
+Study sweep_report(const std::string& file, const std::vector<std::string>& limits = {});
+// Shards of one sweep into one file; how many rows it has. Throws std::invalid_argument where they are of several sweeps.
+std::size_t merge(const std::vector<std::string>& files, const std::string& into);
+
+// What a row is made of, for whoever sends rows to processes of their own.
+struct SweepAnswer {
+  std::string state;      // "done", "unconfirmed", "failed"
+  std::string diagnosis;  // of a failed one, of one whose accuracy is not confirmed
+  FigureValues figures;   // SI
+};
+// Of one machine: "run", "steady", "modes" or "size". Throws BadScene, and std::invalid_argument for another question.
+SweepAnswer answer(const Machine& machine, const std::string& of = "run", bool errors = true,
+                   const Watcher& watcher = {});
 
 }  // namespace kurbel

@@ -94,7 +94,7 @@ bool turns_at_dead_centres(const Mechanism& mechanism) {
 // The diagram that acts: of a cylinder that does not fire the motored one. False, with a message, where there is none.
 // Throws std::invalid_argument in words.
 template <class Keys>
-bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveData& data) {
+bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveData& data, SliderLoad& load) {
   if (data.over != "angle") {
     if (s.motored)
       return s.refuse(&Keys::motored, fmt::format("belongs to a diagram over \"angle\"; it is over \"{}\"", data.over));
@@ -117,6 +117,7 @@ bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveDat
         "the travel does not turn at 0 and 180 deg of the crank, as it does not with an offset, so that the "
         "compression mirrored about 0 deg would do work that is none; give \"motored\"");
   const double period = data.period;
+  load.mirrored = !s.motored;
   data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
   data.period = period;
   return true;
@@ -127,7 +128,7 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
   const auto refuse = [&](const std::string& text) { return s.refuse(&Table::force, text); };
   const WorkingEnd end = working_end(s.from_greatest, mechanism);
   try {
-    if (!choose_diagram(s, mechanism, data)) return false;
+    if (!choose_diagram(s, mechanism, data, load)) return false;
     if (data.over != "angle") {
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
       if (mechanism.travel.winding != 0)
@@ -208,7 +209,7 @@ bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load)
   const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
   CurveData pressure = s.pressure;
   try {
-    if (!choose_diagram(s, mechanism, pressure)) return false;
+    if (!choose_diagram(s, mechanism, pressure, load)) return false;
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }

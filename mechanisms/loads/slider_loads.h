@@ -255,7 +255,8 @@ struct SliderLoad {
            RoundedPressForce, RoundedTableForce, ChamberOverTravel, ChamberOverAngle, LinearMotorForce>::Any law;
   std::string name;  // "press.load"
   Account account = Account::useful;
-  double rounding = 0;  // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
+  bool mirrored = false;  // its diagram is a substitute for one that is not given (mirrored.h)
+  double rounding = 0;    // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
 
   bool can_be_rounded() const;  // straight pieces, and a width is given
   SliderLoad rounded() const;

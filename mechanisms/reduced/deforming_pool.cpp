@@ -67,7 +67,9 @@ template SliderState<double> DeformingMechanismPool::slider(const Placed& p, con
 template <class T>
 T DeformingMechanismPool::force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                    std::size_t load) const {
-  if (!now.active[p.at.id]) return T(0.0);  // switched off by an operating sequence
+  // Switched off by an operating sequence, with all of them or by itself (as in mechanism_pool.cpp).
+  if (!now.active[p.at.id]) return T(0.0);
+  if (p.at.command >= 0 && !(now.command[p.at.command + 1 + static_cast<int>(load)] > 0.5)) return T(0.0);
   const SliderLoad& law = p.mechanism.loads[load];
   SliderState<T> s = slider(p, now, m, load);
   if (s.travel != creeps) return law.value(s);

@@ -17,6 +17,11 @@ const char* name_of_reversal(const Mechanism& m, bool now_growing) {
   return now_growing ? "folded dead centre" : "extended dead centre";
 }
 
+// A sequence that sets a mechanism or its loads has a command for it and, behind that, one for each load.
+bool acts(const ShaftPorts& at, const Instant& now, std::size_t load) {
+  return at.command < 0 || now.command[at.command + 1 + static_cast<int>(load)] > 0.5;
+}
+
 double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
 
 }  // namespace
@@ -86,10 +91,8 @@ MechanismPool::Reduced MechanismPool::reduced_at(const Placed& p, double phi) {
 double MechanismPool::load_force(const Placed& p, const Instant& now) const {
   double sum = 0;
   if (!is_loaded(p, now)) return sum;
-  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
-    const SliderState<double> s = slider(p, now, k);
-    sum += p.mechanism.loads[k].value(s);
-  }
+  for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
+    if (acts(p.at, now, k)) sum += p.mechanism.loads[k].value(slider(p, now, k));
   return sum;
 }
 
@@ -109,6 +112,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
       SliderState<double> s{phi, x, ratio * omega, 0, 0};
       s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (s.v >= 0 ? 1 : -1);
       for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+        if (!acts(p.at, now, k)) continue;
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
         const double force = p.mechanism.loads[k].value(s);
         torque += force * ratio;
@@ -237,6 +241,7 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
     const D v = x_ratio * speed;
     D force(0.0);
     for (std::size_t k = 0; is_loaded(p, now) && k < p.mechanism.loads.size(); ++k) {
+      if (!acts(p.at, now, k)) continue;
       const SliderState<double> s = slider(p, now, k);
       const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
       force = force + p.mechanism.loads[k].value(dual);
@@ -382,6 +387,7 @@ Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
   Hold sum;
   if (!is_loaded(p, now)) return sum;
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
+    if (!acts(p.at, now, k)) continue;
     const Hold force = p.mechanism.loads[k].hold(slider(p, now, k));
     sum.low += force.low;
     sum.high += force.high;

@@ -11,17 +11,23 @@ whose `places` tell file, line, column and text of every fault. A run that canno
 False, `diagnosis` says why.
 """
 
-from ._kurbel import Event, Figure, Machine, Motion, SceneError, State, __version__, option_names, study_names
+import json
+from collections.abc import Mapping
+
+from ._kurbel import (Event, Figure, Machine, Motion, SceneError, State, __version__, example_scenes, explain,
+                      explained_figures, keys, kinds, option_names, study_names)
 from ._results import Run, Study, Trajectory
-from ._sweep import Sweep, sweep
-from ._text import choices_of, machine
+from ._sweep import Sweep, merge, rows_in, sweep
+from ._text import assigned, choices_of, machine
 from . import _kurbel
 
 __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State", "Study", "Sweep", "Trajectory",
-           "machine", "motion", "option_names", "run", "study", "study_names", "sweep"]
+           "check", "diff", "example_scenes", "explain", "explained_figures", "figures", "keys", "kinds", "machine",
+           "merge", "motion", "new", "option_names", "rows_in", "run", "schema", "study", "study_names", "sweep"]
 
 
-def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None, errors=True, plots=True):
+def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None, errors=True, plots=True,
+        trials=False, measured="", map=(), shift="", offset=(), state=None):
     """Simulates a scene: figures confirmed by further runs, trajectory, page.
 
     set       values put beside the scene: {"main_coupling.stiffness": "1 MN*m/rad"}
@@ -31,9 +37,15 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
     until     end of the simulated time [s]
     errors    measure them by further runs
     plots     follow what the page draws
+    trials    behind a short run: the rigid machine's figures, and which effects that are off would move a key figure
+    measured  a test's record (a CSV file) laid over it; map: {"T1": "torque.main_coupling"}; shift: "0.2 s" or "fit";
+              offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; what is left between them is told as figures
+    state     of Motion.state: goes on from there
     """
     choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, errors=errors, plots=plots)
-    return Run(_kurbel.run(machine(scene, set=set), **choices))
+    return Run(_kurbel.run(machine(scene, set=set), trials=trials, measured=str(measured), map=assigned(map),
+                           shift=str(shift), offset=assigned(offset), from_state=state.text if state else "",
+                           **choices))
 
 
 def motion(scene, *, set=None, effects="", tolerance=1e-9):
@@ -41,18 +53,65 @@ def motion(scene, *, set=None, effects="", tolerance=1e-9):
     return Motion(machine(scene, set=set), **choices_of(effects=effects, tolerance=tolerance))
 
 
+def _options(given):
+    """Options as the module takes them: a flag as true, what is a list once for each, a mapping as NAME=VALUE."""
+    said = []
+    for key, value in given.items():
+        all_of_it = assigned(value) if isinstance(value, (Mapping, list, tuple)) else [value]
+        said += [(key, ("true" if one else "false") if isinstance(one, bool) else str(one)) for one in all_of_it]
+    return said
+
+
 def study(name, scene, *, set=None, **options):
-    """One of study_names() put to a scene; options as the command has them: mid_speed="60 rpm"."""
-    said = [(key, ("true" if value else "false") if isinstance(value, bool) else
-             ",".join(value) if isinstance(value, (list, tuple)) else str(value)) for key, value in options.items()]
-    return Study(_kurbel.study(name, machine(scene, set=set), said))
+    """One of study_names() put to a scene; options as the command has them: mid_speed="60 rpm"; those that may be given
+    again there as a list."""
+    return Study(_kurbel.study(name, machine(scene, set=set), _options(options)))
+
+
+def diff(scene, other, *, set=None, other_set=None, **options):
+    """Two machines figure by figure, and what differs in their scenes. `set` holds for both, `other_set` for the other.
+
+    of        "run", "steady", "modes" or "size"
+    no_error  skip the runs that measure errors
+    delta     demanded, of size
+    """
+    other_set = {**(set or {}), **(other_set or {})}
+    return Study(_kurbel.diff(machine(scene, set=set), machine(other, set=other_set), _options(options)))
+
+
+def check(scene, *, set=None):
+    """The machine of a scene that is sound; raises SceneError with all that is wrong."""
+    sound = machine(scene, set=set)
+    sound.explain()  # compiled, too
+    return sound
+
+
+def figures(scene, *, set=None):
+    """{name: unit} of the figures that runs of a scene may yield."""
+    return dict(machine(scene, set=set).figures())
+
+
+def new(name, file=None):
+    """A scene to start from, with comments: one of example_scenes(), as text. With a file it is written there; one that
+    exists is left as it is: FileExistsError."""
+    text = _kurbel.example_scene(name)
+    if file is not None:
+        with open(file, "x", encoding="utf-8") as out:
+            out.write(text)
+    return text
+
+
+def schema():
+    """JSON Schema of a scene (draft 2020-12) as a dict."""
+    return json.loads(_kurbel.schema_text())
 
 
 def _verb(name):
     def ask(scene, *, set=None, **options):
         return study(name, scene, set=set, **options)
     ask.__name__ = ask.__qualname__ = name
-    ask.__doc__ = f"kurbel {name} put to a scene. Options: {', '.join(option_names(name)) or 'none'}."
+    ask.__doc__ = (f"kurbel {name} put to a scene. Options: {', '.join(option_names(name)) or 'none'}; "
+                   f"what they are: kurbel {name} --help.")
     return ask
 
 

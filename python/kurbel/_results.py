@@ -16,7 +16,7 @@ class Study:
 
     @property
     def text(self):
-        """As the command prints it."""
+        """All of it, for a terminal."""
         return self._output.text
 
     @property
@@ -46,8 +46,22 @@ class Study:
 
     @property
     def tables(self):
-        """CSV files by their names."""
+        """CSV files by their names, and "sheet.html" where a sheet was asked for."""
         return dict(self._output.tables)
+
+    def figures_of(self, model=""):
+        """Figures by their names, of one of several models ("rigid", "elastic") or of the only one."""
+        found = Figures()
+        for figure in self._output.figures:
+            if figure.of == model:
+                found.setdefault(figure.name, figure)
+        return found
+
+    def to_pandas(self):
+        """Figures: model, value, error, unit, at [s]; a row each, by their names."""
+        import pandas
+        rows = [(f.name, f.of, f.value, f.error, f.unit, f.at) for f in self._output.figures]
+        return pandas.DataFrame(rows, columns=["figure", "model", "value", "error", "unit", "at"]).set_index("figure")
 
     def write(self, folder, formats="csv"):
         """summary.json, report.html and the tables into a folder, whole or not there. Formats of the tables: "csv,mat,xlsx"."""
@@ -76,6 +90,7 @@ class Trajectory:
         return self._output.time
 
     def __getitem__(self, name):
+        """A quantity over time, in SI: `units` says which. Read-only, a view into the run's memory."""
         return self._output.series(name)
 
     def __iter__(self):
@@ -88,6 +103,7 @@ class Trajectory:
         return name in self.units
 
     def keys(self):
+        """The names of the quantities."""
         return self.units.keys()
 
     def to_pandas(self):
@@ -108,7 +124,7 @@ class Figures(dict):
     def __missing__(self, name):
         import difflib
         like = " or ".join(map(repr, difflib.get_close_matches(str(name), self, n=3, cutoff=0.5)))
-        raise KeyError(f"the run has no {name!r}" + (f" — did you mean {like}?" if like else ""))
+        raise KeyError(f"the result has no {name!r}" + (f" — did you mean {like}?" if like else ""))
 
 
 class Run(Study):
@@ -122,6 +138,7 @@ class Run(Study):
 
     @property
     def events(self):
+        """What happened, in its order: clutches that stuck, steps of the sequence."""
         return self._run.events
 
     @property
@@ -131,10 +148,11 @@ class Run(Study):
 
     @property
     def processor_seconds(self):
+        """Of all runs, those for the errors included [s]."""
         return self._run.processor_seconds
 
     def to_pandas(self):
-        """Figures: value, error, unit, at."""
+        """Figures: value, error, unit, at [s]; a row each, by their names."""
         import pandas
         rows = [(f.name, f.value, f.error, f.unit, f.at) for f in self.figures.values()]
         return pandas.DataFrame(rows, columns=["figure", "value", "error", "unit", "at"]).set_index("figure")

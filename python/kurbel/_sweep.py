@@ -1,25 +1,56 @@
 """Variants of a machine, computed by whatever has `submit` or `map`: threads, processes, a Dask cluster."""
 
+import os
+
 from . import _kurbel
+from ._results import Figures, Study
 from ._text import choices_of, machine
 
 
-def _row(text, file, settings, figures, choices):
+def _row(text, file, settings, figures, of, choices):
     """Of one variant, in whatever process: ({figure: (value, error, unit)}, why it failed or None)."""
     try:
-        run = _kurbel.run(_kurbel.Machine.from_text(text, file, settings), plots=False, **choices)
+        variant = _kurbel.Machine.from_text(text, file, settings)
+        if of == "run":
+            run = _kurbel.run(variant, plots=False, **choices)
+            found, failed = run.figures, None if run.complete else run.diagnosis
+        else:
+            state, diagnosis, found = _kurbel.answer(variant, of, choices.get("errors", True))
+            failed = diagnosis if state == "failed" else None
     except (ValueError, RuntimeError) as why:
         return {}, str(why)
-    wanted = {name: (f.value, f.error, f.unit) for name, f in run.figures.items()
+    wanted = {name: (f.value, f.error, f.unit) for name, f in found.items()
               if not figures or name in figures or name.split(".")[0] in figures}
-    return wanted, None if run.complete else run.diagnosis
+    return wanted, failed
+
+
+def _row_of(asked):
+    return _row(*asked)
+
+
+def _computed(executor, rows):
+    """The rows by whatever has `submit` or `map`."""
+    if executor is None:
+        return [_row(*row) for row in rows]
+    if hasattr(executor, "gather"):  # Dask: rows of a worker that dies are computed by another one
+        return executor.gather([executor.submit(_row, *row, pure=False) for row in rows])
+    if not hasattr(executor, "submit"):
+        return list(executor.map(_row_of, rows))
+    futures = [executor.submit(_row, *row) for row in rows]
+    try:
+        return [future.result() for future in futures]
+    except BaseException:  # Ctrl-C, too: what has not begun does not begin
+        for future in futures:
+            future.cancel()
+        raise
 
 
 class Sweep:
     """Rows in their order: parameters and figures."""
 
-    def __init__(self, vary, parameters, results):
+    def __init__(self, vary, parameters, results, file=None):
         self.vary = vary
+        self.file = file                          # where the rows are kept; None: nowhere
         self.parameters = parameters              # a list of values for each row, in the units of `vary`
         self.figures = [r[0] for r in results]    # {name: (value, error, unit)} for each row
         self.failures = {i: r[1] for i, r in enumerate(results) if r[1] is not None}
@@ -28,14 +59,25 @@ class Sweep:
         return len(self.parameters)
 
     def __getitem__(self, figure):
-        """Values of a figure, a row each; nan where a row has none."""
+        """Values of a figure in SI, a row each; nan where a row has none. Raises KeyError for what no row has."""
         import numpy
+        known = Figures((name, None) for row in self.figures for name in row)
+        if known:
+            known[figure]
         return numpy.array([row[figure][0] if figure in row else numpy.nan for row in self.figures])
 
     def __repr__(self):
         return f"<Sweep of {', '.join(self.vary)}: {len(self)} rows, {len(self.failures)} failed>"
 
+    def report(self, limit=()):
+        """What `kurbel sweep` says of the rows in its file: response curves, what moves the figures, failures, the worst
+        machines. limit: "delta.press <= 0.05", or a list of such."""
+        if self.file is None:
+            raise ValueError("these rows are kept in no file, which a report is made of; give sweep() a file: into")
+        return Study(_kurbel.sweep_report(self.file, [limit] if isinstance(limit, str) else list(limit)))
+
     def to_pandas(self):
+        """A DataFrame, a row a variant: what is varied, in the units of `vary`, and figures in SI."""
         import pandas
         columns = [text.split("=")[0] for text in self.vary]
         frame = pandas.DataFrame(self.parameters, columns=columns)
@@ -44,30 +86,45 @@ class Sweep:
         return frame
 
 
-def sweep(scene, vary, *, design="grid", seed=1, figures=(), set=None, executor=None, **choices):
+def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None, executor=None, into=None, jobs=0,
+          **choices):
     """Runs variants of a scene.
 
     vary      ["main_coupling.stiffness=500..1500 kN*m/rad", "flywheel.inertia=200,400 kg*m2"]
     design    "grid:21x3", "sobol:4096", "lhs:500", "random:500"; row i is a function of i, design and seed alone
     figures   whole names, or a quantity ("delta"); none: all
-    executor  with submit(f, …) -> future, or map(f, …): concurrent.futures, a Dask Client; None: here, one by one
-    choices   as of run(): errors, effects, method, accuracy, until
+    of        "run", "steady", "modes" or "size": what is asked of each variant
+    executor  with submit(f, …) -> future, or map(f, rows): concurrent.futures, a Dask Client, multiprocessing's Pool;
+              None: here, one by one
+    into      a file (SQLite) that keeps the rows as they come, in threads of this process (`jobs`; 0: one a core), and
+              that a later call goes on with; it makes the rows' report. Not with an executor
+    choices   of run, as of run(): errors, effects, method, accuracy, until; of others errors
     """
     base = machine(scene, set=set)
     vary = [vary] if isinstance(vary, str) else list(vary)
-    figures, choices = tuple(figures), choices_of(**choices)
+    figures, choices = (figures,) if isinstance(figures, str) else tuple(figures), choices_of(**choices)
+    if of != "run" and choices.keys() - {"errors"}:
+        raise TypeError(f"of={of!r} takes no {', '.join(sorted(choices.keys() - {'errors'}))}; set them in the scene")
+    if into is not None:
+        if executor is not None or choices:
+            raise TypeError(f"into goes without {'an executor' if executor is not None else ', '.join(choices)}; "
+                            "what holds for all rows stands in the scene, or in set")
+        file = os.fspath(into)
+        return Sweep(*_kurbel.sweep(base, vary, design, seed, list(figures), of, file, jobs), file)
     rows = _kurbel.rows_of(vary, design, seed)
     settings = _kurbel.settings_of(vary, design, seed)
-    text, file = base.text, base.file
-    _kurbel.Machine.from_text(text, file, settings[0])  # what is wrong is told before anything is computed
-    if executor is None:
-        results = [_row(text, file, s, figures, choices) for s in settings]
-    elif hasattr(executor, "gather"):  # Dask: rows of a worker that dies are computed by another one
-        results = executor.gather([executor.submit(_row, text, file, s, figures, choices, pure=False)
-                                   for s in settings])
-    elif hasattr(executor, "submit"):
-        results = [f.result() for f in [executor.submit(_row, text, file, s, figures, choices) for s in settings]]
-    else:
-        n = len(settings)
-        results = list(executor.map(_row, [text] * n, [file] * n, settings, [figures] * n, [choices] * n))
-    return Sweep(vary, rows, results)
+    # Data files are found from wherever a row is computed.
+    text, file = base.text, os.path.abspath(base.file)
+    _kurbel.Machine.from_text(text, base.file, settings[0])  # what is wrong is told before anything is computed
+    return Sweep(vary, rows, _computed(executor, [(text, file, s, figures, of, choices) for s in settings]))
+
+
+def merge(files, into):
+    """Puts shards of one sweep, which `kurbel sweep --shard` filled, into one file; how many rows it has."""
+    return _kurbel.merge([os.fspath(file) for file in files], os.fspath(into))
+
+
+def rows_in(file):
+    """The rows that a sweep's file holds, as sweep() hands them out."""
+    file = os.fspath(file)
+    return Sweep(*_kurbel.rows_in(file), file)

@@ -51,6 +51,13 @@ def settings_of(set):
     return [(path, value if isinstance(value, str) else _value(value)) for path, value in (set or {}).items()]
 
 
+def assigned(given):
+    """What may be given several times as a list: {"T1": "fit"} is ["T1=fit"]."""
+    if isinstance(given, Mapping):
+        return [f"{name}={value}" for name, value in given.items()]
+    return [given] if isinstance(given, str) else list(given)
+
+
 def choices_of(**given):
     """Choices of a run as the module takes them: effects by commas, numbers in SI."""
     for name, value in given.items():

@@ -1,4 +1,4 @@
-// motion_answers.cpp — stalls, runaways, slip: judged by the state at the end and by what led there.
+// motion_answers.cpp — stalls, runaways, motors that hang: judged by the state at the end and by what led there.
 #include "studies/answers/motion_answers.h"
 
 #include <fmt/format.h>
@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivetrain/induction/induction_law.h"
 #include "engine/numerics/index.h"
+#include "studies/answers/contact_answers.h"
 
 namespace kurbel {
 namespace {
@@ -16,6 +18,12 @@ constexpr double stands = 1e-3;   // of the usual speed: below it a shaft stands
 constexpr double drives = 1e-6;   // of the usual torque: above it something drives
 constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
 constexpr double nearly = 0.2;    // of the largest speed so far: below it the link has come to a stop
+
+std::string where(const Stall& s) {
+  const double degrees = s.angle * 180 / std::numbers::pi;
+  return fmt::format("\"{}\" stalls at {:.1f}° after {:.3g} s: ", s.link, degrees - 360 * std::floor(degrees / 360),
+                     s.time);
+}
 
 class Judge {
  public:
@@ -41,14 +49,19 @@ class Judge {
   }
   // A motor under torque whose own shaft stands.
   const MotorTorque* standing_motor() const {
-    for (const MotorTorque& motor : m_.motors) {
-      double torque = 0;
-      for (const std::size_t e : motor.elements) torque += now_.sums.element_torque[e];
-      const double own = m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
-      if (std::abs(torque) > drives * motor.rated_torque && std::abs(own) < stands * std::abs(motor.rated_speed))
+    for (const MotorTorque& motor : m_.motors)
+      if (std::abs(torque_of(motor)) > drives * motor.rated_torque &&
+          std::abs(speed_of(motor)) < stands * std::abs(motor.rated_speed))
         return &motor;
-    }
     return nullptr;
+  }
+  double torque_of(const MotorTorque& motor) const {
+    double torque = 0;
+    for (const std::size_t e : motor.elements) torque += now_.sums.element_torque[e];
+    return torque;
+  }
+  double speed_of(const MotorTorque& motor) const {
+    return m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
   }
   std::optional<double> rest() const {
     const auto stop = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(),
@@ -63,6 +76,16 @@ class Judge {
     const double torque = drive();
     if (torque == 0) return {};
     return Stall{link(), motor ? motor->component : "", angle(), *since, torque};
+  }
+  // Where a clutch slips meanwhile, what drives is what that passes on.
+  std::string words_of(const Stall& stall) const {
+    for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
+      const double passed_on = std::abs(now_.joint_torque[m_.elastic[e].joint]);
+      if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && passed_on > drives * m_.torque_scale)
+        return fmt::format("{}\"{}\" slips to the end under the {:.4g} N·m that it can transmit", where(stall),
+                           m_.network.joints[at(m_.elastic[e].joint)].component, passed_on);
+    }
+    return in_words(stall);
   }
 
   // Turned back by more than half a turn, against what drove it from the start.
@@ -107,22 +130,24 @@ class Judge {
                   60};
   }
 
-  // Closed clutches whose sides turn differently at the end; those that let go by themselves, too.
-  void slipping(std::vector<Answer>& answers) const {
-    for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
-      const ElasticJoint& joint = m_.elastic[e];
-      const Section* section = m_.scene.find(m_.network.joints[at(joint.joint)].component);
-      if (!joint.slips || equations_.modes().slip[e] == 0 || (section && section->kind->name == "brake")) continue;
-      const double torque = now_.joint_torque[joint.joint];
-      const double slip = joint.gain_a * now_.now.speed[joint.shaft_a] - joint.gain_b * now_.now.speed[joint.shaft_b];
-      const double usual = joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale;
-      if (!(std::abs(slip) > stands * std::abs(usual)) || !(std::abs(torque) > drives * m_.torque_scale)) continue;
-      answers.push_back({Question::runs,
-                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit",
-                                     m_.network.joints[at(joint.joint)].component,
-                                     m_.scene.speed_unit.text(std::abs(slip)), std::abs(torque)),
-                         50});
+  // An induction motor that its loads keep below its breakdown speed, where it gives less and less the slower it is.
+  std::optional<Answer> hangs(const Periods& p) const {
+    if (!p.steady || p.run_down_begin) return {};
+    for (const MotorTorque& motor : m_.motors) {
+      const Section* section = m_.scene.find(motor.component);
+      const std::optional<InductionData> data = section ? induction_data(*section) : std::nullopt;
+      if (!data || data->by_converter || !(torque_of(motor) > drives * motor.rated_torque)) continue;
+      const double breakdown = data->synchronous_speed * (1 - data->breakdown_slip), now = speed_of(motor);
+      const double mean = p.steady_speed * m_.node_ratio[at(motor.node)];
+      if (!(std::max(now, mean) < breakdown) || !(now > stands * motor.rated_speed)) continue;
+      return Answer{
+          Question::runs,
+          fmt::format("\"{}\" does not come up to speed: it hangs at {}, below the {} at which it gives most; "
+                      "its loads take all that it gives there",
+                      motor.component, m_.scene.speed_unit.text(mean), m_.scene.speed_unit.text(breakdown)),
+          75};
     }
+    return {};
   }
 
  private:
@@ -141,11 +166,8 @@ std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome) {
 }
 
 std::string in_words(const Stall& s) {
-  const double degrees = s.angle * 180 / std::numbers::pi;
-  return fmt::format(
-      "\"{}\" stalls at {:.1f}° after {:.3g} s: the load can hold the {:.4g} N·m that drive there, and holds them to "
-      "the end",
-      s.link, degrees - 360 * std::floor(degrees / 360), s.time, s.torque);
+  return fmt::format("{}the load can hold the {:.4g} N·m that drive there, and holds them to the end", where(s),
+                     s.torque);
 }
 
 std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outcome, const Periods& periods,
@@ -154,7 +176,7 @@ std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outco
   if (!outcome.complete || outcome.state.empty()) return answers;
   const Judge judge(equations, outcome);
   if (const std::optional<Stall> stall = judge.stall()) {
-    answers.push_back({Question::runs, in_words(*stall), 90});
+    answers.push_back({Question::runs, judge.words_of(*stall), 90});
     return answers;
   }
   double fastest = 0;
@@ -166,9 +188,10 @@ std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outco
     return answers;
   }
   for (const std::optional<Answer>& answer :
-       {judge.backwards(begins_at), judge.runs_away(periods), judge.never_gets_round(periods, any_cycle, fastest)})
+       {judge.backwards(begins_at), judge.runs_away(periods), judge.hangs(periods),
+        judge.never_gets_round(periods, any_cycle, fastest)})
     if (answer) answers.push_back(*answer);
-  judge.slipping(answers);
+  for (Answer& answer : contact_answers(equations, outcome)) answers.push_back(std::move(answer));
   return answers;
 }
 

@@ -20,8 +20,9 @@ struct Stall {
 std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome);
 std::string in_words(const Stall& stall);
 
-// In the order of how bad they are: it stalls; it turns backwards against its drive; it runs away; it never gets round;
-// a clutch slips to the end although it is closed. Of a run that came to its end.
+// In the order of how bad they are: it stalls; a brake does not stop it; it turns backwards against its drive; its motor
+// hangs below its breakdown speed; it runs away; it never gets round; a clutch slips to the end although it is closed.
+// Of a run that came to its end.
 std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outcome, const Periods& periods,
                                    const std::vector<Figure>& figures, bool any_cycle, double begins_at);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "studies/answers/motor_figures.h"
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/ratings.h"
@@ -59,13 +60,35 @@ class RunWords {
   const Periods& p_;
 };
 
+void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
+  for (const Figure& f : r.figures) {
+    const bool by_torque = f.name == Name::own("thermal_use", f.of).text;
+    if (!by_torque && f.name != Name::own("current_use", f.of).text) continue;
+    const Section* motor = r.model ? r.model->scene.find(f.of) : nullptr;
+    if (!motor || !(f.value - f.error.value_or(0) > 1)) continue;
+    if (std::optional<Answer> answer = overload_answer(*motor, f.value, by_torque))
+      answers.push_back(std::move(*answer));
+  }
+}
+
 }  // namespace
+
+std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque) {
+  if (motor.has("duty") || !(use > 1)) return {};
+  const std::optional<double> rated = by_torque ? rated_torque_of(motor) : std::nullopt;
+  return Answer{Question::bears,
+                fmt::format("\"{}\" gets too hot: the {} of its steady motion is {:.0f} % of the rated one{}",
+                            motor.name, by_torque ? "RMS torque" : "RMS current", 100 * use,
+                            rated ? fmt::format("; it holds from a rated torque of {:.4g} N·m on", *rated * use) : ""),
+                use};
+}
 
 std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
   if (!r.complete) return {{Question::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
   std::vector<Answer> answers = r.answers;
-  if (answers.empty())
+  if (std::none_of(answers.begin(), answers.end(), [](const Answer& a) { return a.question == Question::runs; }))
     if (std::string words = RunWords(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
+  overloaded_motors(r, answers);
   if (r.unconfirmed()) answers.push_back({Question::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
   for (Answer& a : answers) a.sentence = capitalised(whose + a.sentence);
   return answers;
@@ -73,7 +96,7 @@ std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
 
 std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts) {
   if (verdicts.empty()) return {};
-  return {{Question::bears, capitalised(ratings_sentence(verdicts)), worst_excess(verdicts)}};
+  return {{Question::bears, capitalised(sentence_of(verdicts, "rating")), worst_excess(verdicts)}};
 }
 
 }  // namespace kurbel

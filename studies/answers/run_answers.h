@@ -2,6 +2,7 @@
 // brings?
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace kurbel {
 // Does it run, and is that sure? Bad news of the motion (Result::answers), else what it comes to, in a sentence.
 // `whose`: before each, where models are compared: "elastic model: ".
 std::vector<Answer> run_answers(const Result& result, const std::string& whose = {});
+
+// A motor that steady motion uses beyond its rated torque, or current; none of one that states a duty: that is judged.
+std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque);
 
 // Nothing is rated, nothing is said. The worst by its value over its limit, with the value that would mend it.
 std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts);

@@ -277,8 +277,10 @@ std::vector<KindEntry> times() {
        {.words = "stopping time",
         .unit = "s",
         .of = "LINK",
-        .is = "from the signal of the operating sequence that makes the reduction link stop to its rest. Only where "
-              "that happens",
+        .is =
+            "from the signal of the operating sequence that makes the reduction link stop to its rest: the first step "
+            "that takes a motor or a clutch away, reverses a motor or sets a brake, after the last that drove. Only "
+            "where that happens",
         .is_not = "the run-down time, which counts from the drive's end",
         .theory = "8",
         .verbs = of_runs}},

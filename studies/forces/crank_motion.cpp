@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "engine/model/model.h"
@@ -28,15 +29,38 @@ const std::vector<std::string>& mechanism_kinds() {
   return kinds;
 }
 
-// Whether an operating sequence leaves the loads of a component switched off; one that goes round leaves them as they come.
-bool left_off(const Sequence& sequence, const std::string& component) {
-  bool off = false;
-  for (const SequenceStep& step : sequence.steps)
-    if (std::find(step.set.begin(), step.set.end(), component) != step.set.end()) off = step.to <= 0.5;
-  return off && !sequence.repeat;
+// A step sets a load by the mechanism's name or by its own.
+bool sets(const SequenceStep& step, const std::string& component, const std::string& load) {
+  return std::any_of(step.set.begin(), step.set.end(), [&](const std::string& said) {
+    return said == component || said == load || load.starts_with(said + ".");
+  });
 }
 
-std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component, const Effects& effects) {
+// What holds at the end of the sequence: a load acts where neither its mechanism nor itself was told off last.
+ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<std::string>& parts) {
+  ActingLoads left = all_loads;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::map<std::string, bool> on;
+    for (const SequenceStep& step : sequence.steps)
+      for (const std::string& said : step.set)
+        if (said == component || said == parts[k] || parts[k].starts_with(said + ".")) on[said] = step.to > 0.5;
+    for (const auto& [said, acts] : on)
+      if (!acts) left &= ~(ActingLoads{1} << k);
+  }
+  return left;
+}
+
+// Loads of a mechanism by their names, in the order of their bits.
+std::vector<std::string> loads_of(const Network::ShaftElement& e) {
+  std::vector<std::string> loads;
+  for (const auto& [name, account] : e.element->further_accounts)
+    if (name.starts_with(e.component + ".load")) loads.push_back(name);
+  return loads;
+}
+
+// Where its loads are to be told what they do, by a sequence whose step never comes.
+std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component, const Effects& effects,
+                                   bool told) {
   const Network whole = build_network(scene);
   Network network;
   const int node = network.add_node(component, "", 1);  // kg·m²; forces do not see it
@@ -45,6 +69,8 @@ std::shared_ptr<const Model> alone(const Scene& scene, const std::string& compon
   network.put(node, component, mechanism_element(whole, component).element, {}, 0);
   Scene bare;
   bare.file = scene.file;
+  if (told && !loads_of(network.elements.front()).empty())
+    bare.sequence.steps.push_back({.when = SequenceStep::When::at, .value = 1e30, .set = {component}});
   return compile_network(std::move(network), bare, bare_machine(effects));
 }
 
@@ -59,9 +85,23 @@ const Network::ShaftElement& mechanism_element(const Network& network, const std
 }
 
 OutputLoads::OutputLoads(const Scene& scene, const std::string& component, const Effects& effects)
-    : OutputLoads(alone(scene, component, effects)) {
-  switched_off_ = left_off(scene.sequence, component);
-  for (const WorkAccount& account : model().accounts) is_load_.push_back(account.name.starts_with(component + ".load"));
+    : machine_(alone(scene, component, effects, false)),
+      equations_(alone(scene, component, effects, true), false),
+      component_(component) {
+  const std::vector<std::string> parts = loads_of(model().network.elements.front());
+  if (parts.size() > most_loads)
+    throw std::invalid_argument(
+        fmt::format("\"{}\" has {} loads; forces are found under at most {}", component, parts.size(), most_loads));
+  const auto touched = [&](const std::string& load) {
+    return std::any_of(scene.sequence.steps.begin(), scene.sequence.steps.end(),
+                       [&](const SequenceStep& step) { return sets(step, component, load); });
+  };
+  goes_round_ = scene.sequence.repeat && std::any_of(parts.begin(), parts.end(), touched);
+  if (!scene.sequence.repeat) left_ = left_by(scene.sequence, component, parts);
+  for (const WorkAccount& account : model().accounts) {
+    const auto part = std::find(parts.begin(), parts.end(), account.name);
+    of_account_.push_back(part == parts.end() ? 0 : ActingLoads{1} << (part - parts.begin()));
+  }
   for (std::size_t k = 0; k < model().pool_channels.size(); ++k) {
     const auto& name = model().pool_channels[k].name;
     if (name.of == component && (name.what == QuantityKind::force || name.what == QuantityKind::load_torque))
@@ -82,20 +122,51 @@ std::vector<double> OutputLoads::edges(int direction) {
   return all;
 }
 
-double OutputLoads::force(double phi, double omega) {
-  if (channel_ < 0 || switched_off_) return 0;
-  const std::vector<double> y = equations_.modes_from_scratch(0, within(phi), omega);
-  return model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
+std::string OutputLoads::words_of_sequence() const {
+  if (goes_round_)
+    return fmt::format(
+        "the operating sequence switches loads of {} as it goes round: where the crank turns evenly all act, in the "
+        "motion of the machine those that are on",
+        component_);
+  std::vector<std::string> off;
+  const std::vector<std::string> parts = loads_of(model().network.elements.front());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (!(left_ >> k & 1)) off.push_back(parts[k]);
+  if (off.empty()) return {};
+  return fmt::format("loads of {} count as the operating sequence leaves them: switched off{}", component_,
+                     off.size() == parts.size() ? "" : " " + listed(off, "and"));
 }
 
-std::span<const double> OutputLoads::shares(double phi, double omega) {
-  machine_.set_modes(within(phi), omega);
-  const std::span<const double> all = machine_.at(within(phi), omega, true).share;
-  if (!switched_off_) return all;
-  without_loads_.assign(all.begin(), all.end());
-  for (std::size_t i = 0; i < without_loads_.size(); ++i)
-    if (is_load_[i]) without_loads_[i] = 0;
-  return without_loads_;
+double OutputLoads::force(double phi, const CrankMotion& motion) {
+  if (channel_ < 0) return 0;
+  const std::vector<double> y = equations_.modes_from_scratch(0, within(phi), motion.omega);
+  std::vector<Command>& told = equations_.changing_modes().command;  // the mechanism's first
+  for (std::size_t k = 1; k < told.size(); ++k)
+    told[k].value = told[k].to = static_cast<double>(motion.loads >> (k - 1) & 1);
+  return equations_.model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
+}
+
+std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motion) {
+  machine_.set_modes(within(phi), motion.omega);
+  const std::span<const double> all = machine_.at(within(phi), motion.omega, true).share;
+  if (motion.loads == all_loads) return all;
+  acting_.assign(all.begin(), all.end());
+  for (std::size_t i = 0; i < acting_.size(); ++i)
+    if (of_account_[i] && !(of_account_[i] & motion.loads)) acting_[i] = 0;
+  return acting_;
+}
+
+ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now) {
+  const Network::ShaftElement& e = model.network.elements[element];
+  const auto is = [&](const CommandTarget& target) { return target.component == e.component; };
+  const auto told = std::find_if(model.commands.begin(), model.commands.end(), is);
+  if (told == model.commands.end()) return all_loads;
+  const double* command = now.command + (told - model.commands.begin());
+  if (command[0] <= 0.5) return 0;
+  ActingLoads on = all_loads;
+  for (std::size_t k = 0; k < loads_of(e).size(); ++k)
+    if (command[k + 1] <= 0.5) on &= ~(ActingLoads{1} << k);
+  return on;
 }
 
 // --- where the cycle is looked at ---
@@ -217,7 +288,7 @@ CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi)
   // Over so short a piece a difference of speeds is rounding.
   if (!smooth(i)) {
     const CrankMotion& side = samples[phi - begin < 0.5 * h ? from : to].motion;
-    return {side.omega, side.alpha};
+    return side;
   }
   if (from > 0 && smooth(from)) --from;
   if (to + 1 < samples.size() && smooth(to + 1)) ++to;
@@ -239,7 +310,7 @@ CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi)
     slope = slope * (u - x[k]) + z;
     z = z * (u - x[k]) + c[k];
   }
-  return {std::copysign(std::sqrt(2 * std::max(0.0, z)), samples[i].motion.omega), slope / h};
+  return {std::copysign(std::sqrt(2 * std::max(0.0, z)), samples[i].motion.omega), slope / h, samples[i].motion.loads};
 }
 
 // --- the machine ---
@@ -274,8 +345,9 @@ void check(const ForcesOptions& options) {
 }
 
 PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed) {
-  return {loads.cycle(), speed, loads.edges(speed < 0 ? -1 : 1),
-          [&loads, speed](double phi) { return loads.force(phi, speed); }};
+  return {loads.cycle(), speed, loads.edges(speed < 0 ? -1 : 1), [&loads, speed](double phi) {
+            return loads.force(phi, {speed, 0, loads.left()});
+          }};
 }
 
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
@@ -283,7 +355,7 @@ MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
   along.cycle = loads.cycle();
   const int direction = speed < 0 ? -1 : 1;
   along.where = abscissae(along.cycle, loads.edges(direction), direction, positions);
-  along.motion.assign(along.where.size(), {speed, 0});
+  along.motion.assign(along.where.size(), {speed, 0, loads.left()});
   return along;
 }
 

@@ -16,6 +16,14 @@
 
 namespace kurbel {
 
+// At an instant of a machine whose element that is.
+ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now);
+
+struct CrankMotion {
+  double omega = 0, alpha = 0;  // [rad/s], [rad/s²]
+  ActingLoads loads = all_loads;
+};
+
 // The loads on a mechanism's output, from its own element on a shaft of its own: angle and speed are the crank's.
 class OutputLoads {
  public:
@@ -27,16 +35,16 @@ class OutputLoads {
   std::vector<double> edges(int direction);
   void add_edges(const std::vector<double>& of_a_turn) { added_ = of_a_turn; }
 
-  // By the operating sequence, in the end: then no load acts.
-  bool switched_off() const { return switched_off_; }
+  // As the operating sequence leaves them in the end; one that goes round leaves them as they come, and all count here.
+  ActingLoads left() const { return left_; }
+  // What is to be said of that; empty: all act.
+  std::string words_of_sequence() const;
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
-  double force(double phi, double omega);
+  double force(double phi, const CrankMotion& motion);
   // Of each of model().accounts, reduced to the crank [N·m]; omega ≠ 0.
-  std::span<const double> shares(double phi, double omega);
+  std::span<const double> shares(double phi, const CrankMotion& motion);
 
  private:
-  explicit OutputLoads(const std::shared_ptr<const Model>& model) : machine_(model), equations_(model, false) {}
-
   RigidMachine machine_;
   // Within one cycle, both ends counting as they are.
   double within(double phi) const {
@@ -44,10 +52,12 @@ class OutputLoads {
   }
 
   Equations equations_;
+  std::string component_;
   int channel_ = -1;
-  bool switched_off_ = false;
-  std::vector<bool> is_load_;  // per account
-  std::vector<double> without_loads_;
+  ActingLoads left_ = all_loads;
+  bool goes_round_ = false;              // the sequence, and sets loads on its way
+  std::vector<ActingLoads> of_account_;  // the load that an account is of; 0: of none
+  std::vector<double> acting_;
   std::vector<double> added_;
 };
 
@@ -69,10 +79,6 @@ struct Abscissa {
 // either side of each edge; and the rows, up to an angle. `direction`: ±1, in which they are gone through.
 std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
                                 double rows_end = HUGE_VAL);
-
-struct CrankMotion {
-  double omega = 0, alpha = 0;  // [rad/s], [rad/s²]
-};
 
 struct MotionSample {
   double phi = 0;

@@ -24,6 +24,7 @@ class DeformedMechanism {
  public:
   DeformedMechanism(std::shared_ptr<const Model> model, const std::string& component);
   bool deforms() const { return dynamics_ != nullptr; }
+  std::size_t element() const { return element_; }  // of the network
   MachineForces at(const Snapshot& s) const;
 
  private:

@@ -30,7 +30,8 @@ CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads
 CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
   if (statics_.data().changes()) phi = beside_change_point(statics_.data(), phi);
   CyclePosition p;
-  p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion.omega)};
+  p.loads = motion.loads;
+  p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion)};
   const auto slider = geometry_.slider(phi);
   p.position = slider.value;
   p.velocity = slider.slope * motion.omega;
@@ -57,7 +58,7 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   if (where.weight == 0) return;
   // dA = M dφ, in the sense of the motion.
   const double dt = where.weight / std::abs(motion.omega);
-  const auto share = loads_.shares(where.place(), motion.omega);
+  const auto share = loads_.shares(where.place(), motion);
   std::size_t k = 0;
   const auto account = [&](double power) {
     cycle_.work[k].work += power * dt;
@@ -83,7 +84,7 @@ void CycleBuilder::finish() {
   for (const CyclePosition& p : cycle_.positions) cycle_.kinetic_most = std::max(cycle_.kinetic_most, kinetic(p));
   const auto by_angle = [](const CyclePosition& a, const CyclePosition& b) { return a.state.phi < b.state.phi; };
   for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
-  for (const CyclePosition& p : samples_) motion_.push_back({p.state.phi, {p.state.omega, p.state.alpha}});
+  for (const CyclePosition& p : samples_) motion_.push_back({p.state.phi, {p.state.omega, p.state.alpha, p.loads}});
   find_extremes();
   collect_curves();
   find_harmonics();

@@ -18,6 +18,7 @@
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -72,7 +73,7 @@ Missed missed_by(const SliderCrankStatics& statics, OutputLoads& loads, const Si
   for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
     const CrankMotion& m = simulated.along.motion[i];
     const double phi = simulated.along.where[i].place();
-    const SliderCrankForces f = statics.solve({phi, m.omega, m.alpha, loads.force(phi, m.omega)});
+    const SliderCrankForces f = statics.solve({phi, m.omega, m.alpha, loads.force(phi, m)});
     const MachineForces& own = simulated.machine[i];
     missed.torque = std::max(missed.torque, std::abs(own.torque - f.torque));
     missed.greatest_torque = std::max(missed.greatest_torque, std::abs(own.torque));
@@ -203,9 +204,8 @@ class Study {
     out_.prescribed->label = "prescribed";
     out_.unbounded = unbounded_reactions(out_.data, *loads_, speed.value);
     if (out_.unbounded.any()) out_.notes.push_back(out_.unbounded.words);
-    if (loads_->switched_off())
-      out_.notes.push_back(
-          fmt::format("loads of {} count as the operating sequence leaves them: switched off", out_.mechanism));
+    if (const std::string words = loads_->words_of_sequence(); !words.empty()) out_.notes.push_back(words);
+    for (const std::string& note : substitutes(machine_->model())) out_.notes.push_back(note);
     out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
     if (options_.also) look_further(speed.value);
   }
@@ -214,7 +214,7 @@ class Study {
     ForceCycle none;
     const CycleBuilder builder(*statics_, *loads_, none);
     for (const double phi : options_.also(prescribed_cycle(*loads_, speed)))
-      out_.also.push_back(builder.at(phi, {speed, 0}));
+      out_.also.push_back(builder.at(phi, {speed, 0, loads_->left()}));
   }
 
   void tell_friction_left_out(const SliderCrankJoints& given) {

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -40,6 +42,11 @@ struct ForcesOptions {
   Watch watch = {};
 };
 
+// Which loads of a mechanism act, as an operating sequence has them: a bit each, in the order of its element's parts.
+using ActingLoads = std::uint64_t;
+inline constexpr ActingLoads all_loads = ~ActingLoads{0};
+inline constexpr std::size_t most_loads = 64;
+
 // Powers that enter the mechanism [W].
 struct PowerFlow {
   double crank = 0;  // M ω
@@ -60,6 +67,7 @@ struct CyclePosition {
   double rod_angle = 0;               // β [rad]
   SliderCrankForces forces;
   PowerFlow power;
+  ActingLoads loads = all_loads;
 };
 
 // Order k of the crank's turn: amplitude and phase of A cos(k φ − phase).

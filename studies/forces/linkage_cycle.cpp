@@ -14,6 +14,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
 #include "studies/forces/machine_motion.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -35,7 +36,7 @@ class Builder {
     for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
     for (const PositionForces& p : samples_) {
       phi_.push_back(p.forces.state.phi);
-      motion_.push_back({p.forces.state.phi, {p.forces.state.omega, p.forces.state.alpha}});
+      motion_.push_back({p.forces.state.phi, {p.forces.state.omega, p.forces.state.alpha, p.loads}});
     }
     find_speeds();
     find_scales();
@@ -111,7 +112,7 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
     cycle_.work[k].work += power * dt;
     cycle_.work[k++].turnover += std::abs(power) * dt;
   };
-  for (const double torque : loads_.shares(where.place(), motion.omega)) account(torque * motion.omega);
+  for (const double torque : loads_.shares(where.place(), motion)) account(torque * motion.omega);
   account(p.power.crank);
 }
 
@@ -274,7 +275,8 @@ void add_difference(const Figure& other, double times, Figure& figure) {
 PositionForces linkage_position(const MechanismData& data, OutputLoads& loads, double phi, CrankMotion motion) {
   phi = beside_change_point(data, phi);
   PositionForces p;
-  p.forces = forces_in(data.linkage(phi), {phi, motion.omega, motion.alpha, loads.force(phi, motion.omega)});
+  p.loads = motion.loads;
+  p.forces = forces_in(data.linkage(phi), {phi, motion.omega, motion.alpha, loads.force(phi, motion)});
   p.power = {.crank = p.forces.torque * motion.omega,
              .load = p.forces.load_power,
              .weight = p.forces.weight_power,
@@ -290,7 +292,9 @@ LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const 
 }
 
 UnboundedReactions unbounded_reactions(const MechanismData& data, OutputLoads& loads, double speed) {
-  return unbounded_reactions(data, [&](double phi) { return LinkageState{phi, speed, 0, loads.force(phi, speed)}; });
+  return unbounded_reactions(data, [&](double phi) {
+    return LinkageState{phi, speed, 0, loads.force(phi, {speed, 0, loads.left()})};
+  });
 }
 
 void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle) {
@@ -348,7 +352,8 @@ void hold_against_machine(const MechanismData& data, OutputLoads& loads, const S
   for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
     const CrankMotion& m = simulated.along.motion[i];
     const double phi = simulated.along.where[i].place(), own = simulated.machine[i].torque;
-    const LinkageForces f = forces_in(data.linkage(phi), {phi, m.omega, m.alpha, loads.force(phi, m.omega)});
+    if (beside_change_point(data, phi) != phi) continue;  // what the links need there is that of a place beside it
+    const LinkageForces f = forces_in(data.linkage(phi), {phi, m.omega, m.alpha, loads.force(phi, m)});
     missed = std::max(missed, std::abs(own - f.torque));
     greatest = std::max(greatest, std::abs(own));
     for (const JointForces& j : f.joints) greatest = std::max(greatest, least * j.force.magnitude() * j.at.magnitude());
@@ -389,14 +394,13 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   out.prescribed->label = "prescribed";
   out.unbounded = unbounded_reactions(data, loads, speed.value);
   if (out.unbounded.any()) out.notes.push_back(out.unbounded.words);
-  if (loads.switched_off())
-    out.notes.push_back(
-        fmt::format("loads of {} count as the operating sequence leaves them: switched off", out.mechanism));
+  if (const std::string words = loads.words_of_sequence(); !words.empty()) out.notes.push_back(words);
+  for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);
   mark_unbounded(out.unbounded, *out.prescribed);
   out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   if (options.also)
     for (const double phi : options.also(prescribed_cycle(loads, speed.value)))
-      out.also.push_back(linkage_position(data, loads, phi, {speed.value, 0}));
+      out.also.push_back(linkage_position(data, loads, phi, {speed.value, 0, loads.left()}));
   if (!options.simulate) return out;
   options.watch.say("second problem: the motion that the machine keeps");
   const auto motion = machine.solve(loads, {out.notes, out.complete, out.diagnosis});

@@ -20,6 +20,7 @@ namespace kurbel {
 struct PositionForces {
   LinkageForces forces;
   PowerFlow power;
+  ActingLoads loads = all_loads;
 };
 
 // A figure over the cycle, its largest magnitude and where.

@@ -46,7 +46,7 @@ class PassageRecorder final : public Observer {
       const double at_begin = beyond(from);
       const double time = at_begin < 0 ? find_root(beyond, from, at_begin, view.t(), at_end) : from;
       const Snapshot& s = view.snapshot(time);
-      passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft]});
+      passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft], acting_loads(m, forces_.element(), s.now)});
       machine.push_back(forces_.at(s));
     }
   }

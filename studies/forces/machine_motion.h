@@ -39,6 +39,7 @@ class MachineMotion {
 
   double start_speed() const;  // of the crank [rad/s]
   double rated_speed() const;
+  const Model& model() const { return *model_; }
   bool deforms() const;     // its joints have clearance, or its rod bends
   bool is_elastic() const;  // its shafts twist
   // What went wrong and what is not steady is told in `notes`. Empty where the crank goes through no whole cycle.

@@ -18,6 +18,7 @@
 #include "studies/modes/kept_speeds.h"
 #include "studies/modes/mode_list.h"
 #include "studies/modes/spot_checks.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -32,10 +33,8 @@ class Study {
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
       : options_(options), given_(scene), effects_(effects), scene_(as_of(scene, effects, options.at)) {
     model_ = compile_network(network_as_of(scene_, options.at), scene_, effects);
-    found_.title = scene.heading();
-    found_.speed_unit = scene.speed_unit;
-    found_.scene_file = scene.file;
-    found_.scene_text = scene.text;
+    found_.title = scene.heading(), found_.speed_unit = scene.speed_unit;
+    found_.scene_file = scene.file, found_.scene_text = scene.text;
     found_.link = model_->node_label(model_->reduction_node);
   }
 
@@ -106,6 +105,7 @@ class Study {
           "motions about any other: leave those effects out, e.g. --effects elasticity, or look at kurbel run");
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
+    for (const std::string& note : substitutes(*model_)) found_.notes.push_back(note);
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);

@@ -16,6 +16,7 @@
 #include "studies/cycle/classical.h"
 #include "studies/reduce/along_cycle.h"
 #include "studies/reduce/targets.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -312,6 +313,7 @@ class Reducer {
   }
 
   void add_notes() {
+    for (const std::string& note : substitutes(model())) r_.notes.push_back(note);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (machine_ && !machine_->periodic())

@@ -272,9 +272,9 @@ class SourceSearch {
     }
   }
 
-  // Angle and time count apart: what hangs on both at once is told.
+  // Angle and time count apart: what hangs on both at once is told. Of a link that is held there are no orders.
   void check_split(BaseMotion& base, const std::vector<BaseMotion::Position>& over_time) {
-    if (!base.turns()) return;
+    if (!base.turns() || drive_.at.angle) return;
     const BaseMotion::Position origin = over_time.front();
     const Eigen::VectorXd r0 = base.residual(origin).torque;
     double worst = 0, largest = 0;

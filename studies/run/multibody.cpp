@@ -96,6 +96,9 @@ const Mechanism& crank_of(const Model& model) {
     refuse("its crank and rod pass change points, where the closed loop leaves open which way they go on");
   if (mechanism->dynamics())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
+  if (mechanism->mechanism().joint_friction) refuse("its joints are ideal, so joint_friction must be off");
+  if (!model.scene.sequence.steps.empty())
+    refuse("its integrators know no events, so that no operating sequence is carried out");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)
     refuse("runs rigid scenes with one free shaft (effects: none)");
   return mechanism->mechanism();

@@ -379,11 +379,16 @@ std::vector<Plot> drive_plots(const Results& results) {
     add(product_over_time(results, "torque." + name, "speed." + name, fmt::format("Power of {}", name), "power"),
         told_figure(front, "motor_mean_power." + name, "Mean over the run:"));
   }
+  std::vector<const Trace*> speeds;
+  for (const Trace& trace : front.traces->over_time)
+    if (trace.what == QuantityKind::speed) speeds.push_back(&trace);
+  constexpr double no_slip = 1e-9;  // of the fastest shaft: rounding is left of what sticks
+  const double fastest = largest(speeds);
   for (const Trace& trace : front.traces->over_time) {
     if (trace.unit == "A")
       add(over_time(results, trace.name, fmt::format("Current of {}", trace.of), "current"),
           told_figure(front, "motor_rms_current." + trace.of, "RMS over the run:"));
-    if (trace.what != QuantityKind::slip || largest({&trace}) == 0) continue;
+    if (trace.what != QuantityKind::slip || !(largest({&trace}) > no_slip * fastest)) continue;
     add(over_time(results, trace.name, fmt::format("Slip of {}", trace.of), "speed of one side against the other"));
     add(product_over_time(results, "torque." + trace.of, trace.name,
                           fmt::format("What slip turns into heat in {}", trace.of), "power"),

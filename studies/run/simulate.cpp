@@ -14,6 +14,7 @@
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/holding.h"
 #include "studies/answers/motion_answers.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
@@ -23,6 +24,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/validity/idle_effects.h"
 #include "studies/validity/static_curve.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -227,9 +229,12 @@ class Simulation {
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
     for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
+    for (ExtremeOf& held : held_torques_of(model)) extremes.push_back(std::move(held));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
+    run->falls = std::make_unique<FlywheelFalls>(model);
+    run->currents = std::make_unique<MotorCurrents>(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -247,8 +252,9 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
-                                        run->energy.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
+                                        run->speed.get(),      run->energy.get(),   run->falls.get(),
+                                        run->currents.get()};
     if (run->heat) observers.push_back(run->heat.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
@@ -344,6 +350,7 @@ class Simulation {
     judge_motion(run.outcome);
     note_regularised(run.outcome.regularised);
     note_arcs(m.network);
+    for (const std::string& note : substitutes(m)) result_.notes.push_back(note);
     for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
@@ -376,9 +383,10 @@ class Simulation {
   }
   // Does it do its work at all?
   void judge_motion(const RunOutcome& outcome) {
-    if (const std::optional<Stall> stall = stalled(equations_, outcome)) result_.notes.push_back(in_words(*stall));
     result_.answers = motion_answers(equations_, outcome, result_.periods, result_.figures, !result_.cycles.empty(),
                                      result_.begins_at);
+    if (const std::optional<Stall> stall = stalled(equations_, outcome))
+      result_.notes.push_back(outcome.complete ? result_.answers.front().sentence : in_words(*stall));
   }
 
   std::shared_ptr<const Model> model_;

@@ -275,7 +275,8 @@ std::string keys_in_markdown() {
       "everything else (motors on a starter, too, which begin their start anew) is on or off, at once; of a mechanism "
       "its loads are, while its links "
       "move on (valves held open at a start; a press that strikes every third time: three steps at one angle, to = 1, "
-      "0, 0, and `repeat`). With "
+      "0, 0, and `repeat`); one of several loads by its number, `set = \"press.load2\"`: it acts where neither the "
+      "mechanism nor itself was told 0. With "
       "`law` in place of `to` and `over` a command follows a table or a "
       "formula of the time since its step.\n\n";
   text += rows(sequence_step_keys());
@@ -291,7 +292,13 @@ std::string keys_in_markdown() {
       "unless "
       "components say otherwise. `equilibrium` gives each elastic element the twist that carries the torque which the "
       "rigid "
-      "machine would transmit there at that moment.\n\n"
+      "machine would transmit there at that moment. Of a slider or rocker, too, a machine may start: `start = { on = "
+      "\"press.slider\", position = \"430 mm\", velocity = \"-0.2 m/s\", towards = \"folded\" }`, the position from "
+      "the "
+      "crank's axis as in `position.press`; `towards` says on which stroke it stands as the crank turns forwards "
+      "(`\"extended\"`, `\"folded\"`; of a rocker `\"greatest\"`, `\"least\"`), unless told the one along its "
+      "velocity, "
+      "at rest the one towards the folded end.\n\n"
       "## Components\n\n";
   Printed printed;
   for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);

@@ -189,6 +189,9 @@ Json start_schema() {
        {"angle", angle},
        {"on",
         {{"type", "string"}, {"description", "component that speed and angle belong to; default: the reduction link"}}},
+       {"position", text()},
+       {"velocity", text()},
+       {"towards", {{"enum", {"extended", "folded", "greatest", "least"}}}},
        {"equilibrium",
         {{"type", "boolean"}, {"description", "twists carry the torques that the rigid machine would transmit"}}}});
   table["additionalProperties"] = table_of({{"speed", speed}, {"angle", angle}, {"twist", angle}});
@@ -206,7 +209,9 @@ Json run_schema() {
 
 Json sequence_schema() {
   Json step = properties_of(sequence_step_keys());
-  step["set"] = {{"anyOf", {text(), list_of(text())}}, {"description", "the components that the step sets"}};
+  step["set"] = {
+      {"anyOf", {text(), list_of(text())}},
+      {"description", "the components that the step sets; of a mechanism one load of several: \"press.load2\""}};
   return table_of({{"steps", list_of(table_of(step, {"set"}))}, {"repeat", {{"type", "boolean"}}}}, {"steps"});
 }
 

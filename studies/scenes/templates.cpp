@@ -48,6 +48,7 @@ KURBEL_SCENE(rig, "back_to_back_rig.toml")
 KURBEL_SCENE(screw, "screw_press.toml")
 KURBEL_SCENE(jack, "screw_jack.toml")
 KURBEL_SCENE(steam, "steam_engine.toml")
+KURBEL_SCENE(unloader, "unloaded_compressor.toml")
 
 namespace kurbel {
 
@@ -83,6 +84,8 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"screw", "screw press: flywheel on the spindle, a blow that spends its energy", screw()},
       {"jack", "screw jack whose thread locks itself", jack()},
       {"steam", "double-acting steam engine: a cylinder drives the slider, no motor turns", steam()},
+      {"unloader", "double-acting compressor: started unloaded, its ends loaded one by one, emergency stop",
+       unloader()},
   };
   return templates;
 }

@@ -35,7 +35,7 @@ std::size_t joint_at(const std::vector<PlanePoint>& joints, PlanePoint place) {
   return joints.size();
 }
 
-void add_pins(const MechanismOnSheet& m, const PlanarLinkage& l, MechanismMotion& out) {
+void add_pins(const MechanismOnSheet& m, const PlanarLinkage& l, MechanismMotionAt& out) {
   const std::vector<PlanePoint> joints = m.joints(out.crank);
   std::vector<bool> known(joints.size() + 1, false);
   known.back() = true;
@@ -111,8 +111,8 @@ double dead_centre(const MechanismOnSheet& m) {
   return std::abs(nearest) < 1e-9 ? 0 : nearest;
 }
 
-MechanismMotion motion_at(const MechanismOnSheet& m, double phi, double omega, double alpha) {
-  MechanismMotion out;
+MechanismMotionAt motion_at(const MechanismOnSheet& m, double phi, double omega, double alpha) {
+  MechanismMotionAt out;
   out.crank = m.crank_angle(phi), out.omega = m.ratio * omega, out.alpha = m.ratio * alpha;
   const double w = out.omega, e = out.alpha;
   const PlanarLinkage l = m.mechanism.data.linkage(out.crank);

@@ -43,7 +43,7 @@ struct LinkMotion {
   std::string name;                        // "rod"
   double angle = 0, omega = 0, alpha = 0;  // [rad], [rad/s], [rad/s²]
 };
-struct MechanismMotion {
+struct MechanismMotionAt {
   double crank = 0, omega = 0, alpha = 0;    // of its crank
   double output = 0, first = 0, second = 0;  // x, x′, x″ [m] or [rad]
   double velocity = 0, acceleration = 0;     // of the output
@@ -51,6 +51,6 @@ struct MechanismMotion {
   std::vector<JointMotion> pins, centres;    // those that move; of links that float
 };
 // At an angle of the link that turns with ω and ε.
-MechanismMotion motion_at(const MechanismOnSheet& mechanism, double phi, double omega, double alpha);
+MechanismMotionAt motion_at(const MechanismOnSheet& mechanism, double phi, double omega, double alpha);
 
 }  // namespace kurbel

@@ -15,8 +15,8 @@
 namespace kurbel {
 namespace {
 
-using Motions = std::vector<MechanismMotion>;
-using Get = std::function<double(const MechanismMotion&)>;
+using Motions = std::vector<MechanismMotionAt>;
+using Get = std::function<double(const MechanismMotionAt&)>;
 
 Motions motions_of(const MechanismOnSheet& m, const std::vector<LinkAt>& list) {
   Motions all;
@@ -26,7 +26,7 @@ Motions motions_of(const MechanismOnSheet& m, const std::vector<LinkAt>& list) {
 
 std::vector<double> values_of(const Motions& motions, const Get& get) {
   std::vector<double> list;
-  for (const MechanismMotion& m : motions) list.push_back(get(m));
+  for (const MechanismMotionAt& m : motions) list.push_back(get(m));
   return list;
 }
 
@@ -36,7 +36,7 @@ double length_of(PlanePoint p) { return std::hypot(p.x, p.y); }
 void add_links(SheetTable& t, const Motions& motions) {
   for (std::size_t i = 1; i < motions.front().links.size(); ++i) {
     double turning = 0;
-    for (const MechanismMotion& m : motions) turning = std::max(turning, std::abs(m.links[i].omega));
+    for (const MechanismMotionAt& m : motions) turning = std::max(turning, std::abs(m.links[i].omega));
     if (turning == 0) continue;
     const std::string number = std::to_string(i + 1);
     t.columns.push_back({"ω_" + number, "rad/s", values_of(motions, [i](const auto& m) { return m.links[i].omega; })});
@@ -55,7 +55,7 @@ bool is_told(const std::vector<double>& speeds, const Motions& motions) {
   return even || of_output;
 }
 
-void add_points(SheetTable& t, const Motions& motions, std::vector<JointMotion> MechanismMotion::*points) {
+void add_points(SheetTable& t, const Motions& motions, std::vector<JointMotion> MechanismMotionAt::*points) {
   for (std::size_t i = 0; i < (motions.front().*points).size(); ++i) {
     const std::string& name = (motions.front().*points)[i].name;
     const std::string index = name.size() > 1 ? "S" + name.substr(2) : name;
@@ -94,8 +94,8 @@ SheetTable kinematic_table(const MechanismOnSheet& m, const SheetMotion& motion,
       "acceleration; φ of the crank from +x, counter-clockwise; {2}.\nlinks: 1 crank; ",
       x, rocks ? "counter-clockwise" : "along +x", speed);
   add_links(t, at);
-  add_points(t, at, &MechanismMotion::pins);
-  add_points(t, at, &MechanismMotion::centres);
+  add_points(t, at, &MechanismMotionAt::pins);
+  add_points(t, at, &MechanismMotionAt::centres);
   t.note +=
       "v, a with an index: magnitudes, of pins and of centres of mass S. Letters: edges of the load and its greatest "
       "value.";

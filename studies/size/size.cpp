@@ -14,6 +14,7 @@
 #include "engine/scene/units.h"
 #include "studies/cycle/classical.h"
 #include "studies/size/reach_sized.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -63,6 +64,7 @@ class Sizer {
 
   Sizing run() {
     list_inertias();
+    for (const std::string& note : substitutes(model())) s_.notes.push_back(note);
     if (s_.basis == SizeBasis::classical) {
       find_speed();
       find_cycle();

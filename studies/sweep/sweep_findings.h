@@ -77,8 +77,9 @@ std::string line_of(const SweepIdentity& identity, const SweepRow& row);
 
 Findings findings_of(const SweepStudyResult& study);
 
-// A sheet with a row a variant, and one that says what was asked. Throws std::invalid_argument where it cannot be
-// written, or where a sheet cannot hold it (1 048 575 rows).
+// Throws std::invalid_argument where a sheet cannot hold so many variants (1 048 575), or no file can be written there.
+void check_xlsx(const std::string& file, std::size_t rows);
+// A sheet with a row a variant, and one that says what was asked. Throws as check_xlsx does.
 void write_xlsx(const SweepStudyResult& study, const std::string& file);
 
 }  // namespace kurbel

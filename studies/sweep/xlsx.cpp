@@ -47,13 +47,17 @@ void fill_variants(XlsxSheet sheet, const SweepStudyResult& s) {
 
 }  // namespace
 
-void write_xlsx(const SweepStudyResult& s, const std::string& file) {
+void check_xlsx(const std::string& file, std::size_t rows) {
   if (const std::string why = why_no_file_at(file); !why.empty())
     throw std::invalid_argument(fmt::format("--xlsx: {}", why));
-  if (s.tally.rows >= XlsxSheet::most_rows)
+  if (rows >= XlsxSheet::most_rows)
     throw std::invalid_argument(
         fmt::format("--xlsx {}: a sheet holds {} rows, the sweep has {}; take variants.csv or the database", file,
-                    XlsxSheet::most_rows - 1, s.tally.rows));
+                    XlsxSheet::most_rows - 1, rows));
+}
+
+void write_xlsx(const SweepStudyResult& s, const std::string& file) {
+  check_xlsx(file, s.tally.rows);
   XlsxBook book(file);
   fill_variants(book.sheet("variants"), s);
   XlsxSheet asked = book.sheet("sweep");

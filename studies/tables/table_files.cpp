@@ -98,7 +98,9 @@ void make_table_files(const StudyOutput& output, const TableFormats& formats,
   }
   for (const CsvFile& file : output.csv) {
     const std::string csv = file.text();
-    if (formats.csv) take(file.name, csv);
+    const bool is_table = file.name.ends_with(".csv");  // or a sheet to be printed, which has one form
+    if (formats.csv || !is_table) take(file.name, csv);
+    if (!is_table) continue;
     if (!formats.mat && !formats.xlsx) continue;
     const DataTable table = data_table(file.name, csv);
     if (book) add_table(*book, table);

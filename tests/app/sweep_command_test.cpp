@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/sweep/store.h"
+#include "studies/sweep/sweep_findings.h"
 
 namespace kurbel {
 namespace {
@@ -132,6 +133,13 @@ TEST_F(SweepCommand, WritesAReportThatReproducesItsWorstMachine) {
   EXPECT_TRUE(fs::exists(folder_ / "out" / "report.html"));
   EXPECT_TRUE(fs::exists(folder_ / "out" / "variants.csv"));
   EXPECT_GT(fs::file_size(folder_ / "r.xlsx"), 2000u);
+  // What no sheet holds is said before hours of work.
+  const std::string many = "--vary 'spring.stiffness=3..5 kN*m/rad' --design random:1048576 --into many.db ";
+  const Said refused = sweep(many + "--xlsx many.xlsx");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("a sheet holds 1048575 rows, the sweep has 1048576"), std::string::npos) << refused.text;
+  EXPECT_FALSE(fs::exists(folder_ / "many.db"));
+  EXPECT_NO_THROW(check_xlsx((folder_ / "many.xlsx").string(), 1'048'575));
   std::string line = json["worst"][0]["line"];
   ASSERT_TRUE(line.starts_with("kurbel run ")) << line;
   const Said alone = kurbel(line.substr(7) + " --json --no-files --no-trials");

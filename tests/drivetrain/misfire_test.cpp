@@ -95,8 +95,10 @@ double missing(double phi) {
 }
 
 TEST(Misfire, TakesItsCylindersShareOfTheTorqueAway) {
+  const Result misfires = run(engine("misfire = [4]"), false);
+  EXPECT_NE(misfires.notes.front().find("give \"motored_pressure\""), std::string::npos);
   const auto whole = test::series(run(engine(""), false), "torque.engine"),
-             out = test::series(run(engine("misfire = [4]"), false), "torque.engine");
+             out = test::series(misfires, "torque.engine");
   ASSERT_EQ(whole.size(), out.size());
   for (std::size_t row = 0; row < whole.size(); ++row) {
     const double phi = 50 * pi * 0.08 * static_cast<double>(row) / 1440;
@@ -164,8 +166,14 @@ load = {{ kind = "cylinder", bore = "81 mm", outside_pressure = "1 bar", misfire
 )",
                            offset, motored));
   };
+  const auto told = [](const Result& r) {
+    return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
+      return note.starts_with("c.load: a cylinder that does not fire");
+    });
+  };
   const Result straight = after("0 mm", "");
   ASSERT_TRUE(straight.complete) << straight.diagnosis;
+  EXPECT_TRUE(told(straight));                              // that its diagram is a substitute
   EXPECT_NEAR(figure(straight, "max_speed.c"), 100, 1e-6);  // comes back to where each cycle began
   try {
     after("15 mm", "");
@@ -173,9 +181,9 @@ load = {{ kind = "cylinder", bore = "81 mm", outside_pressure = "1 bar", misfire
   } catch (const SceneError& error) {
     EXPECT_NE(std::string(error.what()).find("give \"motored\""), std::string::npos) << error.what();
   }
-  EXPECT_TRUE(
-      after("15 mm", R"(motored = { over = "angle", unit = ["deg", "bar"], points = [[0, 20], [360, 1], [720, 20]] },)")
-          .complete);
+  const Result given = after(
+      "15 mm", R"(motored = { over = "angle", unit = ["deg", "bar"], points = [[0, 20], [360, 1], [720, 20]] },)");
+  EXPECT_TRUE(given.complete && !told(given));
 }
 
 // Massless throws by the firing order do what one engine does, cylinder by cylinder, misfire included.

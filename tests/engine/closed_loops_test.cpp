@@ -131,6 +131,26 @@ TEST(ClosedLoop, RigidWaysShareByTheirStiffness) {
   }
 }
 
+// A gear that closes the loop, its losses left out: what its coupling passes goes through its teeth, whenever it is asked
+// for (once each torque was added to the one before it: MN·m after some seconds).
+TEST(ClosedLoop, GearThatClosesItPassesWhatItsCouplingPasses) {
+  std::string text =
+      with(test::project_text("scenes/back_to_back_rig.toml"), "elasticity = true", "gear_losses = false");
+  const std::size_t gear = text.rfind("stages     = [{ teeth = [16, 24], inertia = [\"2 g*m2\", \"9 g*m2\"] }]");
+  ASSERT_NE(gear, std::string::npos);
+  text =
+      text.substr(0, gear) + "stages = [{ teeth = [16, 24], efficiency = 0.98 }]" + text.substr(text.find('\n', gear));
+  const Result r = run(text);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_LE(r.measured_accuracy, 1e-6);
+  const auto coupling = test::series(r, "torque.load_coupling"), in = test::series(r, "torque.test.in"),
+             out = test::series(r, "torque.test.out");
+  for (std::size_t row = 0; row < in.size(); ++row) {
+    ASSERT_NEAR(in[row], coupling[row], 1e-9 * 200) << row;
+    ASSERT_NEAR(out[row], 1.5 * coupling[row], 1e-9 * 200) << row;
+  }
+}
+
 // Cut elsewhere, or walked the other way round, it is the same machine.
 TEST(ClosedLoop, WhereItIsCutMakesNoDifference) {
   const Result r = run(std::string(split) + elastic_end);

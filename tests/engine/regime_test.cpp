@@ -68,6 +68,45 @@ TEST(Regime, SequenceIsCarriedOut) {
   EXPECT_NEAR(speed_of(scene, regime, "motor"), 30, 1e-8);
 }
 
+// The brake gives way along a law, to a fifth: the motor runs at ω₀ (1 − 20/60), not as the law's first instant leaves it.
+TEST(Regime, LawOfACommandIsFollowedToItsEnd) {
+  const Scene scene = scene_from(std::string("line = [\"motor\", \"brake\"]\n") + dc_motor +
+                                 "brake = { kind = \"brake\", torque = \"100 N*m\" }\n"
+                                 "[sequence]\nsteps = [{ at = \"0.5 s\", set = \"brake\", law = { over = \"time\", "
+                                 "formula = \"1 - 0.4*t/(1 s)\", range "
+                                 "= [\"0 s\", \"2 s\"] } }]\n");
+  const Regime regime = regime_of(scene);
+  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
+  EXPECT_GE(regime.state.t, 2.5);
+  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 20 / 60.0), 1e-8);
+}
+
+// A step waits for a speed of the run-up, the next one for a time after it: what Newton's method finds on the way, with
+// steps still to come, is not kept. In the end half the voltage drives against nothing: ω₀/2.
+TEST(Regime, StepsThatWaitForTheMotionAreCarriedOut) {
+  const Regime regime = regime_of(
+      std::string("line = [\"motor\", \"crank\"]\n") + dc_motor +
+      "brake = { kind = \"brake\", on = \"crank\", torque = \"20 N*m\" }\n"
+      "[crank]\nkind = \"slider-crank\"\nradius = \"50 mm\"\nrod = \"0.2 m\"\nslider_mass = \"2 kg\"\ncrank_inertia = "
+      "\"0.3 kg*m2\"\n"
+      "[sequence]\nsteps = [{ at = \"0 s\", set = \"brake\", to = 0 }, { speed_above = \"39 rad/s\", of = \"motor\", "
+      "set = "
+      "\"brake\" }, { after = \"1 s\", set = \"brake\", to = 0 }, { after = \"0 s\", set = \"motor\", to = 0.5 }]\n");
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_NEAR(regime.point.time, 2 * pi / 20, 1e-5 * 2 * pi / 20);
+}
+
+// One that repeats sets the period: J ω̇ = 60 (c(t) − ω/40) − 15 with c = 1 + 0.1 sin(2π t/T), by its mean and phasor.
+TEST(Regime, LawThatRepeatsSetsThePeriod) {
+  const Regime regime = regime_of(std::string("line = [\"motor\", \"load\"]\n") + dc_motor +
+                                  "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
+                                  "[sequence]\nsteps = [{ at = \"0.25 s\", set = \"motor\", law = { over = \"time\", "
+                                  "formula = \"1 + 0.1*sin(2*pi*t/T)\", "
+                                  "period = \"0.4 s\", with = { T = \"0.4 s\" } } }]\n");
+  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
+  EXPECT_NEAR(regime.point.time, 0.4, 1e-12);
+}
+
 TEST(Regime, LoadThatActsForAWhileActsNoMore) {
   const Scene scene =
       scene_from(std::string("line = [\"motor\", \"load\", \"blow\"]\n") + dc_motor +

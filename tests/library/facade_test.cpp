@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 #include <kurbel/kurbel.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -85,6 +90,77 @@ TEST(Facade, AColumnOutlivesItsRun) {
   }
   ASSERT_GT(torque.size(), 900u);
   for (std::size_t i = 0; i < torque.size(); i += 7) ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
+}
+
+// A record of the closed form, told 10 ms late and 3 N·m too high.
+TEST(Facade, ARecordIsLaidOverRunAndCycle) {
+  const std::string file = testing::TempDir() + "facade_record.csv";
+  {
+    std::ofstream record(file);
+    record << "time [s];T1 [N*m]\n";
+    for (int i = 0; i <= 200; ++i) record << i * 1e-3 + 0.01 << ";" << torque_at(i * 1e-3) + 3 << "\n";
+  }
+  const Machine machine = Machine::from_text(two_masses);
+  const std::string map = "T1=torque.coupling";
+  const kurbel::Run run =
+      kurbel::run(machine, {.errors = false, .measured = file, .map = {map}, .shift = "-10 ms", .offset = {"T1=fit"}});
+  EXPECT_NEAR(run.figures()["measured_offset.torque.coupling"].value, 3, 0.02);
+  // What is left: the record's four digits and straight lines between the run's rows.
+  EXPECT_LT(run.figures()["residual_rms.torque.coupling"].value, 0.05);
+  // What the options lack or the file has wrongly is told before anything runs.
+  EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("--map"), std::string::npos);
+  try {
+    kurbel::run(machine, {.measured = file, .map = {"T2=torque.coupling"}});
+    FAIL() << "was read";
+  } catch (const BadScene& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_NE(bad.faults()[0].text.find("T1"), std::string::npos) << bad.what();
+  }
+  EXPECT_THROW(steady(machine, {{"measured", file}, {"map", "T2=torque.coupling"}}), BadScene);
+  std::filesystem::remove(file);
+}
+
+TEST(Facade, ARunGoesOnFromAState) {
+  const Machine machine = Machine::from_text(two_masses);
+  Motion motion(machine);
+  motion.go_to(0.1);
+  const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false, .from_state = motion.state().text()});
+  const TimeSeries time = run.trajectory().time(), torque = run.trajectory()["torque.coupling"];
+  EXPECT_EQ(time[0], 0.1);
+  EXPECT_NEAR(time[time.size() - 1], 0.3, 1e-12);
+  for (std::size_t i = 0; i < time.size(); i += 7) ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
+  EXPECT_THROW(kurbel::run(Machine::from_text(two_masses), {.effects = "none", .from_state = motion.state().text()}),
+               std::invalid_argument);
+}
+
+// The rigid machine bears half of what rings: M J₂/(J₁ + J₂) against twice that.
+TEST(Facade, FiguresOfAStudyHaveTheirModel) {
+  const Study study = compare(Machine::from_text(two_masses), {{"no_error", "true"}, {"no_trials", "true"}});
+  std::map<std::string, double> peaks;
+  for (const FigureValue& figure : study.figures())
+    if (figure.name == "peak_torque.coupling") peaks[figure.of] = figure.value;
+  ASSERT_EQ(peaks.size(), 2u);
+  EXPECT_NEAR(peaks.at("rigid"), 50 * 1.5 / 1.7, 1e-3);
+  EXPECT_NEAR(peaks.at("elastic"), 2 * 50 * 1.5 / 1.7, 1e-3);
+  // Trials are made unless they are not wanted, as by the command.
+  const Machine damped = Machine::from_text(two_masses).with({{"effects.elasticity", "false"}});
+  EXPECT_NE(kurbel::run(damped, {.errors = false, .trials = true}).study().text().find("elasticity"),
+            std::string::npos);
+}
+
+TEST(Facade, TwoMachinesFigureByFigure) {
+  const Machine soft = Machine::from_text(two_masses), stiff = soft.with({{"coupling.stiffness", "16 kN*m/rad"}});
+  const Study study = diff(soft, stiff, {{"of", "modes"}});
+  // f = √(k (1/J₁ + 1/J₂))/2π: twice as high for four times the stiffness.
+  std::vector<double> frequencies;
+  for (const FigureValue& figure : study.figures())
+    if (figure.name == "natural_frequency.1") frequencies.push_back(figure.value);
+  EXPECT_NE(study.json().find("coupling.stiffness"), std::string::npos);
+  EXPECT_NE(study.text().find("natural_frequency"), std::string::npos) << study.text();
+  const auto frequency = [](const Machine& m) { return answer(m, "modes").figures["natural_frequency.1"].value; };
+  EXPECT_NEAR(frequency(stiff) / frequency(soft), 2, 1e-9);
+  EXPECT_NEAR(frequency(soft), std::sqrt(4000 * (1 / 0.2 + 1 / 1.5)) / (2 * std::acos(-1.0)), 1e-6);
+  EXPECT_NE(message_of([&] { diff(soft, stiff, {{"off", "run"}}); }).find("diff has no option"), std::string::npos);
 }
 
 // 100 runs before, so that pools and tables are filled.
@@ -166,8 +242,63 @@ TEST(Facade, WhatAStudyDoesNotAskForIsRefusedWithWhatItHas) {
               kurbel::run(machine, {.errors = false}).figures()["peak_torque.couplin"];
             }).find("did you mean \"peak_torque.coupling\""),
             std::string::npos);
-  for (const std::string& name : study_names()) EXPECT_NO_THROW(option_names(name)) << name;
+  EXPECT_NE(message_of([&] {
+              steady(machine, {{"mid_speed", "60 rpm"}, {"mid_speed", "70 rpm"}});
+            }).find("mid_speed is given 2 times"),
+            std::string::npos);
   EXPECT_FALSE(modes(machine).conclusion().empty());
+}
+
+// Names that a line of the command begins with: "--mid-speed" is mid_speed.
+std::set<std::string> options_of_command(const std::string& command) {
+  std::set<std::string> names;
+  FILE* const pipe = popen((std::string(KURBEL_EXECUTABLE) + " commands " + command).c_str(), "r");
+  char line[256];
+  while (std::fgets(line, sizeof line, pipe)) {
+    std::string name(line, std::strcspn(line, "\n"));
+    if (!name.starts_with("--")) continue;
+    std::replace(name.begin() + 2, name.end(), '-', '_');
+    names.insert(name.substr(2));
+  }
+  pclose(pipe);
+  return names;
+}
+
+TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
+  // Where results go and how they are shown, which a program has by itself (Study::write, json, html, text, Watcher), and a
+  // scene's settings and data files.
+  const std::set<std::string> of_all = {"allow_files", "author", "brand", "format", "help", "json",   "no_files",
+                                        "open",        "out",    "plots", "quiet",  "set",  "verbose"};
+  // A pair of gears without a machine; the lean scene is Machine::with().
+  const std::map<std::string, std::set<std::string>> of_commands_alone = {
+      {"gears",
+       {"addendum", "backlash", "bore", "centre_distance", "clearance", "friction", "helix", "module", "pressure_angle",
+        "root_radius", "shaft_angle", "shift", "teeth", "tip_diameter", "width", "worm_diameter"}},
+      {"advise", {"write"}}};
+  for (const std::string& study : study_names()) {
+    std::set<std::string> command = options_of_command(study);
+    ASSERT_GT(command.size(), of_all.size() - 3) << study;
+    for (const std::string& name : of_all) command.erase(name);
+    const auto alone = of_commands_alone.find(study);
+    for (const std::string& name : alone == of_commands_alone.end() ? std::set<std::string>{} : alone->second) {
+      EXPECT_EQ(command.erase(name), 1u) << study << " --" << name;
+    }
+    const std::vector<std::string> there = option_names(study);
+    EXPECT_EQ(std::set<std::string>(there.begin(), there.end()), command) << study;
+  }
+}
+
+TEST(Facade, WordsAreThoseOfTheCommands) {
+  EXPECT_NE(explain("delta").find("(ω_max − ω_min)"), std::string::npos);
+  EXPECT_NE(message_of([] { explain("detla"); }).find("did you mean"), std::string::npos);
+  EXPECT_NE(keys("coupling").find("damping_ratio"), std::string::npos);
+  EXPECT_NE(message_of([] { keys("couplin"); }).find("did you mean \"coupling\""), std::string::npos);
+  EXPECT_NE(message_of([] { example_scene("pres"); }).find("did you mean \"press\""), std::string::npos);
+  for (const std::string& name : explained_figures()) EXPECT_FALSE(explain(name).empty()) << name;
+  for (const std::string& kind : kinds()) EXPECT_FALSE(keys(kind).empty()) << kind;
+  for (const std::string& name : example_scenes())
+    EXPECT_FALSE(Machine::from_text(example_scene(name)).figures().empty()) << name;
+  EXPECT_NE(schema().find("2020-12"), std::string::npos);
 }
 
 TEST(Facade, ASweepOfAFunctionKeepsItsRowsAndSaysWhatFailed) {
@@ -194,6 +325,33 @@ TEST(Facade, ASweepOfAFunctionKeepsItsRowsAndSaysWhatFailed) {
   }
   EXPECT_EQ(sweep(variation, "product", {{"product", ""}}, product, {.into = file}).computed, 0u);
   EXPECT_EQ(calls, 10);
+  // However many there are, they can be had one by one.
+  EXPECT_TRUE(sweep(variation, "product", {{"product", ""}}, product, {.into = file, .lines = false}).lines.empty());
+  std::size_t visited = 0;
+  const SweepRows told = rows_in(file, [&](const SweepLine& line) {
+    EXPECT_EQ(line.row, visited++);
+    EXPECT_EQ(line.figures[0], rows.lines[line.row].figures[0]);
+  });
+  EXPECT_EQ(visited, 10u);
+  EXPECT_TRUE(told.complete && told.lines.empty());
+  EXPECT_EQ(told.vary, variation.vary);
+  EXPECT_EQ(rows_in(file).lines.size(), 10u);
+  const Study report = sweep_report(file, {"product <= 25"});
+  EXPECT_NE(report.text().find("three is not computed"), std::string::npos) << report.text();
+  EXPECT_THROW(sweep_report(file, {"sum <= 25"}), std::invalid_argument);
+  EXPECT_THROW(rows_in(testing::TempDir() + "nowhere.db"), std::invalid_argument);
+  // Shards that others computed make one file.
+  std::vector<std::string> shards;
+  for (const char* shard : {"1/2", "2/2"}) {
+    shards.push_back(file + "." + shard[0]);
+    std::filesystem::remove(shards.back());
+    sweep(variation, "product", {{"product", ""}}, product, {.into = shards.back(), .jobs = 1, .shard = shard});
+  }
+  const std::string whole = file + ".all";
+  std::filesystem::remove(whole);
+  EXPECT_EQ(merge(shards, whole), 10u);
+  EXPECT_EQ(rows_in(whole).lines[7].figures, rows.lines[7].figures);
+  for (const std::string& made : {shards[0], shards[1], whole}) std::filesystem::remove(made);
   // A file holds the rows of one question.
   EXPECT_THROW(sweep(variation, "sum", {{"product", ""}}, product, {.into = file}), std::invalid_argument);
   std::filesystem::remove(file);

@@ -242,6 +242,24 @@ TEST(KnucklePress, WorksTwiceATurnWhereTheKneeCrossesTheLine) {
   EXPECT_NEAR(figure(r, "useful_work_per_cycle") / (-900e3 * (0.005 + back)), 1, 1e-9);
 }
 
+// What Simbody's integrators would pass over without a word: steps of a sequence, friction in the joints.
+TEST(SliderLoads, MultibodyRunIsRefusedWhereItWouldLeaveSomethingOut) {
+  const std::string crank =
+      "line = [\"m\"]\n[run]\nmodel = \"multibody\"\nuntil = \"0.1 s\"\nstart = { speed = \"10 rad/s\" }\n[m]\nkind = "
+      "\"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\ncrank_inertia = \"0.5 kg*m2\"\nslider_mass = \"3 kg\"\n"
+      "load = { kind = \"medium\", viscous = \"60 N*s/m\" }\nguide = { friction = 0.1 }\n";
+  EXPECT_TRUE(run(test::scene_from(crank)).complete);
+  for (const auto& [more, why] : {std::pair("[sequence]\nsteps = [{ at = \"50 ms\", set = \"m\", to = 0 }]\n",
+                                            "no operating sequence is carried out"),
+                                  std::pair("[effects]\njoint_friction = true\n", "joint_friction must be off")})
+    try {
+      run(test::scene_from(crank + more));
+      FAIL() << "ran";
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+}
+
 TEST(Linkages, MultibodyRunIsRefusedInWords) {
   const Scene scene =
       test::scene_from("line = [\"m\"]\n[m]" + four_bar_text + "[run]\nmodel = \"multibody\"\nuntil = \"1 s\"\n");

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "studies/forces/forces.h"
 #include "tests/published/published.h"
+#include "tests/support/files.h"
 
 namespace kurbel {
 namespace {
@@ -124,6 +126,87 @@ TEST(SwitchedLoads, StartWithoutThemIsFaster) {
   const Result never = run(text + "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank\", to = 0 }]\n");
   EXPECT_EQ(speed_at(without, 0.9), speed_at(never, 0.9));
   EXPECT_LT(speed_at(without, 2), 0.97 * speed_at(never, 2));
+}
+
+// One of two loads goes at 270° for good: ½ I ω² + Σ F·(way under it) stays.
+TEST(SwitchedLoads, OneByOneTheyTakeTheirOwnWork) {
+  const std::string two = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }",
+                               "load = [{ kind = \"opposing\", force = \"200 N\" }, { kind = \"opposing\", force = "
+                               "\"90 N\", work = \"harmful\" }]");
+  const Result r = run(two + R"(
+[sequence]
+steps = [
+  { angle = "270 deg", of = "crank", set = "crank.load2", to = 0 },
+  { angle = "270 deg", of = "crank", set = "crank.load1", to = 0 },
+  { angle = "270 deg", of = "crank", set = "crank.load1", to = 1 },
+]
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double phi = figure(r, "final_angle.crank"), speed = figure(r, "final_speed.crank");
+  EXPECT_GT(phi, (270 + 3 * 360) * pi / 180);
+  const double until_270 = std::abs(position(pi) - position(0)) + std::abs(position(1.5 * pi) - position(pi));
+  const double turn = way_from_270(1.5 * pi + 2 * pi);
+  const double way1 = until_270 + turn + way_from_270(phi - 4 * pi), way2 = until_270;
+  const double energy = 0.5 * inertia(0) * 900;
+  EXPECT_NEAR(0.5 * inertia(phi) * speed * speed, energy - 200 * way1 - 90 * way2, 1e-8 * energy);
+  EXPECT_NEAR(figure(r, "work.useful"), -200 * way1, 1e-8 * 200 * way1);
+  EXPECT_NEAR(figure(r, "work.harmful"), -90 * way2, 1e-8 * 90 * way2);
+  EXPECT_LT(r.energy.relative, 1e-9);
+}
+
+// A load acts where neither its mechanism nor itself was told off.
+TEST(SwitchedLoads, TheMechanismsCommandAndTheLoadsOwnBothCount) {
+  const std::string two = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }",
+                               "load = [{ kind = \"opposing\", force = \"200 N\" }, { kind = \"medium\", viscous = "
+                               "\"30 N*s/m\" }]");
+  const auto speed = [](const std::string& text) {
+    const Result r = run(text);
+    EXPECT_TRUE(r.complete) << r.diagnosis;
+    return figure(r, "final_speed.crank");
+  };
+  const auto told = [&](const std::string& steps) { return speed(two + "[sequence]\nsteps = [" + steps + "]\n"); };
+  const std::string off = R"({ at = "0 s", set = "crank", to = 0 }, )";
+  const double none = speed(with(crank, "load = { kind = \"opposing\", force = \"200 N\" }\n", ""));
+  const double second = speed(with(crank, "load = { kind = \"opposing\", force = \"200 N\" }",
+                                   "load = { kind = \"medium\", viscous = \"30 N*s/m\" }"));
+  EXPECT_NEAR(told(off + R"({ at = "0.1 s", set = "crank.load1" })"), none, 1e-9 * 30);
+  EXPECT_NEAR(told(R"({ at = "0 s", set = ["crank.load1", "crank.load2"], to = 0 })"), none, 1e-9 * 30);
+  EXPECT_NEAR(told(R"({ at = "0 s", set = "crank.load1", to = 0 })"), second, 1e-9 * 30);
+  EXPECT_NEAR(told(off + R"({ at = "0 s", set = "crank.load1", to = 0 }, { at = "0 s", set = "crank" })"), second,
+              1e-9 * 30);
+}
+
+// With a rod that bends the element is another one.
+TEST(SwitchedLoads, OneByOneUnderARodThatBends) {
+  const std::string bends = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }", R"(rod_mass = "2 kg"
+rod_flexibility = { modulus = "206 GPa", height = "12 mm", width = "20 mm", modes = 1, damping_ratio = 0.02 }
+load = [LOADS])");
+  const std::string
+      two = with(
+          bends, "LOADS",
+          R"({ kind = "constant", force = "150 N" }, { kind = "medium", viscous = "30 N*s/m", work = "harmful" })"),
+      second = with(bends, "LOADS", R"({ kind = "medium", viscous = "30 N*s/m", work = "harmful" })");
+  const Result off = run(two + "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank.load1\", to = 0 }]\n"),
+               without = run(second);
+  ASSERT_TRUE(off.complete && without.complete) << off.diagnosis << without.diagnosis;
+  EXPECT_NEAR(figure(off, "final_speed.crank"), figure(without, "final_speed.crank"), 1e-8 * 30);
+  EXPECT_EQ(figure(off, "work.useful"), 0);
+}
+
+// A press that strikes every third time: the reactions of the machine's own motion are those with the load only where it
+// is on. Work of the stroke in closed form; the torque on the crank by the machine's own equations.
+TEST(SwitchedLoads, ForcesOfARepeatedSequenceHaveTheLoadsAsTheyCome) {
+  const Scene scene = read_scene(test::source_path("tests/agreement/press_every_third.toml"), all_kinds());
+  const Forces f = find_forces(scene, {});
+  ASSERT_TRUE(f.simulated) << f.diagnosis;
+  EXPECT_NEAR(f.simulated->cycle, 6 * pi, 1e-9);
+  const double stroke = 1500 * (0.060 - 0.5 * 0.005);
+  const auto load = std::find_if(f.simulated->work.begin(), f.simulated->work.end(),
+                                 [](const CycleWork& w) { return w.name == "crank.load"; });
+  ASSERT_NE(load, f.simulated->work.end());
+  EXPECT_NEAR(load->work, -stroke, 1e-6 * stroke);
+  EXPECT_LT(*f.simulated->machine_residual, 1e-7);
+  EXPECT_NE(f.notes.front().find("as it goes round"), std::string::npos) << f.notes.front();
 }
 
 }  // namespace

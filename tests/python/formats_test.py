@@ -50,6 +50,14 @@ def xlsx(path, title):
         yield [float(c.find(SHEET + "v").text) if c.get("t") is None else c.find(f"{SHEET}is/{SHEET}t").text for c in row]
 
 
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 class Formats(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -100,6 +108,37 @@ class Formats(unittest.TestCase):
             at = names.index(name)
             self.assertEqual(matrices["dataInfo"][0][0, at], 1)
             self.assertEqual(matrices["data_1"][0][matrices["dataInfo"][0][1, at] - 1, 1], figure.value)
+
+    def test_every_studys_tables_are_the_same_in_each_format(self):
+        asked = {"compare": dict(no_error=True, no_trials=True, until="0.3 s"), "modes": dict(spot_checks=0, count=3),
+                 "forces": dict(no_run=True), "reduce": {}, "size": dict(delta=0.05, no_simulation=True),
+                 "steady": dict(no_start=True)}
+        for name, options in asked.items():
+            place = os.path.join(self.folder.name, name)
+            study = kurbel.study(name, PRESS, **options)
+            study.write(place, formats="csv,mat,xlsx")
+            for table, text in study.tables.items():
+                with self.subTest(name, table=table):
+                    self.same_in_each(text, place, table.removesuffix(".csv"))
+
+    def same_in_each(self, text, place, title):
+        rows = list(csv.reader(line for line in text.splitlines() if not line.startswith("# ")))
+        headings = [heading.rsplit(" [", 1)[0] for heading in rows[0]]
+        sheet = list(xlsx(os.path.join(place, "results.xlsx"), title))
+        self.assertEqual(sheet[0], rows[0])
+        # An empty cell is none in a sheet.
+        told = [[cell for cell in row if cell] for row in rows[1:]]
+        self.assertEqual([[repr(cell) if isinstance(cell, float) else cell for cell in row] for row in sheet[1:]],
+                         [[repr(float(cell)) if is_number(cell) else cell for cell in row] for row in told])
+        matrices = mat5(os.path.join(place, title + ".mat"))
+        numbers = [k for k in range(len(headings)) if all(is_number(row[k] or "nan") for row in rows[1:])]
+        names = ["".join(map(chr, column)).rstrip() for column in matrices["name"][0].T]
+        self.assertGreater(len(numbers), 1)
+        for k in numbers:
+            place_of = matrices["dataInfo"][0][:, names.index(headings[k])]
+            held = matrices["data_2"][0][place_of[1] - 1]
+            self.assertEqual(held.tobytes(), numpy.array([float(row[k] or "nan") for row in rows[1:]]).tobytes(),
+                             headings[k])
 
     def test_peaks_stand_among_the_rows(self):
         peak = self.run_of_press.figures["peak_torque.main_coupling"]

@@ -1,8 +1,10 @@
 """The installed Python package: what it hands out is what the program says, arrays lie in the run's memory."""
 
+import gc
 import json
 import math
 import os
+import subprocess
 import tempfile
 import unittest
 
@@ -85,6 +87,7 @@ class Memory(unittest.TestCase):
         self.assertFalse(torque.flags.writeable)
         before = torque.copy()
         del run, again
+        gc.collect()
         other = [kurbel.run(TWO_MASSES, errors=False) for _ in range(3)]
         self.assertTrue((torque == before).all())
         del other
@@ -109,7 +112,7 @@ class Memory(unittest.TestCase):
         run = kurbel.run(TWO_MASSES, errors=False)
         frame = run.trajectory.to_pandas()
         self.assertEqual(frame.attrs["units"]["torque.coupling"], "N*m")
-        self.assertEqual(frame["torque.coupling"].max(), run.trajectory["torque.coupling"].max())
+        self.assertTrue(numpy.shares_memory(frame["torque.coupling"].to_numpy(), run.trajectory["torque.coupling"]))
         self.assertEqual(run.to_pandas().loc["peak_torque.coupling", "unit"], "N*m")
 
     def test_a_thousand_loads_runs_and_frees_leak_nothing(self):
@@ -165,6 +168,60 @@ class Faults(unittest.TestCase):
         self.assertIn("budget", run.diagnosis)
 
 
+def public_names(module):
+    """(where, thing) of all that a user may name: functions, classes, what these have."""
+    for name in module.__all__:
+        thing = getattr(module, name)
+        yield name, thing
+        if isinstance(thing, type):
+            for own, member in vars(thing).items():
+                if not own.startswith("_") or own in ("__getitem__",):
+                    yield f"{name}.{own}", member
+
+
+class Words(unittest.TestCase):
+    def test_every_command_is_a_function(self):
+        commands = subprocess.run([os.environ["KURBEL_PROGRAM"], "commands"], capture_output=True, text=True,
+                                  check=True).stdout.split()
+        self.assertGreater(len(commands), 20)
+        for name in commands:
+            if name != "commands":  # study_names(), option_names()
+                self.assertTrue(callable(getattr(kurbel, name)), name)
+                self.assertIn(name, kurbel.__all__)
+
+    def test_every_public_name_says_what_it_is(self):
+        for name, thing in public_names(kurbel):
+            with self.subTest(name):
+                if not isinstance(thing, type) or not issubclass(thing, Exception):
+                    self.assertTrue((getattr(thing, "__doc__", None) or "").strip())
+
+    def test_what_may_stand_in_a_scene(self):
+        self.assertIn("damping_ratio", kurbel.keys("coupling"))
+        self.assertIn("coupling", kurbel.kinds())
+        with self.assertRaisesRegex(ValueError, 'did you mean "coupling"'):
+            kurbel.keys("couplin")
+        self.assertIn("$schema", kurbel.schema())
+        self.assertEqual(kurbel.figures(TWO_MASSES)["peak_torque.coupling"], "N*m")
+        self.assertEqual(kurbel.check(TWO_MASSES).title, TWO_MASSES["title"])
+        with self.assertRaises(kurbel.SceneError):
+            kurbel.check(TWO_MASSES, set={"fan.inertia": "-1 kg*m2"})
+
+    def test_a_scene_to_start_from(self):
+        self.assertIn("press", kurbel.example_scenes())
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "mine.toml")
+            text = kurbel.new("press", file)
+            self.assertEqual(kurbel.machine(file).text, kurbel.machine(text).text)
+            with self.assertRaises(FileExistsError):
+                kurbel.new("pump", file)
+
+    def test_what_a_figure_means(self):
+        self.assertIn("N·m", kurbel.explain("peak_torque.coupling"))
+        self.assertIn("delta", kurbel.explained_figures())
+        with self.assertRaisesRegex(ValueError, "did you mean"):
+            kurbel.explain("detla")
+
+
 class Studies(unittest.TestCase):
     def test_every_study_is_a_function(self):
         for name in kurbel.study_names():
@@ -177,13 +234,63 @@ class Studies(unittest.TestCase):
         self.assertIn(f"{w / 2 / math.pi:.4g}"[:4], json.dumps(summary))
 
     def test_comparison_and_its_files(self):
-        study = kurbel.compare(TWO_MASSES, no_error=True)
+        study = kurbel.compare(TWO_MASSES, no_error=True, no_trials=True)
+        # A step rings to twice what is transmitted rigidly.
+        rigid, elastic = (study.figures_of(model)["peak_torque.coupling"].value for model in ("rigid", "elastic"))
+        self.assertAlmostEqual(elastic / rigid, 2, delta=1e-4)
+        frame = study.to_pandas().loc["peak_torque.coupling"].set_index("model")
+        self.assertEqual(frame.loc["elastic", "value"], elastic)
         with tempfile.TemporaryDirectory() as folder:
             study.write(os.path.join(folder, "out"))
             self.assertTrue(os.path.exists(os.path.join(folder, "out", "report.html")))
 
 
+    def test_two_machines_figure_by_figure(self):
+        study = kurbel.diff(TWO_MASSES, TWO_MASSES, other_set={"coupling.stiffness": "16 kN*m/rad"}, of="modes")
+        self.assertIn("coupling.stiffness", json.dumps(study.summary))
+        self.assertIn("natural_frequency", study.text)
+
+    def test_a_list_is_an_option_given_again(self):
+        spots = kurbel.study("modes", PRESS, spot_checks=0, spot=["50 rpm", "55 rpm"], range=["20 rpm", "80 rpm"])
+        self.assertIn("55 rpm", spots.text)
+        with self.assertRaisesRegex(ValueError, "at is given 2 times"):
+            kurbel.modes(TWO_MASSES, at=["1 s", "2 s"])
+
+    def test_a_sheet_to_be_printed_is_among_the_files(self):
+        study = kurbel.forces(PRESS, sheet=True, no_run=True)
+        self.assertIn("</html>", study.tables["sheet.html"])
+        with tempfile.TemporaryDirectory() as folder:
+            study.write(os.path.join(folder, "out"), formats="xlsx")
+            self.assertTrue(os.path.exists(os.path.join(folder, "out", "sheet.html")))
+
+    def test_a_record_is_laid_over_run_and_cycle(self):
+        run = kurbel.run(PRESS, until=1.0, errors=False, plots=False)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "test.csv")
+            with open(file, "w") as out:
+                out.write("time [s],T1 [kN*m]\n")
+                for t, torque in zip(run.trajectory.time, run.trajectory["torque.main_coupling"]):
+                    out.write(f"{float(t)!r},{torque / 1000 + 0.5!r}\n")
+            over = kurbel.run(PRESS, until=1.0, errors=False, measured=file, map={"T1": "torque.main_coupling"},
+                              offset="fit")
+            self.assertAlmostEqual(over.figures["measured_offset.torque.main_coupling"].value, 500, delta=1e-6)
+            self.assertLess(over.figures["residual_rms.torque.main_coupling"].value, 1e-6)
+            self.assertIn("measured", over.summary)
+            with self.assertRaises(kurbel.SceneError) as raised:
+                kurbel.steady(PRESS, measured=file, map={"T2": "torque.main_coupling"})
+            self.assertIn("T1", raised.exception.places[0][3])
+
+
 class Motions(unittest.TestCase):
+    def test_a_run_goes_on_from_a_state(self):
+        motion = kurbel.motion(TWO_MASSES)
+        motion.go_to(0.1)
+        run = kurbel.run(TWO_MASSES, state=motion.state, errors=False, plots=False)
+        self.assertEqual(run.trajectory.time[0], 0.1)
+        w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
+        expected = STEP / 2 * (1 - numpy.cos(w * run.trajectory.time))
+        self.assertLess(numpy.abs(run.trajectory["torque.coupling"] - expected).max(), 1e-4 * STEP)
+
     def test_a_state_is_gone_back_to_and_on_from_as_text(self):
         motion = kurbel.motion(TWO_MASSES)
         motion.go_to(0.1)
@@ -218,6 +325,42 @@ class Sweeps(unittest.TestCase):
             there = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], errors=False,
                                  executor=pool)
         self.assertEqual(here.figures, there.figures)
+
+    def test_whatever_maps_or_submits_computes_the_same_rows(self):
+        from concurrent.futures import ThreadPoolExecutor
+        from multiprocessing.pool import ThreadPool
+        asked = dict(design="grid:3x2", figures="peak_torque", errors=False)
+        here = kurbel.sweep(TWO_MASSES, self.vary, **asked)
+        with ThreadPoolExecutor(2) as threads, ThreadPool(2) as pool:
+            for executor in (threads, pool):
+                self.assertEqual(kurbel.sweep(TWO_MASSES, self.vary, executor=executor, **asked).figures, here.figures)
+
+    def test_a_file_keeps_the_rows_and_makes_their_report(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "r.db")
+            rows = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], into=file)
+            self.check(rows)
+            value, error, unit = rows.figures[0]["peak_torque.coupling"]
+            self.assertEqual(unit, "N*m")
+            self.assertLess(error, 1e-3 * value)
+            self.assertIn("coupling.stiffness", rows.report().text)
+            self.assertEqual(kurbel.rows_in(file).figures, rows.figures)
+            self.assertEqual(kurbel.rows_in(file).vary, self.vary)
+            with self.assertRaisesRegex(ValueError, "another sweep|differs"):
+                kurbel.sweep(TWO_MASSES, self.vary, design="grid:2x2", figures=["peak_torque"], into=file)
+            with self.assertRaisesRegex(TypeError, "errors"):
+                kurbel.sweep(TWO_MASSES, self.vary, into=file, errors=False)
+
+    def test_rows_of_other_questions(self):
+        rows = kurbel.sweep(TWO_MASSES, self.vary[:1], design="grid:3", of="modes", figures="natural_frequency")
+        for (stiffness,), frequency in zip(rows.parameters, rows["natural_frequency.1"]):
+            w = math.sqrt(1000 * stiffness * (1 / 0.2 + 1 / 1.5))
+            self.assertAlmostEqual(frequency, w / (2 * math.pi), delta=1e-6)
+        self.assertEqual(list(rows.to_pandas().columns), ["coupling.stiffness", "natural_frequency.1"])
+        with self.assertRaisesRegex(TypeError, "until"):
+            kurbel.sweep(TWO_MASSES, self.vary, of="modes", until=1.0)
+        with self.assertRaisesRegex(KeyError, "natural_frequency.1"):
+            rows["natural_frequenc.1"]
 
 
 if __name__ == "__main__":

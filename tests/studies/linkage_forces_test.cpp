@@ -70,6 +70,28 @@ TEST(ForcesInALinkage, BalanceOverTheCycleInEveryMechanism) {
   }
 }
 
+// Links that pass through one line: there what the crank needs is that of a place beside it, and the machine's own torque
+// is held against the links' everywhere else. A parallelogram, and a kite of two turns, whose pin passes over a bearing.
+TEST(ForcesInALinkage, GoThroughChangePointsWithTheMachine) {
+  for (const char* lengths : {"crank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"",
+                              "crank = \"100 mm\"\ncoupler = \"250 mm\"\nrocker = \"250 mm\"\nground = \"100 mm\""}) {
+    SCOPED_TRACE(lengths);
+    const LinkageStudy f = find_linkage_forces(
+        test::scene_from(
+            std::string("line = [\"motor\", \"bars\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = "
+                        "\"400 N*m\", no_load_speed = \"12 rad/s\", inertia = \"2 kg*m2\" }\n[bars]\nkind = "
+                        "\"four-bar\"\n") +
+            lengths +
+            "\ncrank_inertia = \"1 kg*m2\"\ncoupler_mass = \"2 kg\"\ncoupler_inertia = \"0.02 kg*m2\"\n"
+            "rocker_mass = \"8 kg\"\nrocker_inertia = \"0.4 kg*m2\"\nload = { kind = \"medium\", viscous = "
+            "\"8 N*m*s/rad\" }\n[run]\nstart = { speed = \"9 rad/s\" }\nuntil = \"6 s\"\n"),
+        {});
+    ASSERT_TRUE(f.simulated) << f.diagnosis;
+    EXPECT_LT(*f.simulated->machine_residual, 1e-6);
+    EXPECT_LT(f.simulated->power_residual, 1e-8);
+  }
+}
+
 // The crank turns evenly: ω_i of the rocker over its sweep. Its swing has no mean, its greatest speeds are those of the
 // geometry; a link of the mechanism that turns with the shaft has its speed.
 TEST(ForcesInALinkage, TellsSpeedsOfTheLinks) {

@@ -10,7 +10,7 @@
 
 #include "studies/modes/modes.h"
 #include "studies/modes/modes_findings.h"
-#include "tests/support/scenes.h"
+#include "tests/published/published.h"
 
 namespace kurbel {
 namespace {
@@ -61,6 +61,19 @@ TEST(ModesAtRest, PendulumSwingsBySqrtOfMglOverJ) {
 }
 
 // At φ = 0 the rocker's ratio is that of the triangle with AD = ground − crank: what damps it damps the crank by ψ′².
+// A torque that swings with time shakes it there, and asks for no place beyond its arc.
+TEST(ModesAtRest, PendulumMayBeShakenOverTime) {
+  const std::string shaken = test::with(
+      pendulum(20), "line = [\"pendulum\"]",
+      "line = [\"exciter\", \"pendulum\"]\nexciter = { kind = \"torque source\", amplitude = \"0.5 N*m\", frequency "
+      "= \"0.2 Hz\", inertia = \"0.3 kg*m2\" }");
+  const ModesStudy m = modes_of(shaken);
+  ASSERT_EQ(m.modes.size(), 1u);
+  const double omega = std::sqrt(1 * g * 2 / 4.4);
+  EXPECT_NEAR(m.modes[0].natural(), omega, 1e-8 * omega);
+  EXPECT_FALSE(m.excitations.by_frequency.empty());
+}
+
 TEST(ModesAtRest, DampingOfTheRockerDampsByItsRatioSquared) {
   const double s = 12, foot = (s * s + 100 - 7.5 * 7.5) / (2 * s);
   const double beta = std::acos(foot / 10), psi = std::atan2(std::sqrt(100 - foot * foot), foot - s);

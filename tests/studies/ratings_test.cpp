@@ -45,7 +45,7 @@ TEST(Ratings, HeatOfAnEngagementUnderLoadIsTheClosedForm) {
     EXPECT_EQ(verdicts[0].state(), Compliance::exceeded);
     EXPECT_NE(verdicts[0].note.find("89 %"), std::string::npos) << verdicts[0].note;  // √0.8
     EXPECT_EQ(verdicts[1].state(), Compliance::holds);
-    EXPECT_NE(ratings_sentence(verdicts).find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
+    EXPECT_NE(sentence_of(verdicts, "rating").find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
   }
 }
 
@@ -201,6 +201,39 @@ TEST(Ratings, DutyOfAMotorByASquareProfile) {
   const Verdict exceeded = judged("duty = \"S3\"\nduty_share = 0.25", 0.25);
   EXPECT_EQ(exceeded.state(), Compliance::exceeded);
   EXPECT_NE(exceeded.note.find(fmt::format("{:.4g} N·m on", rms / 0.5)), std::string::npos) << exceeded.note;
+}
+
+// A shunt motor at its full field heats its armature by M², too: U, R, k held at a speed give M = k (c U − k ω)/R. Full
+// voltage for 1 s, braking on its resistance for 1 s.
+TEST(Ratings, DutyOfAShuntMotorByASquareProfile) {
+  const auto verdict = [](const char* duty) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["motor", "held"]
+      held = {{ kind = "prescribed speed", speed = "100 rad/s" }}
+      sequence = {{ steps = [{{ at = "1 s", set = "motor", to = 0 }}] }}
+      [motor]
+      kind = "dc shunt motor"
+      voltage = "220 V"
+      resistance = "0.5 Ohm"
+      constant = "2 N*m/A"
+      braking_resistance = "1.5 Ohm"
+      rated_torque = "60 N*m"
+      inertia = "0.1 kg*m2"
+      {}
+      [run]
+      until = "2 s"
+      accuracy = 1e-9
+      start = {{ speed = "100 rad/s" }}
+    )",
+                                           duty));
+    return judge_ratings(r).at(0);
+  };
+  const double drives = 2 * (220 - 200) / 0.5, brakes = 2 * 200 / 2.0;
+  const Verdict s1 = verdict("duty = \"S1\"");
+  EXPECT_NEAR(s1.value, std::sqrt((drives * drives + brakes * brakes) / 2), 1e-7);
+  EXPECT_EQ(s1.limit, 60);
+  EXPECT_EQ(s1.state(), Compliance::exceeded);
+  EXPECT_NEAR(verdict("duty = \"S2\"\nduty_time = \"1 s\"").limit, 60 * std::sqrt(0.5), 1e-12);
 }
 
 // What is not rated is not watched; the sentence is of terminal and page alike, and people get a table.

@@ -320,7 +320,7 @@ start = { speed = "300 rpm" }
     left(at.reactions[1].force - at.reactions[2].force + at.inertia[1].force);
     left(at.reactions[2].force + at.reactions[3].force + at.inertia[2].force);
     const LinkAt& motion = sheet.motion.at[k];
-    const MechanismMotion m = motion_at(sheet.mechanisms.front(), motion.phi, motion.omega, 0);
+    const MechanismMotionAt m = motion_at(sheet.mechanisms.front(), motion.phi, motion.omega, 0);
     double rate = 0;  // dT/dt = Σ (m a·v + I ε ω) = −Σ (inertia force · v + couple · ω)
     const PlanarLinkage l = sheet.mechanisms.front().mechanism.data.linkage(at.phi);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -171,6 +171,19 @@ TEST(TableFiles, OnlyWhatIsAskedForIsMade) {
   for (const char* bad : {"", "xls", "csv,", "csv;mat", "MAT"}) EXPECT_THROW(table_formats(bad), std::invalid_argument);
 }
 
+// A sheet to be printed is no table and has one form, whatever tables are asked for.
+TEST(TableFiles, WhatIsNoTableStaysAsItIs) {
+  StudyOutput output = output_of(ringing());
+  const std::string page = "<!doctype html>\n<p>a, b</p>\n<p>c, d, e, f</p>\n";
+  output.csv.push_back({"sheet.html", [&] { return page; }});
+  for (const char* formats : {"csv", "mat", "xlsx", "csv,mat,xlsx"}) {
+    const auto files = files_of(output, formats);
+    ASSERT_TRUE(files.contains("sheet.html")) << formats;
+    EXPECT_EQ(files.at("sheet.html"), page) << formats;
+    EXPECT_FALSE(files.contains("sheet.mat"));
+  }
+}
+
 // Tables over an angle, of several models; words among the numbers.
 TEST(TableFiles, EveryStudysTablesAreMade) {
   const Scene scene = scene_file("scenes/crank_press.toml");

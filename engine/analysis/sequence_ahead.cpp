@@ -1,0 +1,34 @@
+// sequence_ahead.cpp — the armed step of a sequence against a round of the motion.
+#include "engine/analysis/sequence_ahead.h"
+
+#include "engine/events/operating_sequence.h"
+
+namespace kurbel {
+
+bool sequence_goes_on(const ReturnMap& map, const Eigen::VectorXd& z) {
+  constexpr double never = 1e299;
+  const Model& m = map.model();
+  const Sequence& sequence = m.scene.sequence;
+  if (sequence.repeat || sequence.steps.empty()) return false;
+  Equations equations(map.shared_model(), false);
+  const std::vector<double> y = map.place(equations, z);
+  const std::size_t armed = equations.modes().next_step;
+  if (armed >= sequence.steps.size()) return false;
+  if (equations.modes().armed_time < never || sequence.steps[armed].when == SequenceStep::When::angle) return true;
+  const double* speed = equations.snapshot(map.start_time(), y).now.speed;
+  if (OperatingSequence(m).guard(equations.modes(), y, speed) <= 0) return true;
+  RunOptions run{.tolerance = 1e-9,
+                 .method = map.options().method,
+                 .until = 0,
+                 .budget = map.options().budget,
+                 .interrupted = map.options().interrupted,
+                 .progress = {}};
+  const bool by_time = map.periodicity().by_time;
+  run.from = {map.start_time(), y};
+  run.until = map.start_time() + (by_time ? map.periodicity().time * map.options().cycles : map.time_limit());
+  if (!by_time) run.stop = map.round_end(equations, y);
+  integrate(equations, run, {});
+  return equations.modes().next_step != armed;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,99 @@
+// words.cpp — what figures mean, keys of kinds, scenes to start from.
+#include "library/words.h"
+
+#include <fmt/format.h>
+#include <kurbel/figures.h>
+#include <kurbel/scene.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/scene/messages.h"
+#include "engine/scene/units.h"
+#include "studies/dictionary/dictionary.h"
+#include "studies/report/theory.h"
+#include "studies/scenes/kinds.h"
+#include "studies/scenes/schema.h"
+#include "studies/scenes/templates.h"
+
+namespace kurbel {
+namespace {
+
+// "theory 2.6: Reduction …" as a report cites it.
+std::string place_of(const Definition& d) {
+  std::string text;
+  for (const std::string& note : theory_notes(fmt::format("theory {}", d.theory))) text += note;
+  return text;
+}
+
+std::string sentences_on(const Definition& d, const std::string& asked) {
+  std::string text = fmt::format("{} — {}\n", d.form(), d.words);
+  for (const auto& [prefix, whole] : {std::pair{"cycle_peak_", "one steady cycle"}, std::pair{"peak_", "a whole run"}})
+    if (asked.starts_with(prefix) && !d.name.starts_with(prefix)) {
+      text += fmt::format("  {} is its greatest magnitude in {}, with its sign\n", asked, whole);
+      break;
+    }
+  const auto line = [&](const char* what, const std::string& told) {
+    if (!told.empty()) text += fmt::format("  {:<11}{}\n", what, told);
+  };
+  line("is", std::string(d.is));
+  line("formula", std::string(d.formula));
+  line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
+  line("is not", std::string(d.is_not));
+  line("told by", d.verbs.empty() ? "no command" : std::string(d.verbs));
+  line("more", place_of(d));
+  return text;
+}
+
+// "did you mean mean_speed, speed?"
+[[noreturn]] void refuse(const std::string& asked) {
+  std::string near;
+  for (const std::string& name : names_like(asked, 5)) near += fmt::format("{}\"{}\"", near.empty() ? "" : ", ", name);
+  throw std::invalid_argument(fmt::format("no figure {}{}; all of them: kurbel explain", in_quotes(asked),
+                                          near.empty() ? "" : fmt::format(" — did you mean {}?", near)));
+}
+
+void refuse_unless_one_of(const char* what, const std::string& name, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw std::invalid_argument(
+        fmt::format("no {} {}{}; allowed: {}", what, in_quotes(name), suggestion(name, names), listed(names)));
+}
+
+}  // namespace
+
+std::string explained(const std::string& figure) {
+  const Definition* const found = meant_by(figure);
+  if (!found) refuse(figure);
+  return sentences_on(*found, figure);
+}
+
+std::string explain(const std::string& figure) { return explained(figure); }
+
+std::vector<std::string> explained_figures() {
+  std::vector<std::string> names;
+  for (const Definition& definition : dictionary()) names.emplace_back(definition.name);
+  return names;
+}
+
+std::vector<std::string> kinds() { return names_of_keys(); }
+std::string keys(const std::string& kind) {
+  refuse_unless_one_of("kind", kind, kinds());
+  return keys_of(kind);
+}
+std::string schema() { return scene_schema(); }
+
+std::vector<std::string> example_scenes() {
+  std::vector<std::string> names;
+  for (const SceneTemplate& scene : scene_templates()) names.push_back(scene.name);
+  return names;
+}
+
+std::string example_scene(const std::string& name) {
+  refuse_unless_one_of("example scene", name, example_scenes());
+  for (const SceneTemplate& scene : scene_templates())
+    if (scene.name == name) return std::string(scene.text);
+  return {};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,62 @@
+// stopping.cpp — events of a run, one after the other, until the link stands.
+#include "studies/answers/stopping.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+enum class Told { neither, drives, stops };
+
+// What of a component takes commands that drive or stop.
+enum class Role { none, motor, clutch, brake };
+Role role_of(const Model& m, const std::string& component) {
+  for (const Network::Joint& joint : m.network.joints)
+    if (joint.component == component && joint.element && joint.element->is.commanded) return Role::clutch;
+  for (const Network::ShaftElement& e : m.network.elements)
+    if (e.component == component) {
+      if (e.element->account == Account::driving) return Role::motor;
+      if (e.element->is.directional && e.element->is.commanded) return Role::brake;
+    }
+  return Role::none;
+}
+
+Told told_by(Role role, double before, double to) {
+  switch (role) {
+    case Role::none:
+      return Told::neither;
+    case Role::brake:
+      return to > 0 ? Told::stops : Told::drives;
+    case Role::clutch:
+      return to > 0 ? Told::drives : Told::stops;
+    case Role::motor:
+      return to == 0 || before * to < 0 ? Told::stops : Told::drives;
+  }
+  return Told::neither;
+}
+
+}  // namespace
+
+std::optional<Stopping> first_stopping(const Model& model, const EventLog& events) {
+  const std::string link = model.node_label(model.shafts[at(model.shaft_of_node[at(model.reduction_node)])].reference);
+  const Event* signal = nullptr;
+  std::map<std::string, double> last;  // value of each command
+  for (const Event& e : events) {
+    if (e.kind == EventKind::lock || (e.component == link && e.kind == EventKind::motion)) signal = nullptr;
+    if (e.kind == EventKind::command) {
+      const double to = e.value.value_or(0), before = last.try_emplace(e.component, 1).first->second;
+      const Told told = told_by(role_of(model, e.component), before, to);
+      if (told == Told::drives) signal = nullptr;
+      if (told == Told::stops && !signal) signal = &e;
+      last[e.component] = to;
+    }
+    if (e.component == link && e.kind == EventKind::rest && signal)
+      return Stopping{e.t - signal->t, e.angle - signal->angle, e.t};
+  }
+  return {};
+}
+
+}  // namespace kurbel

@@ -1,0 +1,24 @@
+// substitutes.cpp — loads of mechanisms with mirrored diagrams, and engines, which say so themselves.
+#include "studies/validity/substitutes.h"
+
+#include "engine/reading/mirrored.h"
+#include "mechanisms/reduced/mechanism.h"
+
+namespace kurbel {
+
+std::vector<std::string> substitutes(const Model& model) {
+  std::vector<std::string> notes;
+  for (const Network::ShaftElement& e : model.network.elements) {
+    if (const MechanismElement* element = mechanism_of(e)) {
+      for (const SliderLoad& load : element->mechanism().loads)
+        if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
+      continue;
+    }
+    // What drives by the angle is an engine: all that it says of itself is a substitute.
+    const bool engine = e.element->account == Account::driving && e.element->is.uses_angle;
+    if (const std::string words = engine ? e.element->describe() : ""; !words.empty()) notes.push_back(words);
+  }
+  return notes;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,14 @@
+// substitutes.h — what stands for something that a scene does not give: diagrams of cylinders that do not fire.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/model.h"
+
+namespace kurbel {
+
+// A sentence each.
+std::vector<std::string> substitutes(const Model& model);
+
+}  // namespace kurbel
