@@ -45,7 +45,7 @@ TEST(Ratings, HeatOfAnEngagementUnderLoadIsTheClosedForm) {
     EXPECT_EQ(verdicts[0].state(), Compliance::exceeded);
     EXPECT_NE(verdicts[0].note.find("89 %"), std::string::npos) << verdicts[0].note;  // √0.8
     EXPECT_EQ(verdicts[1].state(), Compliance::holds);
-    EXPECT_NE(sentence_of(verdicts, "rating").find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
+    EXPECT_NE(ratings_sentence(verdicts).find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
   }
 }
 
