@@ -258,11 +258,12 @@ std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
   if (!(missed > tolerable) || t.time().size() < 2) return {};
   const double enough = std::max(std::pow(10, std::ceil(std::log10(2.0 * static_cast<double>(steps)))),
                                  10 * static_cast<double>(t.time().size()));
+  const std::string beyond = missed < 1 ? fmt::format("goes {:.0f} % beyond them", 100 * missed / (1 - missed))
+                                        : "is something only between them";
   return fmt::format(
-      "the rows of trajectory.csv, one every {}, are coarser than the motion: {} goes {:.0f} % beyond them; its peaks "
+      "the rows of trajectory.csv, one every {}, are coarser than the motion: {} {}; its peaks "
       "stand in rows of their own, and samples = {:.0f} gives rows that follow it",
-      told_shortly(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, 100 * missed / (1 - missed),
-      std::min(enough, 1e6));
+      told_shortly(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, beyond, std::min(enough, 1e6));
 }
 
 // --- chapters of the page ---
