@@ -57,52 +57,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MachineViewOf,
                                          Drawn{"knuckle_press", 5, {0.5099, 0.35, 0.35, 0.07}}),
                          [](const auto& info) { return std::string(info.param.scene); });
 
-// A clutch takes an inertia along that stands 150 rad/s behind it, its torque constant: it slips by its heat over its
-// torque, and what it turns into heat begins with M Δω and adds up to that heat. Drawn, the shaft behind it is twisted by
-// no more than 2 M/k, however far the clutch has slipped.
-TEST(MachineView, TellsSlipApartFromTwist) {
-  constexpr double torque = 40, stiffness = 1000, apart = 150;
-  SimulateOptions options;
-  options.measure_error = false;
-  options.traces = true;
-  const Scene scene = test::scene_from(R"(
-    line = ["a", "clutch", "shaft", "b"]
-    a = { kind = "inertia", inertia = "1.7 kg*m2" }
-    clutch = { kind = "clutch", torque = "40 N*m", inertia_out = "0.1 kg*m2" }
-    shaft = { kind = "coupling", stiffness = "1 kN*m/rad", damping_ratio = 0.02 }
-    b = { kind = "inertia", inertia = "0.5 kg*m2" }
-    effects = { elasticity = true }
-    [run]
-    until = "3 s"
-    start = { a = { speed = "120 rad/s" }, shaft = { speed = "-30 rad/s" }, b = { speed = "-30 rad/s" } }
-  )");
-  const Result r = simulate(scene, scene.effects, "elastic", options);
-  ASSERT_TRUE(r.complete) << r.diagnosis;
-  const double heat = test::figure(r, "slip_heat.clutch");
-  const MachineView view = machine_view({&r});
-  const MachineView::Motion& motion = view.motions.front();
-  ASSERT_EQ(view.parts.size(), 4u);
-  EXPECT_TRUE(view.parts[1].slips && view.parts[2].elastic && !view.parts[1].elastic);
-  EXPECT_NEAR(motion.slip_in[1].back() - motion.slip_out[1].back(), heat / torque, 1e-6 * heat / torque);
-  EXPECT_EQ(motion.slip_out[3].back(), motion.slip_out[1].back()) << "behind the clutch all is as far behind";
-  EXPECT_EQ(motion.slip_in[0].back(), 0) << "at the link nothing is";
-  for (const auto* side : {&motion.twist_in, &motion.twist_out})
-    for (const auto& twists : *side)
-      for (const double twist : twists) ASSERT_LE(std::abs(twist), 2 * torque / stiffness);
-  EXPECT_GE(view.enlargement, 10);
-
-  const std::vector<Plot> plots = drive_plots({&r});
-  const auto warm = std::find_if(plots.begin(), plots.end(),
-                                 [](const Plot& p) { return p.title == "What slip turns into heat in clutch"; });
-  ASSERT_NE(warm, plots.end());
-  ASSERT_EQ(warm->y.unit, "kW");
-  const Series& power = warm->series.front();
-  EXPECT_NEAR(power.y.front(), 1e-3 * torque * apart, 1e-6);
-  double sum = 0;
-  for (std::size_t i = 1; i < power.x.size(); ++i)
-    sum += 500 * (power.y[i] + power.y[i - 1]) * (power.x[i] - power.x[i - 1]);
-  EXPECT_NEAR(sum, heat, 5e-3 * heat);
-}
-
 }  // namespace
 }  // namespace kurbel
