@@ -10,8 +10,6 @@
 #include "engine/equations/jam.h"
 
 namespace kurbel {
-namespace {}  // namespace
-
 SliderCrankStatics::Law::Loads SliderCrankStatics::Law::value(const Column& r) const {
   Loads q;
   for (int k = 0; k < 3; ++k) q[k] = circle[k] * size(r, k);

@@ -14,23 +14,6 @@
 namespace kurbel {
 namespace {
 
-// One of the curves of a plot: the rigid machine behind, the elastic one in front.
-struct ForceCurve {
-  const ForceCycle* cycle;
-  const char* name;
-  Role role;
-};
-
-std::vector<ForceCurve> force_curves_of(const Forces& f) {
-  std::vector<ForceCurve> curves;
-  if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
-  if (f.prescribed) curves.push_back({&*f.prescribed, "prescribed: constant speed", Role::reference});
-  if (f.simulated)
-    curves.push_back({&*f.simulated, f.elastic ? "simulated, elastic" : "simulated, rigid",
-                      f.elastic ? Role::elastic : Role::rigid});
-  return curves;
-}
-
 using Quantity = std::function<double(const CyclePosition&)>;
 
 // Where it is finite.
@@ -52,7 +35,7 @@ Plot angle_plot(const std::string& title, const std::string& quantity) {
 Plot both(const Forces& f, const std::string& title, const std::string& quantity, const std::string& unit,
           const Quantity& value) {
   Plot plot = angle_plot(title, quantity);
-  for (const ForceCurve& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
+  for (const auto& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
   return unit.empty() ? plot : in_readable_unit(std::move(plot), unit);
 }
 
@@ -62,7 +45,7 @@ Plot guide_point_plot(const Forces& f) {
   plot.note = "Beyond the guide's ends both edges bear.";
   // Where N passes through zero the point runs away to infinity: left out beyond three guides.
   const double reach = 3 * std::max({f.joints.guide.length, f.joints.guide.width, f.data.radius});
-  for (const ForceCurve& c : force_curves_of(f))
+  for (const auto& c : force_curves_of(f))
     plot.series.push_back(over_angle(c.name, c.role, *c.cycle, [&](const CyclePosition& p) {
       return std::abs(p.forces.guide_point) < reach ? p.forces.guide_point : std::nan("");
     }));
@@ -90,7 +73,7 @@ Plot locus(const Forces& f, const std::string& title, const std::string& x, cons
            const std::function<Force2(const CyclePosition&)>& force) {
   Plot plot{.title = title, .x = {x, ""}, .y = {y, ""}, .series = {}};
   double largest = 0;
-  for (const ForceCurve& c : force_curves_of(f)) {
+  for (const auto& c : force_curves_of(f)) {
     Series& s = plot.series.emplace_back(Series{.name = c.name, .role = c.role, .x = {}, .y = {}});
     for (const CyclePosition& p : c.cycle->curve) {
       const Force2 v = force(p);

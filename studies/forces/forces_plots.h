@@ -8,6 +8,27 @@
 
 namespace kurbel {
 
+// A motion that a plot draws.
+template <class Cycle>
+struct ForceCurve {
+  const Cycle* cycle;
+  const char* name;
+  Role role;
+};
+
+// Of a study of forces, in the order of drawing: the rigid machine behind, the machine itself in front.
+template <class Study>
+auto force_curves_of(const Study& f) {
+  using Cycle = typename decltype(f.simulated)::value_type;
+  std::vector<ForceCurve<Cycle>> curves;
+  if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
+  if (f.prescribed) curves.push_back({&*f.prescribed, "prescribed: constant speed", Role::reference});
+  if (f.simulated)
+    curves.push_back({&*f.simulated, f.elastic ? "simulated, elastic" : "simulated, rigid",
+                      f.elastic ? Role::elastic : Role::rigid});
+  return curves;
+}
+
 // The problems that were solved; the simulated motion, where there is one, is the machine's own.
 std::vector<const ForceCycle*> problems_of(const Forces& forces);
 const ForceCycle& front_of(const Forces& forces);

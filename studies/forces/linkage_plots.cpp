@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "engine/numerics/angles.h"
 #include "studies/findings/plots.h"
+#include "studies/forces/forces_plots.h"
 
 namespace kurbel {
 namespace {
@@ -16,34 +17,15 @@ namespace {
 using P = const PositionForces&;
 using Quantity = std::function<double(P)>;
 
-double degrees(double angle) { return angle * 180 / std::numbers::pi; }
-
-// One of the curves of a plot: the rigid machine behind, the elastic one in front.
-struct LinkageCurve {
-  const LinkageCycle* cycle;
-  const char* name;
-  Role role;
-};
-
-std::vector<LinkageCurve> linkage_curves_of(const LinkageStudy& f) {
-  std::vector<LinkageCurve> curves;
-  if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
-  if (f.prescribed) curves.push_back({&*f.prescribed, "prescribed: constant speed", Role::reference});
-  if (f.simulated)
-    curves.push_back({&*f.simulated, f.elastic ? "simulated, elastic" : "simulated, rigid",
-                      f.elastic ? Role::elastic : Role::rigid});
-  return curves;
-}
-
 Series over_angle(const std::string& name, Role role, const LinkageCycle& c, const Quantity& value) {
   return series_of(
-      name, role, c.curve, [](P p) { return degrees(p.forces.state.phi); }, value);
+      name, role, c.curve, [](P p) { return in_degrees * p.forces.state.phi; }, value);
 }
 
 Plot both(const LinkageStudy& f, const std::string& title, const std::string& quantity, const std::string& unit,
           const Quantity& value) {
   Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}, .series = {}};
-  for (const LinkageCurve& c : linkage_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
+  for (const auto& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
   return in_readable_unit(std::move(plot), unit);
 }
 
@@ -98,7 +80,7 @@ std::vector<Plot> polar_plots(const LinkageStudy& f) {
               .y = {"across", ""},
               .series = {}};
     double largest = 0;
-    for (const LinkageCurve& c : linkage_curves_of(f)) {
+    for (const auto& c : force_curves_of(f)) {
       plot.series.push_back(series_of(
           c.name, c.role, c.cycle->curve, [k](P p) { return p.forces.joints[k].force.x; },
           [k](P p) { return p.forces.joints[k].force.y; }));
