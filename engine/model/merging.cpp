@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
@@ -116,6 +120,30 @@ void check_sizes(Compilation& c) {
                        net.relations.size(), most_relations));
 }
 
+// Parts of one shaft start at one speed and one angle, whichever effects are on.
+void check_start(Compilation& c, const Merging& firm) {
+  const struct {
+    std::optional<double> ComponentStart::*of;
+    const char *words, *unit;
+  } told[] = {{&ComponentStart::speed, "speeds", "rad/s"}, {&ComponentStart::angle, "angles", "rad"}};
+  for (const auto& what : told) {
+    std::map<int, std::pair<std::string, double>> first;  // of each shaft: who told it, of the group's first node
+    for (const auto& [component, start] : c.model.scene.run.start.components) {
+      const auto port = c.net().ports.find(component);
+      if (!(start.*what.of) || port == c.net().ports.end()) continue;
+      const std::size_t node = at(port->second.in);
+      const double gain = firm.gain[node], value = *(start.*what.of) / gain;
+      const auto [known, is_first] = first.try_emplace(firm.group[node], component, value);
+      const auto& [other, said] = known->second;
+      if (is_first || std::abs(value - said) <= 1e-9 * std::max(std::abs(value), std::abs(said))) continue;
+      throw SceneError({{c.messages.file(), start.at,
+                         fmt::format("[run]: start: {} of \"{}\" and \"{}\" contradict each other: they are parts of "
+                                     "one shaft, {:.6g} and {:.6g} {} of \"{}\"; leave one of them out",
+                                     what.words, other, component, said * gain, value * gain, what.unit, component)}});
+    }
+  }
+}
+
 }  // namespace
 
 Merging merge(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations) {
@@ -140,6 +168,7 @@ void check_shafts(Compilation& c) {
     refuse(
         "gears with losses, planetary gears or gears in housings tie the same shafts twice; check the lines and "
         "branches");
+  check_start(c, firm);
 }
 
 // The reduction link is the crank of the first mechanism, else the first shaft of the line.

@@ -141,7 +141,11 @@ void place_by_output(SceneReading& r) {
   if (!r.messages.empty()) return;
   const bool said_to_rock = given.on->value.text.ends_with(".rocker");
   if (!output.found() || output.rocks() != said_to_rock)
-    return refuse(given.on->value.at, fmt::format("\"{}\" has no {}", start.on, said_to_rock ? "rocker" : "slider"));
+    return refuse(given.on->value.at, fmt::format("\"{0}\" has no {1}; allowed: {2}\"{0}\", its shaft", start.on,
+                                                  said_to_rock ? "rocker" : "slider",
+                                                  !output.found()  ? ""
+                                                  : output.rocks() ? fmt::format("\"{}.rocker\" or ", start.on)
+                                                                   : fmt::format("\"{}.slider\" or ", start.on)));
   if (!output.turns())
     return refuse(given.on->value.at, fmt::format("the crank of \"{}\" cannot turn; give the angle of the crank within "
                                                   "its arc, on = \"{}\"",
@@ -169,9 +173,11 @@ void place_by_output(SceneReading& r) {
   if (told->velocity == 0) return;
   const double slope = output.slope(start.angle);
   if (std::abs(slope) <= 1e-6 * (way.greatest - way.least))
-    return refuse(given.velocity->value.at,
-                  "there it stands at a dead centre whatever the crank does (v = x' ω with x' = 0); give the speed of "
-                  "the crank");
+    return refuse(
+        given.velocity->value.at,
+        fmt::format("velocity = {}: there it stands at a dead centre whatever the crank does (v = x' ω with x' "
+                    "= 0); leave it out, or give angle and speed of the crank, on = \"{}\"",
+                    given.velocity->value.describe(), start.on));
   start.speed = told->velocity / slope;
 }
 

@@ -75,7 +75,9 @@ void check_start_on_output(SceneReading& r, const DocumentValue& start, const ch
                                       "velocity and towards where they count, or name the crank: on = {}",
                                       key, output, in_quotes(r.scene.run.start.on)));
   if (!given.position)
-    r.refuse(given.on->value.at, fmt::format("start: on = {}: \"position\" is missing", given.on->value.describe()));
+    r.refuse(given.on->value.at,
+             fmt::format("start: on = {}: \"position\" is missing; give e.g. position = {}", given.on->value.describe(),
+                         std::string_view(output) == "rocker" ? "\"30 deg\"" : "\"430 mm\", from the crank's axis"));
 }
 
 // "position", "velocity" and "towards", unless a component has that name: kept for when its mechanism is known.

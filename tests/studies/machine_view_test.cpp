@@ -57,5 +57,40 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MachineViewOf,
                                          Drawn{"knuckle_press", 5, {0.5099, 0.35, 0.35, 0.07}}),
                          [](const auto& info) { return std::string(info.param.scene); });
 
+// A clutch that is open for half a second and then takes b along: its sides turn apart by 120 rad/s · 0.5 s, and while it
+// slips under its 40 N·m by heat/torque. None of that is twist of the shaft behind it, which bears at most twice the step.
+TEST(MachineView, TellsSlipApartFromTwist) {
+  constexpr double torque = 40, stiffness = 1000, apart = 120, open = 0.5;
+  SimulateOptions options;
+  options.measure_error = false;
+  options.traces = true;
+  const Scene scene = test::scene_from(R"(
+    line = ["a", "clutch", "shaft", "b"]
+    a = { kind = "inertia", inertia = "1.7 kg*m2" }
+    clutch = { kind = "clutch", torque = "40 N*m", inertia_out = "0.1 kg*m2" }
+    shaft = { kind = "coupling", stiffness = "1 kN*m/rad", damping_ratio = 0.02 }
+    b = { kind = "inertia", inertia = "0.5 kg*m2" }
+    effects = { elasticity = true }
+    sequence = { steps = [{ at = "0 s", set = "clutch", to = 0 }, { at = "0.5 s", set = "clutch" }] }
+    [run]
+    until = "3 s"
+    start = { a = { speed = "120 rad/s" }, b = { speed = "0 rad/s" } }
+  )");
+  const Result r = simulate(scene, scene.effects, "elastic", options);
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double heat = test::figure(r, "slip_heat.clutch"), slipped = apart * open + heat / torque;
+  const MachineView view = machine_view({&r});
+  const MachineView::Motion& motion = view.motions.front();
+  ASSERT_EQ(view.parts.size(), 4u);
+  EXPECT_TRUE(view.parts[1].slips && view.parts[2].elastic && !view.parts[1].elastic);
+  EXPECT_NEAR(motion.slip_in[1].back() - motion.slip_out[1].back(), slipped, 1e-5 * slipped);
+  EXPECT_EQ(motion.slip_out[3].back(), motion.slip_out[1].back()) << "behind the clutch all is as far behind";
+  EXPECT_EQ(motion.slip_in[0].back(), 0) << "at the link nothing is";
+  for (const auto* side : {&motion.twist_in, &motion.twist_out})
+    for (const auto& twists : *side)
+      for (const double twist : twists) ASSERT_LE(std::abs(twist), 2 * torque / stiffness);
+  EXPECT_GE(view.enlargement, 10);
+}
+
 }  // namespace
 }  // namespace kurbel
