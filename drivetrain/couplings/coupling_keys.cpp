@@ -52,7 +52,7 @@ const Fields<CouplingLimits>& coupling_limit_fields() {
           .add({.name = "maximum_torque",
                 .unit = "N*m",
                 .domain = positive,
-                .doc = "T_Kmax, of peaks at starts and in resonances passed, limit for kurbel modes"},
+                .doc = "T_Kmax, of peaks at starts and in resonances passed, limit for kurbel modes and run"},
                &Limits::maximum)
           .add({.name = "vibratory_torque",
                 .unit = "N*m",

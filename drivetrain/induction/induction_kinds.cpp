@@ -121,6 +121,20 @@ std::optional<InductionData> induction_data(const Section& component) {
   return data;
 }
 
+std::optional<InductionWindings> induction_windings(const Section& component) {
+  if (component.kind->name != "induction motor") return {};
+  Messages unheard("");
+  const auto motor = induction_fields().read(component, unheard);
+  const auto law = induction_law(motor);
+  const TwoAxisMotor* const found = law ? std::get_if<TwoAxisMotor>(&*law) : nullptr;
+  if (!found) return {};
+  InductionWindings windings{found->circuit.stator_resistance, found->circuit.rotor_resistance};
+  if (motor.rated_speed)
+    windings.rated_current =
+        line_current(found->circuit, 1 - *motor.rated_speed / found->circuit.synchronous_speed()).current;
+  return windings;
+}
+
 std::vector<Kind> induction_kinds() {
   return {
       {.name = "induction motor",

@@ -29,4 +29,12 @@ struct InductionData {
 // Of a component that a scene has read without a fault; none: it is no induction motor.
 std::optional<InductionData> induction_data(const Section& component);
 
+// Of its two-axis circuit.
+struct InductionWindings {
+  double stator_resistance = 0, rotor_resistance = 0;  // R_s, R_r′ [Ω]
+  double rated_current = 0;                            // effective, of a line, at the rated slip [A]; 0: not known
+};
+// None: it has no circuit.
+std::optional<InductionWindings> induction_windings(const Section& component);
+
 }  // namespace kurbel

@@ -1,10 +1,10 @@
 // fixed_points.cpp — fixed points of the return map by Newton's method, and their Floquet multipliers.
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/analysis/return_map.h"
+#include "engine/matrices/eigenpairs.h"
 
 namespace kurbel {
 
@@ -17,10 +17,9 @@ constexpr int rounds_looked_at = 6;
 
 // How much the largest eigenvalue moves with an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(derivative);
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const auto [values, vectors] = eigenpairs(derivative);
   Eigen::Index largest = 0;
-  solver.eigenvalues().cwiseAbs().maxCoeff(&largest);
+  values.cwiseAbs().maxCoeff(&largest);
   const Eigen::VectorXcd left = vectors.fullPivLu().inverse().row(largest).transpose();
   const double condition = left.lpNorm<1>() * vectors.col(largest).lpNorm<1>();
   return std::isfinite(condition) ? condition : 1 / floor_of_rounds;
@@ -30,7 +29,7 @@ double condition_of_largest(const Eigen::MatrixXd& derivative) {
 
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative) {
   if (derivative.rows() == 0) return {};
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(derivative, false).eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(derivative);
   std::vector<std::complex<double>> sorted(values.begin(), values.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](auto a, auto b) {
     const double difference = std::abs(a) - std::abs(b);

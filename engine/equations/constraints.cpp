@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/numerics/elimination.h"
+#include "engine/matrices/elimination.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {

@@ -1,5 +1,4 @@
 // damped_modes.cpp — eigenvalues of the damped drive: dense; large drives by Newton from the undamped modes.
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SparseLU>
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 
 #include "engine/linear/eigen_modes.h"
+#include "engine/matrices/eigenpairs.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -93,15 +93,14 @@ void sort_modes(std::vector<DampedMode>& modes) {
 }
 
 // Of each eigenvalue: its condition number times the backward error of its pair and of the solver.
-VectorXd eigenvalue_errors(const MatrixXd& a, const Eigen::EigenSolver<MatrixXd>& solver) {
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();
-  const Eigen::MatrixXcd left = vectors.partialPivLu().inverse();  // rows
+VectorXd eigenvalue_errors(const MatrixXd& a, const Eigenpairs& pairs) {
+  const Eigen::MatrixXcd left = pairs.vectors.partialPivLu().inverse();  // rows
   const double backward = 4 * std::numeric_limits<double>::epsilon() *
                           std::sqrt(a.cwiseAbs().rowwise().sum().maxCoeff() * a.cwiseAbs().colwise().sum().maxCoeff());
   VectorXd error(a.rows());
   for (Index i = 0; i < a.rows(); ++i) {
-    const Eigen::VectorXcd v = vectors.col(i);
-    const double residual = (a * v - solver.eigenvalues()[i] * v).norm() / v.norm();
+    const Eigen::VectorXcd v = pairs.vectors.col(i);
+    const double residual = (a * v - pairs.values[i] * v).norm() / v.norm();
     const double condition = left.row(i).norm() * v.norm();
     error[i] = std::isfinite(condition) ? condition * (residual + backward) : std::sqrt(backward * a.norm());
   }
@@ -111,18 +110,16 @@ VectorXd eigenvalue_errors(const MatrixXd& a, const Eigen::EigenSolver<MatrixXd>
 std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
   const FirstOrder system = first_order(drive);
   const MatrixXd& a = system.a;
-  const Eigen::EigenSolver<MatrixXd> solver(a);
-  if (solver.info() != Eigen::Success)
-    throw std::runtime_error("the eigenvalue solver of the damped drive did not converge");
+  const Eigenpairs pairs = eigenpairs(a);
   const double noise = 1e-12 * a.norm();
-  const VectorXd error = eigenvalue_errors(a, solver), scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  const VectorXd error = eigenvalue_errors(a, pairs), scale = drive.inertia.cwiseSqrt().cwiseInverse();
   std::vector<DampedMode> modes;
   for (Index i = 0; i < a.rows(); ++i) {
-    std::complex<double> lambda = solver.eigenvalues()[i];
+    std::complex<double> lambda = pairs.values[i];
     if (lambda.imag() < 0) continue;
     if (std::abs(lambda.imag()) <= noise) lambda = lambda.real();
     if (std::abs(lambda) <= noise) lambda = 0;
-    const Eigen::VectorXcd v = solver.eigenvectors().col(i);
+    const Eigen::VectorXcd v = pairs.vectors.col(i);
     DampedMode mode =
         normalised(lambda, scale.cast<std::complex<double>>().cwiseProduct(v.segment(system.speeds, drive.size())));
     mode.error = error[i];

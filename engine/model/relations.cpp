@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "engine/numerics/elimination.h"
+#include "engine/matrices/elimination.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "engine/analysis/sensitivities.h"
+#include "engine/matrices/periodic_schur.h"
 #include "engine/numerics/angles.h"
-#include "engine/numerics/periodic_schur.h"
 
 namespace kurbel {
 namespace {

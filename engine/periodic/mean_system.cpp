@@ -1,10 +1,11 @@
 // mean_system.cpp — quadrature of the Jacobian over the steps of a run; eigenvectors and what they see of a motion.
 #include "engine/periodic/mean_system.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
+
+#include "engine/matrices/eigenpairs.h"
 
 namespace kurbel {
 namespace {
@@ -49,10 +50,9 @@ std::vector<MeanMode> modes_of(const Eigen::MatrixXd& mean, const Eigen::VectorX
   const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * mean * scale.asDiagonal();
   std::vector<MeanMode> modes;
   if (scaled.rows() == 0 || !scaled.allFinite()) return modes;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled);
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const Eigenpairs found = eigenpairs(scaled);
   for (Index j = 0; j < scaled.rows(); ++j)
-    modes.push_back({solver.eigenvalues()[j], scale.asDiagonal() * vectors.col(j)});
+    modes.push_back({found.values[j], scale.asDiagonal() * found.vectors.col(j)});
   return modes;
 }
 

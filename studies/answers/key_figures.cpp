@@ -24,9 +24,16 @@ struct Ranked {
   std::string_view name;
 };
 constexpr std::array own_names = {
-    Ranked{3, "thermal_use"},      Ranked{3, "cycle_motor_power"}, Ranked{3, "motor_mean_power"},
-    Ranked{3, "motor_rms_torque"}, Ranked{4, "motor_rms_current"}, Ranked{6, "motor_slip_heat"},
-    Ranked{8, "loop_work"},        Ranked{2, "flywheel_energy"},   Ranked{5, "machine_efficiency"},
+    Ranked{3, "thermal_use"},        Ranked{3, "cycle_motor_power"},
+    Ranked{3, "motor_mean_power"},   Ranked{3, "motor_rms_torque"},
+    Ranked{4, "motor_rms_current"},  Ranked{6, "motor_slip_heat"},
+    Ranked{8, "loop_work"},          Ranked{2, "flywheel_energy"},
+    Ranked{5, "machine_efficiency"}, Ranked{8, "loop_power"},
+    Ranked{4, "speed_drop"},         Ranked{6, "energy_given"},
+    Ranked{6, "torque_reserve"},     Ranked{6, "engagement_heat"},
+    Ranked{8, "slip_time"},          Ranked{8, "heat_power"},
+    Ranked{6, "strand_force"},       Ranked{3, "current_use"},
+    Ranked{6, "start_heat"},         Ranked{8, "volumetric_efficiency"},
 };
 
 bool begins(const std::string& name, std::string_view word) {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
-#include "studies/answers/motor_figures.h"
 #include "studies/conclusions/headline.h"
+#include "studies/duty/motor_figures.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/ratings.h"
 
@@ -62,22 +62,24 @@ class RunWords {
 
 void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
   for (const Figure& f : r.figures) {
-    if (f.name != Name::own("thermal_use", f.of).text || !(f.value - f.error.value_or(0) > 1)) continue;
+    const bool by_torque = f.name == Name::own("thermal_use", f.of).text;
+    if (!by_torque && f.name != Name::own("current_use", f.of).text) continue;
     const Section* motor = r.model ? r.model->scene.find(f.of) : nullptr;
-    if (!motor) continue;
-    if (std::optional<Answer> answer = overload_answer(*motor, f.value)) answers.push_back(std::move(*answer));
+    if (!motor || !(f.value - f.error.value_or(0) > 1)) continue;
+    if (std::optional<Answer> answer = overload_answer(*motor, f.value, by_torque))
+      answers.push_back(std::move(*answer));
   }
 }
 
 }  // namespace
 
-std::optional<Answer> overload_answer(const Section& motor, double use) {
-  const std::optional<double> rated = rated_torque_of(motor);
-  if (motor.has("duty") || !rated || !(use > 1)) return {};
+std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque) {
+  if (motor.has("duty") || !(use > 1)) return {};
+  const std::optional<double> rated = by_torque ? rated_torque_of(motor) : std::nullopt;
   return Answer{Question::bears,
-                fmt::format("\"{}\" gets too hot: the RMS torque of its steady motion is {:.0f} % of the rated one; it "
-                            "holds from a rated torque of {:.4g} N·m on",
-                            motor.name, 100 * use, *rated * use),
+                fmt::format("\"{}\" gets too hot: the {} of its steady motion is {:.0f} % of the rated one{}",
+                            motor.name, by_torque ? "RMS torque" : "RMS current", 100 * use,
+                            rated ? fmt::format("; it holds from a rated torque of {:.4g} N·m on", *rated * use) : ""),
                 use};
 }
 
@@ -94,7 +96,7 @@ std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
 
 std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts) {
   if (verdicts.empty()) return {};
-  return {{Question::bears, capitalised(ratings_sentence(verdicts)), worst_excess(verdicts)}};
+  return {{Question::bears, capitalised(sentence_of(verdicts, "rating")), worst_excess(verdicts)}};
 }
 
 }  // namespace kurbel

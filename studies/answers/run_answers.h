@@ -15,8 +15,8 @@ namespace kurbel {
 // `whose`: before each, where models are compared: "elastic model: ".
 std::vector<Answer> run_answers(const Result& result, const std::string& whose = {});
 
-// A motor that steady motion uses beyond its rated torque; none of one that states a duty: that is judged by ratings.
-std::optional<Answer> overload_answer(const Section& motor, double use);
+// A motor that steady motion uses beyond its rated torque, or current; none of one that states a duty: that is judged.
+std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque);
 
 // Nothing is rated, nothing is said. The worst by its value over its limit, with the value that would mend it.
 std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts);

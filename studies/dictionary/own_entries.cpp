@@ -83,6 +83,8 @@ std::vector<Definition> entries_of_own() {
                "1.3"),
       coupling("heat_power", "mean heat power", "W", "CLUTCH", "heat of a clutch or brake in the run over the time run",
                "1.3"),
+      coupling("slack_force", "least force in the slack strand", "N", "BELT",
+               "pretension less half of the largest torque over the driving pulley's radius, fixed centres", "5"),
       coupling("strand_force", "largest force in the tight strand", "N", "BELT",
                "pretension and half of the largest torque over the driving pulley's radius, fixed centres", "5"),
       of_run(
@@ -90,11 +92,13 @@ std::vector<Definition> entries_of_own() {
           "root of the mean square of its torque over the time run; a lower bound of heating: no-load losses and the "
           "currents of a start come on top",
           "its rated torque", "√( (1/t) ∫ M² dt )"),
-      of_run("motor_rms_current", "RMS current of a direct-current motor over a run", "A", "MOTOR",
-             "root of the mean square of the armature's current over the time run; times the winding's resistance and "
-             "squared the power that heats it; not told of a weakened field, nor of a series motor that a sequence "
-             "reverses",
-             "the current that its supply gives where a rheostat or a converter stands between", "√( (1/t) ∫ i² dt )"),
+      of_run(
+          "motor_rms_current", "RMS current of a motor over a run", "A", "MOTOR",
+          "root of the mean square of the armature's current over the time run, of a direct-current motor, or of a "
+          "line's effective current, of the two-axis model; times the winding's resistance and squared the power that "
+          "heats it; not told of a weakened field, nor of a series motor that a sequence reverses",
+          "the current that its supply gives where a rheostat or a converter stands between",
+          "√( (1/t) ∫ i² dt ), i² = ½ |i_s|²"),
       of_run("motor_mean_power", "mean power of a motor over a run", "W", "MOTOR",
              "work that the motor gives to its shaft in the run over the time run",
              "the power that it takes from its supply"),
@@ -103,14 +107,47 @@ std::vector<Definition> entries_of_own() {
           "what the air gap's field gives less what the shaft takes, over the run: heat of the rotor's winding, that "
           "of the start included",
           "all of its losses: those of the stator, of iron and of friction come on top; of motors that the operating "
-          "sequence switches it is not told",
-          "ω_s ∫ M dt − ∫ M ω dt"),
+          "sequence switches it is told by the two-axis model alone",
+          "ω_s ∫ M dt − ∫ M ω dt, of the two-axis model 3/2 R_r ∫ |i_r|² dt"),
       of_both("cycle_motor_power", "mean power of a motor over a cycle", "W", "MOTOR",
               "work that the motor gives to its shaft in the last whole cycle of a motion that repeats, over its time",
               "its rated power", "(1/T) ∫ M ω dt"),
       of_both("machine_efficiency", "efficiency of the machine", "", "",
               "useful work over driving work in the last whole cycle of a motion that repeats",
               "the efficiency of one gear or mechanism", "η = −A_useful/A_driving"),
+      of_run(
+          "current_use", "use of a motor's rated current", "", "MOTOR",
+          "RMS current of a line over the last whole cycle of a motion that repeats, over that at the rated slip: of "
+          "the two-axis model",
+          "the thermal use, which is by its torque; iron and friction are in neither", "√( (1/T) ∫ ½ |i_s|² dt )/I_n"),
+      of_run("motor_stator_heat", "heat of a motor's stator winding", "J", "MOTOR",
+             "what the stator's resistance turns into heat over the run: of the two-axis model", "heat of iron",
+             "3/2 R_s ∫ |i_s|² dt"),
+      of_run("start_heat", "heat of a motor's start", "J", "MOTOR",
+             "heat of slip of the run less what steady motion, by its last cycle, makes of it from the run-up's end on",
+             "the heat of the whole run, which is motor_slip_heat", "Q − P_s (t_off − t_up)"),
+      of_run(
+          "speed_drop", "drop of a flywheel's speed", "", "FLYWHEEL",
+          "greatest fall of its speed from any moment of the run to a later one, while something drives, over what it "
+          "fell from",
+          "δ, which is over the mid speed of a cycle that repeats", "(ω(t₁) − ω(t₂))/ω(t₁)"),
+      of_run("energy_given", "energy that a flywheel gives", "J", "FLYWHEEL",
+             "kinetic energy that it loses in the greatest fall of its speed: of a press in a stroke",
+             "that of one steady cycle, which is flywheel_energy", "½ J (ω(t₁)² − ω(t₂)²)"),
+      of_run("held_torque", "largest torque that a clutch holds", "N*m", "CLUTCH",
+             "the torque of greatest magnitude that it transmits while it is closed for good and does not slip",
+             "its peak torque, which slipping counts in"),
+      of_run("torque_reserve", "torque reserve of a clutch", "", "CLUTCH",
+             "what it could hold over the largest torque that it does hold: below 1 it would slip",
+             "a reserve of its heat, for which it has ratings", "M_s/max |τ|"),
+      of_run(
+          "loop_power", "mean power of a mechanism's load", "W", "MECHANISM",
+          "work of its loop over the time of the cycle: of a compressor its indicated power, negative where it leaves "
+          "the machine",
+          "the power of the motor", "(1/T) ∮ F dx"),
+      of_run("volumetric_efficiency", "volumetric efficiency", "", "MECHANISM",
+             "share of the stroke that draws in gas, of a compressor by its clearance and pressures",
+             "losses of valves and leaks, which the scene does not model", "λ = 1 − c ((p₂/p₁)^(1/m) − 1)"),
       of_run("loop_work", "work of a mechanism's load over a cycle", "J", "MECHANISM",
              "work of the load on the mechanism's output in the last whole cycle: the area of the loop that force over "
              "travel makes, negative where it leaves the machine",

@@ -42,11 +42,6 @@ std::string readable(const Verdict& v) {
   return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error, {.digits = 2}), unit.unit);
 }
 
-std::size_t count(const std::vector<Verdict>& verdicts, Compliance state) {
-  return static_cast<std::size_t>(
-      std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; }));
-}
-
 // A rule that bars all speeds tells no range to keep away from; it stands in the notes.
 bool is_told_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
 
@@ -113,15 +108,8 @@ std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vec
                                        range_text(*b, unit), joints[b->joint].name)
                          : fmt::format("{} barred range{}, worst {} ({})", told.size(), told.size() == 1 ? "" : "s",
                                        range_text(*b, unit), joints[b->joint].name);
-  if (verdicts.empty()) return text;
-  if (!text.empty()) text += "; ";
-  const std::size_t exceeded = count(verdicts, Compliance::exceeded), open = count(verdicts, Compliance::undecided);
-  if (exceeded > 0) text += fmt::format("{} of {} limits exceeded", exceeded, verdicts.size());
-  if (open > 0)
-    text += exceeded > 0 ? fmt::format(", {} undecided", open)
-                         : fmt::format("{} of {} limits undecided", open, verdicts.size());
-  if (exceeded + open == 0) text += fmt::format("all {} limits hold", verdicts.size());
-  return text;
+  const std::string judged = sentence_of(verdicts, "limit");
+  return judged + (judged.empty() || text.empty() ? "" : "; ") + text;
 }
 
 std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,

@@ -12,7 +12,7 @@ Rows verdict_table(const std::vector<Verdict>& verdicts);
 Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
                   const SpeedUnit& unit);
 
-// "2 barred ranges, worst 310 … 355 rpm (main_coupling); 1 of 4 limits exceeded"; empty: nothing is judged.
+// "1 of 4 limits EXCEEDED, worst …; 2 barred ranges, worst 310 … 355 rpm (main_coupling)"; empty: nothing is judged.
 std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,
                             const std::vector<LimitedJoint>& joints, const SpeedUnit& unit);
 

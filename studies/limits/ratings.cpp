@@ -17,6 +17,11 @@ namespace kurbel {
 namespace {
 
 bool rates_heat(const Section& s) { return s.has("allowable_heat") || s.has("allowable_heat_power"); }
+// Watched all the same: what slips by its nature.
+bool makes_heat(const Section& s) {
+  const std::string& kind = s.kind->name;
+  return kind == "clutch" || kind == "brake" || kind == "torque limiter";
+}
 bool rates_belt(const Section& s) { return s.has("allowable_tension") || s.has("slip_reserve"); }
 
 bool rates_cycle(const Section& s) {
@@ -36,6 +41,7 @@ class Rater {
   void all() {
     if (rates_heat(section_)) heat();
     if (rates_belt(section_)) belt();
+    if (section_.number_or("maximum_torque", 0) > 0) coupling();
     if (section_.has("allowable_shear_stress")) shaft();
     if (rates_cycle(section_)) cycle_of_stress();
     if (section_.has("rim_radius")) rim();
@@ -93,13 +99,35 @@ class Rater {
           });
   }
 
+  // Of its segments.
+  std::optional<Measured> largest_torque() const {
+    std::optional<Measured> largest;
+    for (const Figure& f : result_.figures)
+      if (f.what == QuantityKind::peak_torque && is_of(f.of))
+        if (!largest || std::abs(f.value) > largest->value) largest = Measured{std::abs(f.value), f.error.value_or(0)};
+    return largest;
+  }
+
+  // DIN 740-2: where starts weigh more than the mean torque, how much of that acts is not known here, and none counts.
+  void coupling() {
+    const CouplingLimits limits = coupling_limit_fields().read(section_);
+    const auto largest = largest_torque();
+    if (!largest) return;
+    const double factor = limits.temperature_factor * limits.start_factor;
+    add(requirement::maximum, {factor * largest->value, factor * largest->error}, limits.maximum, "N*m",
+        [&](double times) {
+          return fmt::format("it holds from maximum_torque = {:.4g} N·m on", limits.maximum * times);
+        });
+    out_.back().bound = limits.start_factor > 1;
+    if (factor != 1)
+      out_.back().note += fmt::format("{}S_t = {:g}, S_z = {:g}", out_.back().note.empty() ? "" : "; ",
+                                      limits.temperature_factor, limits.start_factor);
+  }
+
   void shaft() {
     const ShaftKeys shaft = shaft_fields().read(section_);
     const double modulus = shaft.polar_modulus();
-    std::optional<Measured> largest;  // of its segments
-    for (const Figure& f : result_.figures)
-      if (f.what == QuantityKind::peak_torque && (f.of == section_.name || f.of.starts_with(section_.name + ".")))
-        if (!largest || std::abs(f.value) > largest->value) largest = Measured{std::abs(f.value), f.error.value_or(0)};
+    const auto largest = largest_torque();
     if (!largest) return;
     add("shear stress: |T|/W_p ≤ τ_allowable", {largest->value / modulus, largest->error / modulus},
         *shaft.allowable_shear_stress, "Pa", [&](double times) {
@@ -192,10 +220,10 @@ class Rater {
 }  // namespace
 
 std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model) {
-  std::vector<std::string> rated;
+  std::vector<std::string> watched;
   for (const Section& s : model.scene.components)
-    if (rates_heat(s)) rated.push_back(s.name);
-  return rated.empty() ? nullptr : std::make_unique<HeatRecorder>(rated);
+    if (rates_heat(s) || makes_heat(s)) watched.push_back(s.name);
+  return watched.empty() ? nullptr : std::make_unique<HeatRecorder>(watched);
 }
 
 std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
@@ -247,14 +275,28 @@ std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat,
       figures.push_back(figure_of("heat_power", h.component, h.total / duration, "W", energy / duration));
     }
   for (const Section& s : model.scene.components) {
-    if (!rates_belt(s)) continue;
+    if (s.kind->name != "belt") continue;
     const BeltRating belt = belt_rating(s);
     for (const Figure& f : known)
-      if (f.what == QuantityKind::peak_torque && f.of == s.name)
-        figures.push_back(
-            figure_of("strand_force", s.name, belt.tight_strand(f.value), "N", belt.tight_strand(belt.limit)));
+      if (f.what == QuantityKind::peak_torque && f.of == s.name) {
+        const double tight = belt.tight_strand(f.value), usual = belt.tight_strand(belt.limit);
+        figures.push_back(figure_of("strand_force", s.name, tight, "N", usual));
+        figures.push_back(figure_of("slack_force", s.name, 2 * belt.pretension - tight, "N", usual));
+      }
   }
   return figures;
+}
+
+std::vector<Figure> watched_figure_list(const Model& model) {
+  std::vector<Figure> list;
+  for (const Section& s : model.scene.components) {
+    if (makes_heat(s))
+      for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
+        list.push_back(figure_of(words, s.name, 0, unit, 0));
+    if (s.kind->name == "belt")
+      for (const char* words : {"strand_force", "slack_force"}) list.push_back(figure_of(words, s.name, 0, "N", 0));
+  }
+  return list;
 }
 
 std::vector<Figure> rating_figure_list(const Model& model) {
@@ -276,34 +318,6 @@ std::vector<Verdict> judge_ratings(const Result& result) {
   if (!result.complete || !result.model) return verdicts;
   for (const Section& s : result.model->scene.components) Rater(result, s, verdicts).all();
   return verdicts;
-}
-
-std::string ratings_sentence(const std::vector<Verdict>& verdicts) {
-  const auto count = [&](Compliance state) {
-    return std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; });
-  };
-  const auto exceeded = count(Compliance::exceeded), open = count(Compliance::undecided);
-  if (verdicts.empty()) return "";
-  if (exceeded + open == 0) {
-    const Verdict& nearest =
-        *std::max_element(verdicts.begin(), verdicts.end(),
-                          [](const Verdict& a, const Verdict& b) { return a.value / a.limit < b.value / b.limit; });
-    return fmt::format("{}, {}\"{}\", {}: {:.0f} % of what is allowed",
-                       verdicts.size() == 1   ? "its rating holds"
-                       : verdicts.size() == 2 ? "both ratings hold"
-                                              : fmt::format("all {} ratings hold", verdicts.size()),
-                       verdicts.size() == 1 ? "" : "the nearest ", nearest.component,
-                       nearest.requirement.substr(0, nearest.requirement.find(':')),
-                       100 * nearest.value / nearest.limit);
-  }
-  if (exceeded == 0) return fmt::format("{} of {} ratings undecided", open, verdicts.size());
-  const Verdict* worst = nullptr;
-  for (const Verdict& v : verdicts)
-    if (v.state() == Compliance::exceeded && (!worst || v.value / v.limit > worst->value / worst->limit)) worst = &v;
-  return fmt::format("{} of {} ratings EXCEEDED, worst \"{}\", {}: {:.0f} % of what is allowed, {} of {}{}", exceeded,
-                     verdicts.size(), worst->component, worst->requirement.substr(0, worst->requirement.find(':')),
-                     100 * worst->value / worst->limit, told_shortly(worst->value, worst->unit),
-                     told_shortly(worst->limit, worst->unit), worst->note.empty() ? "" : "; " + worst->note);
 }
 
 }  // namespace kurbel

@@ -6,7 +6,8 @@
 //                 its widest cycle, from the least torque to the greatest: Goodman, yield, the maker's amplitude
 //     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress
 //     motor:      √(∫ M² dt/t) ≤ M_N √part,  part = 1 (S1), duty_time/t (S2), duty_share (S3): a lower bound of heating
-// Every figure is one of the run, with the error that other runs measure. Nothing rated, nothing watched.
+//     coupling:   S_t S_z |T| ≤ T_Kmax (DIN 740-2)                            with S_z > 1 a bound
+// Every figure is one of the run, with the error that other runs measure. Nothing rated, nothing judged.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@
 
 namespace kurbel {
 
-// Watches those whose heat is rated; null: none.
+// Watches clutches, limiters, brakes, and whatever else's heat is rated; null: none.
 std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model);
 // Rim speeds of flywheels whose rim is given.
 std::vector<ExtremeOf> rim_speeds_of(const Model& model);
@@ -28,13 +29,12 @@ std::vector<ExtremeOf> shaft_torques_of(const Model& model);
 // times by `duration` [s].
 std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat, const std::vector<Figure>& known,
                                    double energy, double duration);
-// Those that ratings judge: names and units.
+// Those of what slips and of belts, rated or not: names and units.
+std::vector<Figure> watched_figure_list(const Model& model);
+// Those that ratings judge.
 std::vector<Figure> rating_figure_list(const Model& model);
 
 // Of a complete run; an incomplete one has not shown what it would bring.
 std::vector<Verdict> judge_ratings(const Result& result);
-// "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of what is allowed, 1320 J of 1000 J; …", with the
-// value that would mend it; empty: nothing is rated.
-std::string ratings_sentence(const std::vector<Verdict>& verdicts);
 
 }  // namespace kurbel

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/findings/figure_text.h"
+
 namespace kurbel {
 namespace {
 
@@ -29,23 +31,35 @@ class Judge {
     if (limits_.nominal > 0)
       add("nominal torque: K_A S_t |T_mean| ≤ T_KN",
           times(limits_.application_factor * limits_.temperature_factor, load_.mean), limits_.nominal, "N*m",
-          fmt::format("K_A = {:g}, S_t = {:g}", limits_.application_factor, limits_.temperature_factor));
+          fmt::format("K_A = {:g}, S_t = {:g}", limits_.application_factor, limits_.temperature_factor),
+          "nominal_torque");
     if (limits_.maximum > 0) maximum();
     if (limits_.vibratory > 0)
       add("vibratory torque: S_t S_f T_W ≤ T_KW", times(limits_.temperature_factor, load_.weighted), limits_.vibratory,
           "N*m",
           load_.frequency > 0 ? fmt::format("S_t = {:g}, S_f = {:.3g}, strongest at {:.4g} Hz",
                                             limits_.temperature_factor, load_.frequency_factor, load_.frequency)
-                              : "it does not swing");
-    if (limits_.power > 0) add("dissipated power: P_W ≤ P_KW", times(1, load_.power), limits_.power, "W", "");
+                              : "it does not swing",
+          "vibratory_torque");
+    if (limits_.power > 0)
+      add("dissipated power: P_W ≤ P_KW", times(1, load_.power), limits_.power, "W", "", "dissipated_power");
     if (limits_.shear_stress > 0) shear();
     if (limits_.shaft.any()) swinging_stress();
   }
 
  private:
-  Verdict& add(std::string requirement, const Measured& value, double limit, std::string unit, std::string note) {
-    out_.push_back(
-        {joint_.name, std::move(requirement), value.value, limit, std::move(unit), std::move(note), value.error});
+  // `key`: of the limit in the scene, with which it would hold; null: the section carries it.
+  Verdict& add(std::string requirement, const Measured& value, double limit, std::string unit, std::string note,
+               const char* key = nullptr) {
+    Verdict v{joint_.name, std::move(requirement), value.value, limit, std::move(unit), std::move(note), value.error};
+    if (v.state() == Compliance::exceeded) {
+      const double needed = value.value + value.error;
+      const std::string mends = key ? fmt::format("it holds from {} = {} on", key, told_shortly(needed, v.unit))
+                                    : fmt::format("it holds from {:.3g} times this diameter on, at the same torque",
+                                                  std::cbrt(needed / limit));
+      if (std::isfinite(needed)) v.note = mends + (v.note.empty() ? "" : "; ") + v.note;
+    }
+    out_.push_back(std::move(v));
     return out_.back();
   }
 
@@ -79,7 +93,7 @@ class Judge {
     std::string note = starts ? l.note : "in steady motion" + (peak_ ? std::string() : "; no run-up: " + run_up_.words);
     if (limits_.temperature_factor > 1 || limits_.start_factor > 1)
       note += fmt::format("; S_t = {:g}, S_z = {:g}", limits_.temperature_factor, limits_.start_factor);
-    add("maximum torque: S_t (T_N + S_z T_S) ≤ T_Kmax", starts ? start : steady, limits_.maximum, "N*m", note).bound =
+    add(requirement::maximum, starts ? start : steady, limits_.maximum, "N*m", note, "maximum_torque").bound =
         starts && l.bound;
   }
 
@@ -162,6 +176,48 @@ double worst_excess(const std::vector<Verdict>& verdicts) {
   for (const Verdict& v : verdicts)
     if (v.state() == Compliance::exceeded) worst = std::max(worst, v.value / v.limit);
   return worst;
+}
+
+namespace {
+
+// "clutch", heat of an engagement: 132 % of what is allowed
+std::string use_in_words(const Verdict& v) {
+  return fmt::format("\"{}\", {}: {:.0f} % of what is allowed", v.component,
+                     v.requirement.substr(0, v.requirement.find(':')), 100 * v.value / v.limit);
+}
+
+// Of those in that state the one that is nearest to its limit, or farthest beyond it; null: none is.
+const Verdict* worst_of(const std::vector<Verdict>& verdicts, Compliance state) {
+  const Verdict* worst = nullptr;
+  for (const Verdict& v : verdicts)
+    if (v.state() == state && (!worst || v.value / v.limit > worst->value / worst->limit)) worst = &v;
+  return worst;
+}
+
+}  // namespace
+
+std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what) {
+  if (verdicts.empty()) return "";
+  const auto count = [&](Compliance state) {
+    return std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; });
+  };
+  const bool one = verdicts.size() == 1;
+  const std::string all = one                    ? "its " + what
+                          : verdicts.size() == 2 ? "both " + what + "s"
+                                                 : fmt::format("all {} {}s", verdicts.size(), what);
+  if (const Verdict* worst = worst_of(verdicts, Compliance::exceeded)) {
+    return fmt::format(
+        "{}{}, {} of {}{}",
+        one ? "a " + what + " is EXCEEDED, "
+            : fmt::format("{} of {} {}s EXCEEDED, worst ", count(Compliance::exceeded), verdicts.size(), what),
+        use_in_words(*worst), told_shortly(worst->value, worst->unit), told_shortly(worst->limit, worst->unit),
+        worst->note.empty() ? "" : "; " + worst->note);
+  }
+  if (const Verdict* open = worst_of(verdicts, Compliance::undecided))
+    return fmt::format("{} of {} {}s undecided, {}", count(Compliance::undecided), verdicts.size(), what,
+                       use_in_words(*open));
+  return fmt::format("{} hold{}, {}{}", all, one ? "s" : "", one ? "" : "the nearest ",
+                     use_in_words(*worst_of(verdicts, Compliance::holds)));
 }
 
 Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean) {

@@ -24,7 +24,7 @@ struct Verdict {
   std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
   double value = 0, limit = 0;
   std::string unit;
-  std::string note;
+  std::string note;    // where it is exceeded it begins with what would mend it
   double error = 0;    // of the value
   bool bound = false;  // the value is only known to be no more than this
   Compliance state() const;
@@ -38,6 +38,7 @@ struct Passing {
 
 // What is required of a shaft's stress, wherever it is judged.
 namespace requirement {
+inline constexpr const char* maximum = "maximum torque: S_t (T_N + S_z T_S) ≤ T_Kmax";
 inline constexpr const char* vibratory_stress = "vibratory stress: (τ_max − τ_min)/2 ≤ τ_allowable";
 inline constexpr const char* fatigue = "fatigue (Goodman): S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W";
 inline constexpr const char* yield = "yield: S |τ| ≤ 0.577 σ_S";
@@ -48,13 +49,17 @@ inline constexpr const char* passing = "UR M68, passing at λ ≤ 0.8: (τ_max �
 
 // What counts against the endurance limit, and of what it is made.
 struct Fatigue {
-  Measured stress;  // [Pa]
-  std::string note;
+  Measured stress;   // [Pa]
+  std::string note;  // where it is exceeded it begins with what would mend it
 };
 Fatigue fatigue_of(const ShaftRating& shaft, const Measured& amplitude, const Measured& mean);
 
 // The largest value over its limit, of what is exceeded; 0: nothing is.
 double worst_excess(const std::vector<Verdict>& verdicts);
+
+// "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of what is allowed, 1320 J of 1000 J; …", with the
+// value that would mend it; "all 3 ratings hold, the nearest "belt", …"; empty: nothing is judged. `what`: "rating".
+std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what);
 
 // Of all joints that have limits. Loads and peaks are of `joints`, in this order; passing is asked where there is no
 // run-up, and may be empty.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/matrices/eigenpairs.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -375,8 +376,8 @@ class CycleSearch {
   // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
   void judge_stability(Index n, Index k) {
     if (n == 0) return;
-    const Eigen::EigenSolver<MatrixXd> solver(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
-    const Eigen::MatrixXcd right = solver.eigenvectors(), left = right.fullPivLu().inverse();
+    const auto [values, right] = eigenpairs(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
+    const Eigen::MatrixXcd left = right.fullPivLu().inverse();
     out_.uncertain = image_.grazed || !left.allFinite();
     if (out_.uncertain) return;
     const VectorXd share = (left * derivative_.topRightCorner(n, k))
@@ -386,7 +387,7 @@ class CycleSearch {
     std::vector<Index> order(at(n));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return share[a] > share[b]; });
-    for (Index i = std::min(k, n); i < n; ++i) out_.multipliers.push_back(solver.eigenvalues()[order[at(i)]]);
+    for (Index i = std::min(k, n); i < n; ++i) out_.multipliers.push_back(values[order[at(i)]]);
     std::stable_sort(out_.multipliers.begin(), out_.multipliers.end(),
                      [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
   }

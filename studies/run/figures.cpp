@@ -8,8 +8,9 @@
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/answers/motor_figures.h"
-#include "studies/answers/stopping.h"
+#include "studies/duty/holding.h"
+#include "studies/duty/motor_figures.h"
+#include "studies/duty/stopping.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/simulate.h"
 
@@ -31,6 +32,26 @@ std::string mechanism_loaded_by(const WorkAccount& account) {
   const std::string end = ".load";
   if (account.kind != Account::useful || !account.name.ends_with(end)) return {};
   return account.name.substr(0, account.name.size() - end.size());
+}
+
+// Of each compressor: λ, the share of its stroke that draws in gas. It goes by its mechanism's name, one of several of a
+// mechanism by that of its load.
+struct Intake {
+  std::string name;
+  double efficiency = 0;
+};
+std::vector<Intake> intakes_of(const Model& model) {
+  std::vector<Intake> list;
+  for (const Network::ShaftElement& e : model.network.elements) {
+    const MechanismElement* element = mechanism_of(e);
+    if (!element) continue;
+    const std::size_t before = list.size();
+    for (const SliderLoad& load : element->mechanism().loads)
+      if (const auto* compressor = std::get_if<CompressorForce>(&load.law))
+        list.push_back({load.name, compressor->volumetric_efficiency()});
+    if (list.size() == before + 1) list.back().name = element->mechanism().name;
+  }
+  return list;
 }
 
 struct FlywheelOnLink {
@@ -67,6 +88,7 @@ class Figures {
     collect_motors();
     collect_works_of_periods();
     collect_ratings();
+    collect_falls_and_reserves();
   }
 
  private:
@@ -184,10 +206,19 @@ class Figures {
     }
     for (std::size_t k = 0; k < last->work.size(); ++k)
       if (const std::string mechanism = mechanism_loaded_by(model_.accounts[k]); !mechanism.empty())
-        add(Name::own("loop_work", mechanism), last->work[k], "J", energy_scale(), last->end);
+        add_loop(mechanism, last->work[k], *last);
+    for (const Intake& intake : intakes_of(model_)) {
+      add(Name::own("volumetric_efficiency", intake.name), intake.efficiency, "", 1);
+      run_.figures.back().exact = true;
+    }
     if (repeats) collect_flywheels(*last);
     if (repeats && driving > 0 && useful < 0)
       add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1, last->end);
+  }
+  void add_loop(const std::string& mechanism, double work, const CycleRecord& c) {
+    const double time = c.end - c.begin;
+    add(Name::own("loop_work", mechanism), work, "J", energy_scale(), c.end);
+    add(Name::own("loop_power", mechanism), work / time, "W", energy_scale() / time, c.end);
   }
   // What flywheels that turn rigidly with the link give from its largest to its least speed.
   void collect_flywheels(const CycleRecord& c) {
@@ -216,6 +247,15 @@ class Figures {
     for (Figure& f : rating_figures(model_, run_.heat.get(), run_.figures, energy_scale(), run_.outcome.t - begin))
       run_.figures.push_back(std::move(f));
   }
+  void collect_falls_and_reserves() {
+    if (run_.falls)
+      for (Figure& f : run_.falls->figures(energy_scale())) run_.figures.push_back(std::move(f));
+    for (Figure& f : reserves(model_, run_.figures)) run_.figures.push_back(std::move(f));
+    const std::size_t own = model_.state_count() - model_.own_states.size();
+    for (std::size_t k = 0; k < model_.own_states.size(); ++k)
+      if (const auto& [component, state] = model_.own_states[k]; state.name == "slipped_angle")
+        add(Name::own(state.name, component), run_.outcome.state[own + k], state.unit, 1, run_.outcome.t);
+  }
   void collect_works_of_periods() {
     const EnergyAudit& e = *run_.energy;
     const WholeRun whole{.begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front(),
@@ -225,6 +265,11 @@ class Figures {
                          .work = e.work};
     run_.work_periods = work_periods(model_, run_.periods, run_.cycles.cycles(), whole);
     for (Figure& f : work_figures(run_.work_periods)) run_.figures.push_back(std::move(f));
+  }
+  std::optional<MotorRun::Span> after_run_up() const {
+    const Periods& p = run_.periods;
+    if (!p.run_up_end) return {};
+    return MotorRun::Span{*p.run_up_end, p.run_down_begin.value_or(run_.outcome.t)};
   }
   void collect_motors() {
     const double begin = run_.trajectory->time().empty() ? 0 : run_.trajectory->time().front();
@@ -237,7 +282,11 @@ class Figures {
                      .work = work,
                      .duration = run_.outcome.t - begin,
                      .energy_scale = energy_scale(),
-                     .last = repeating_}))
+                     .last = repeating_,
+                     .currents = run_.currents.get(),
+                     .end = run_.outcome.t,
+                     .steady = run_.periods.steady && !run_.periods.run_down_begin,
+                     .run_up = after_run_up()}))
       run_.figures.push_back(std::move(f));
   }
   // Where nothing moves, a part of the work of the rated torque over 1 rad, beside which what is left is rounding.
@@ -355,7 +404,10 @@ std::vector<Figure> figure_list(const Model& model) {
       add(work_per_cycle_of(kind), "", "J");
     for (const WorkAccount& account : model.accounts)
       if (const std::string mechanism = mechanism_loaded_by(account); !mechanism.empty())
-        list.push_back(Figure::of_name(Name::own("loop_work", mechanism), 0, "J"));
+        for (const auto& [words, unit] : {std::pair("loop_work", "J"), {"loop_power", "W"}})
+          list.push_back(Figure::of_name(Name::own(words, mechanism), 0, unit));
+    for (const Intake& intake : intakes_of(model))
+      list.push_back(Figure::of_name(Name::own("volumetric_efficiency", intake.name)));
     list.push_back(Figure::of_name({QuantityKind::other, "", "machine_efficiency"}));
     for (const FlywheelOnLink& f : flywheels_on_link(model))
       list.push_back(Figure::of_name(Name::own("flywheel_energy", f.name), 0, "J"));
@@ -368,9 +420,14 @@ std::vector<Figure> figure_list(const Model& model) {
     if (e.slips) add(QuantityKind::slip_heat, model.network.joints[at(e.joint)].component, "J");
   for (Figure& f : motor_figure_list(model)) list.push_back(std::move(f));
   for (Figure& f : work_figure_list(model)) list.push_back(std::move(f));
-  for (Figure& f : rating_figure_list(model))
-    if (std::none_of(list.begin(), list.end(), [&](const Figure& known) { return known.name == f.name; }))
-      list.push_back(std::move(f));
+  for (Figure& f : flywheel_fall_list(model)) list.push_back(std::move(f));
+  for (Figure& f : reserve_list(model)) list.push_back(std::move(f));
+  for (const auto& [component, state] : model.own_states)
+    if (state.name == "slipped_angle") list.push_back(Figure::of_name(Name::own(state.name, component), 0, state.unit));
+  for (std::vector<Figure> of_limits : {rating_figure_list(model), watched_figure_list(model)})
+    for (Figure& f : of_limits)
+      if (std::none_of(list.begin(), list.end(), [&](const Figure& known) { return known.name == f.name; }))
+        list.push_back(std::move(f));
   // Of a signal that makes the link stop.
   if (!model.scene.sequence.steps.empty()) {
     add(QuantityKind::stopping_time, link, "s");

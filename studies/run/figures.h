@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "engine/run/run.h"
-#include "studies/answers/work_periods.h"
+#include "studies/duty/flywheel_falls.h"
+#include "studies/duty/motor_currents.h"
+#include "studies/duty/work_periods.h"
 #include "studies/findings/result.h"
 #include "studies/findings/trace.h"
 #include "studies/limits/heat_recorder.h"
@@ -27,6 +29,8 @@ struct OneRun {
   std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<HeatRecorder> heat;  // null: none is rated
+  std::unique_ptr<FlywheelFalls> falls;
+  std::unique_ptr<MotorCurrents> currents;
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names

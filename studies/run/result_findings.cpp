@@ -11,7 +11,7 @@
 
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
-#include "studies/answers/work_periods.h"
+#include "studies/duty/work_periods.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/trace.h"
 #include "studies/tables/trajectory_rows.h"

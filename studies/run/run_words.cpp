@@ -97,7 +97,7 @@ std::string figures_in_words(const Result& r) {
     more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)
-    if (f.name == Name::own("thermal_use", f.of))
+    if (f.name == Name::own("thermal_use", f.of).text && f.value <= 1)  // more is told before
       more(fmt::format("\"{}\" is used to {:.0f} % thermally (RMS over rated torque)", f.of, 100 * f.value));
   if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy changes its form");
   return text;

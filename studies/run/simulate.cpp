@@ -15,6 +15,7 @@
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/motion_answers.h"
+#include "studies/duty/holding.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
@@ -228,9 +229,12 @@ class Simulation {
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
     for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
+    for (ExtremeOf& held : held_torques_of(model)) extremes.push_back(std::move(held));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
+    run->falls = std::make_unique<FlywheelFalls>(model);
+    run->currents = std::make_unique<MotorCurrents>(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -250,6 +254,8 @@ class Simulation {
       };
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
                                         run->energy.get()};
+    if (!run->falls->empty()) observers.push_back(run->falls.get());
+    if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {

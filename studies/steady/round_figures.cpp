@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/numerics/index.h"
-#include "studies/answers/motor_figures.h"
+#include "studies/duty/motor_figures.h"
 #include "studies/findings/report.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/figures.h"

@@ -400,6 +400,10 @@ Findings findings_of(const SteadyStudy& s) {
     if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
       f.answer(Question::runs,
                fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
+  for (const MotorUse& use : s.cycles.back().motors)
+    if (const Section* motor = s.cycles.back().model->scene.find(use.component); motor && use.rated)
+      if (std::optional<Answer> answer = overload_answer(*motor, *use.thermal(), true))
+        f.answers.push_back(std::move(*answer));
   const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
   for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));
   const Chapter cycle = f.chapter("Steady cycle");

@@ -1,9 +1,9 @@
 // decay.cpp — a settled machine followed on: how a small deviation dies away, and what it has at equal angles.
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/matrices/eigenpairs.h"
 #include "tests/agreement/passings.h"
 #include "tests/agreement/settled_run.h"
 
@@ -84,9 +84,7 @@ Fit recurrence(const std::vector<Eigen::VectorXd>& d, std::size_t from, int p) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(p, p);
   companion.row(0) = a.transpose();
   if (p > 1) companion.bottomLeftCorner(p - 1, p - 1).setIdentity();
-  const Eigen::EigenSolver<Eigen::MatrixXd> roots(companion, false);
-  if (roots.info() != Eigen::Success) return {};
-  return {roots.eigenvalues().cwiseAbs().maxCoeff(),
+  return {eigenvalues(companion).cwiseAbs().maxCoeff(),
           (left * a - right).norm() / std::sqrt(static_cast<double>(equations))};
 }
 

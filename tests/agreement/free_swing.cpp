@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 #include <unsupported/Eigen/FFT>
 
+#include "engine/matrices/eigenpairs.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/run/run.h"
@@ -151,8 +151,7 @@ class Pushing {
       for (Index i = 0; i < n; ++i) a(i, j) = (forwards[at(i)] - backwards[at(i)]) / (2 * h) * scale_[j] / scale_[i];
     }
     if (!a.allFinite()) return {};
-    const Eigen::EigenSolver<MatrixXd> solver(a, false);
-    const Eigen::VectorXcd values = solver.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues(a);
     std::vector<Complex> swinging;
     for (const Complex& value : values)
       if (value.imag() > 1e-3 * std::abs(value)) swinging.push_back(value);
@@ -258,17 +257,16 @@ class Pushing {
       const MatrixXd image = made_of_basis(stretches[k], stretches[k].looks.back());
       cyclic.block(first[(k + 1) % number], first[k], next.basis.cols(), image.cols()) = next.basis.transpose() * image;
     }
-    const Eigen::EigenSolver<MatrixXd> solver(cyclic);
-    if (solver.info() != Eigen::Success) throw std::runtime_error("no eigenvalues of what the runs made of the pushes");
+    const Eigenpairs pairs = eigenpairs(cyclic);
     std::vector<FreeSwing> list;
     const double sector = pi / static_cast<double>(number);
     for (Index e = 0; e < first[number]; ++e) {
       // Of N values that differ by roots of one, and their conjugates, the one next to the positive axis.
-      const Complex mu = solver.eigenvalues()[e];
+      const Complex mu = pairs.values[e];
       if (std::abs(mu) < least_multiplier || std::arg(mu) < 0 || std::arg(mu) > sector * (1 + 1e-9)) continue;
       std::vector<Eigen::VectorXcd> pieces;
       for (std::size_t k = 0; k < number; ++k)
-        pieces.push_back(solver.eigenvectors().col(e).segment(first[k], stretches[k].basis.cols()));
+        pieces.push_back(pairs.vectors.col(e).segment(first[k], stretches[k].basis.cols()));
       const FreeSwing swing = followed(stretches, pieces, mu);
       const bool seen = std::any_of(list.begin(), list.end(), [&](const FreeSwing& s) {
         return std::abs(s.omega - swing.omega) + std::abs(s.decay - swing.decay) < 1e-9 * s.natural();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/linear/eigen_modes.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

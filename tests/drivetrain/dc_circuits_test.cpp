@@ -7,6 +7,7 @@
 #include <complex>
 #include <random>
 
+#include "engine/matrices/eigenpairs.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 #include "tests/support/validation.h"
@@ -86,7 +87,7 @@ accuracy = 1e-10
 
 TEST(DcShuntCircuit, DynamicBrakingIsThatOfDubey) {
   const Validation is(Against::published, "Dubey: Fundamentals of Electrical Drives, ex. 5.9 (dynamic braking)");
-  const Eigen::VectorXcd lambda = test::state_matrix(dubey_5_9).eigenvalues();
+  const Eigen::VectorXcd lambda = eigenvalues(test::state_matrix(dubey_5_9));
   std::vector<double> found;
   for (const auto& l : lambda)
     if (std::abs(l) > 1e-9) found.push_back(l.real());

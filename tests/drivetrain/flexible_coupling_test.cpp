@@ -7,6 +7,7 @@
 
 #include "drivetrain/couplings/progressive_coupling.h"
 #include "drivetrain/couplings/rubber_coupling.h"
+#include "engine/matrices/eigenpairs.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
@@ -280,11 +281,10 @@ TEST(RubberCoupling, CreepsUnderASuddenTorqueAsItsEigenvaluesSay) {
   }
   const double rest = torque / rubber.k;  // θ = z₁ = z₂ in the end
   const Eigen::Vector4cd from_rest(-rest, 0, -rest, -rest);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a);
-  const Eigen::MatrixXcd modes = solver.eigenvectors();
+  const auto [lambda, modes] = eigenpairs(a);
   const Eigen::VectorXcd weights = modes.partialPivLu().solve(from_rest);
   Eigen::VectorXcd x = Eigen::VectorXcd::Zero(4);
-  for (Eigen::Index i = 0; i < 4; ++i) x += weights[i] * std::exp(solver.eigenvalues()[i] * t) * modes.col(i);
+  for (Eigen::Index i = 0; i < 4; ++i) x += weights[i] * std::exp(lambda[i] * t) * modes.col(i);
   const Result r = run(on_frame(rubber.coupling(), inertia, torque, "until = \"0.7 s\""));
   EXPECT_NEAR(figure(r, "final_angle.disc"), rest + x[0].real(), 1e-10);
   EXPECT_NEAR(figure(r, "final_speed.disc"), x[1].real(), 1e-9);

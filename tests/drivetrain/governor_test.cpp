@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "engine/matrices/eigenpairs.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
@@ -43,7 +44,7 @@ TEST(SpeedGovernor, AnswersAStepOfLoadAsASecondOrderSystem) {
                  load + "[run]\nstart = { speed = \"50 rad/s\" }\nuntil = \"6 s\"\nsamples = 601\naccuracy = 1e-10\n");
     const std::complex<double> half = kp / 4, root = std::sqrt(half * half - ki / 2), a = -half + root,
                                b = -half - root;
-    const Eigen::VectorXcd lambda = test::state_matrix(text).eigenvalues();
+    const Eigen::VectorXcd lambda = eigenvalues(test::state_matrix(text));
     for (const std::complex<double>& expected : {a, b}) {
       double nearest = 1;
       for (const auto& l : lambda) nearest = std::min(nearest, std::abs(l - expected));

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/numerics/periodic_schur.h"
+#include "engine/matrices/periodic_schur.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test {

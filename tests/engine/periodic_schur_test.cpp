@@ -1,6 +1,6 @@
 // Eigenvalues of a product of matrices by a periodic QR iteration: against what the product is made of, and against the
 // product in extended precision where that can hold it.
-#include "engine/numerics/periodic_schur.h"
+#include "engine/matrices/periodic_schur.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "studies/accuracy/accuracy.h"
-#include "studies/response/forced_response.h"
 #include "studies/reduce/reduce.h"
+#include "studies/response/forced_response.h"
 #include "studies/steady/steady.h"
 #include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"

@@ -45,7 +45,7 @@ TEST(Ratings, HeatOfAnEngagementUnderLoadIsTheClosedForm) {
     EXPECT_EQ(verdicts[0].state(), Compliance::exceeded);
     EXPECT_NE(verdicts[0].note.find("89 %"), std::string::npos) << verdicts[0].note;  // √0.8
     EXPECT_EQ(verdicts[1].state(), Compliance::holds);
-    EXPECT_NE(ratings_sentence(verdicts).find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
+    EXPECT_NE(sentence_of(verdicts, "rating").find("1 of 2 ratings EXCEEDED, worst \"clutch\""), std::string::npos);
   }
 }
 
@@ -236,8 +236,9 @@ TEST(Ratings, DutyOfAShuntMotorByASquareProfile) {
   EXPECT_NEAR(verdict("duty = \"S2\"\nduty_time = \"1 s\"").limit, 60 * std::sqrt(0.5), 1e-12);
 }
 
-// What is not rated is not watched; the sentence is of terminal and page alike, and people get a table.
-TEST(Ratings, NothingRatedNothingTold) {
+// What is not rated is not judged; the sentence is of terminal and page alike, and people get a table. Without a clutch or
+// brake nobody counts heat.
+TEST(Ratings, NothingRatedNothingJudged) {
   const auto text = [](const char* rating) {
     return fmt::format(R"(
       line = ["a"]
@@ -249,8 +250,8 @@ TEST(Ratings, NothingRatedNothingTold) {
   };
   const Result bare = test::run(text("")), rated = test::run(text(R"(, allowable_heat = "6 kJ")"));
   EXPECT_TRUE(judge_ratings(bare).empty());
-  EXPECT_EQ(heat_recorder_of(*bare.model), nullptr);
-  EXPECT_EQ(bare.find("engagement_heat.brake"), nullptr);
+  EXPECT_NEAR(figure(bare, "engagement_heat.brake"), 5000, 1e-5);
+  EXPECT_EQ(heat_recorder_of(*test::run(test::scene_file("scenes/six_inertia_chain.toml"), false).model), nullptr);
   EXPECT_EQ(findings_of(bare).conclusion().find("rating"), std::string::npos);
   EXPECT_NEAR(figure(rated, "engagement_heat.brake"), 5000, 1e-5);  // ½ J ω²
   EXPECT_NE(findings_of(rated).conclusion().find("Its rating holds"), std::string::npos);
@@ -273,10 +274,17 @@ TEST(Ratings, ContinuousDutyIsThatOfTheSteadyCycle) {
   const double rated = 15e3 / (970 * 2 * std::numbers::pi / 60);
   ASSERT_GT(test::figure(r, "motor_rms_torque.motor"), rated);
   const std::vector<Verdict> verdicts = judge_ratings(r);
-  ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].requirement, "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N");
-  EXPECT_NEAR(verdicts[0].value, rated * test::figure(r, "thermal_use.motor"), 1e-9 * rated);
-  EXPECT_EQ(verdicts[0].state(), Compliance::holds);
+  ASSERT_EQ(verdicts.size(), 2u);
+  for (const Verdict& v : verdicts) {
+    EXPECT_EQ(v.state(), Compliance::holds);
+    if (v.component == "motor") {
+      EXPECT_EQ(v.requirement, "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N");
+      EXPECT_NEAR(v.value, rated * test::figure(r, "thermal_use.motor"), 1e-9 * rated);
+    } else {
+      EXPECT_EQ(v.requirement, requirement::maximum);
+      EXPECT_GE(v.value, std::abs(test::figure(r, "peak_torque." + v.component)));
+    }
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "engine/linear/coordinates.h"
+#include "engine/matrices/eigenpairs.h"
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
@@ -25,7 +26,7 @@ ModesStudy modes_of(const std::string& text, const ModesOptions& options = {}) {
 
 // Every eigenvalue of the matrix is one of the study's.
 void expect_eigenvalues(const ModesStudy& study, const Eigen::MatrixXd& matrix, double within) {
-  const Eigen::VectorXcd expected = matrix.eigenvalues();
+  const Eigen::VectorXcd expected = eigenvalues(matrix);
   for (const std::complex<double> lambda : expected) {
     if (lambda.imag() < 0) continue;
     double nearest = HUGE_VAL;

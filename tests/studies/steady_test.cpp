@@ -369,5 +369,23 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
   EXPECT_TRUE(output.csv[0].text().starts_with("speed [rad/s],drive_torque"));
 }
 
+// Works over a cycle whose area is known in closed form: of a press 630 kN · 2.85 mm; of a compressor, with n = m = 1.3,
+// n/(n − 1) p₁ λ V (r^((n − 1)/n) − 1). What is stated as their error covers what they are off.
+TEST(Steady, WorksOfACycleAreWithinTheirErrors) {
+  const double n = 1.3, volume = pi / 4 * 0.08 * 0.08 * 0.12, drawn = 1 - 0.06 * (std::pow(6, 1 / n) - 1);
+  const double gas = n / (n - 1) * 1e5 * drawn * volume * (std::pow(6, (n - 1) / n) - 1);
+  for (const auto& [file, expected] :
+       {std::pair("scenes/crank_press.toml", -1795.5), {"docs/tasks/flywheel_sheet.toml", -gas}}) {
+    const Scene scene = scene_file(file);
+    const SteadyStudy s = steady(scene, {rigid_effects(), scene.effects}, {.start_search = false});
+    for (const SteadyCycle& c : s.cycles) {
+      const Figure* work = c.find("useful_work_per_cycle");
+      ASSERT_TRUE(work && work->error) << file;
+      EXPECT_LE(std::abs(work->value - expected), *work->error) << file << ", " << c.label;
+      EXPECT_LT(*work->error, 1e-8 * std::abs(expected)) << file << ", " << c.label;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::test

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "drivetrain/kinds.h"
+#include "engine/matrices/eigenpairs.h"
 #include "mechanisms/kinds/kinds.h"
 #include "tests/agreement/agreement.h"
 #include "tests/agreement/forced_swing.h"
@@ -26,9 +27,8 @@ SettledRun settled(const Scene& scene) { return settle(scene, scene.effects); }
 
 // Swinging eigenvalues with Im > 0, by frequency.
 std::vector<std::complex<double>> swings_of(const Eigen::MatrixXd& a) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
   std::vector<std::complex<double>> list;
-  for (const std::complex<double>& value : solver.eigenvalues())
+  for (const std::complex<double>& value : eigenvalues(a))
     if (value.imag() > 0) list.push_back(value);
   std::sort(list.begin(), list.end(), [](auto u, auto v) { return u.imag() < v.imag(); });
   return list;

@@ -1,5 +1,5 @@
 // work_periods.cpp — cycles sorted into periods, works summed up between them.
-#include "studies/answers/work_periods.h"
+#include "studies/duty/work_periods.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // periodic_schur.cpp — periodic QR: one factor Hessenberg, the others triangular, rotations chased round all of them.
-#include "engine/numerics/periodic_schur.h"
+#include "engine/matrices/periodic_schur.h"
 
 #include <Eigen/QR>
 #include <algorithm>

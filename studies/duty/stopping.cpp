@@ -1,5 +1,5 @@
 // stopping.cpp — events of a run, one after the other, until the link stands.
-#include "studies/answers/stopping.h"
+#include "studies/duty/stopping.h"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,11 @@
 // motor_figures.cpp — quadratures of the motors' torques as figures.
-#include "studies/answers/motor_figures.h"
+#include "studies/duty/motor_figures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "drivetrain/induction/induction_law.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
@@ -56,6 +57,60 @@ Figure figure(const char* words, const MotorTorque& motor, double value, const c
   return Figure::of_name(Name::own(words, motor.component), value, unit, scale);
 }
 
+// RMS current and heat of the windings of a motor whose currents are states.
+void add_currents(const MotorRun& run, const MotorTorque& motor, std::vector<Figure>& out) {
+  const Section* section = run.equations.model().scene.find(motor.component);
+  const std::optional<InductionWindings> windings = section ? induction_windings(*section) : std::nullopt;
+  if (!windings || !run.currents) return;
+  const double heat = std::max(run.energy_scale, std::abs(motor.rated_torque * motor.rated_speed) * run.duration);
+  for (const MotorCurrents::Motor& m : run.currents->motors()) {
+    if (m.component != motor.component) continue;
+    out.push_back(figure("motor_rms_current", motor, root_mean_square(m.stator_square(), run.duration), "A", m.usual));
+    out.push_back(figure("motor_slip_heat", motor, 3 * windings->rotor_resistance * m.rotor_square(), "J", heat));
+    out.push_back(figure("motor_stator_heat", motor, 3 * windings->stator_resistance * m.stator_square(), "J", heat));
+    if (!run.last || !(windings->rated_current > 0)) continue;
+    const double square = run.currents->stator_square(m, run.last->begin, run.last->end);
+    out.push_back(figure("current_use", motor,
+                         root_mean_square(square, run.last->end - run.last->begin) / windings->rated_current, "", 1));
+    out.back().at = run.last->end;
+  }
+}
+
+double torque_at_end(const MotorRun& run, const MotorTorque& motor) {
+  const Snapshot& s = run.equations.snapshot(run.end, run.y);
+  double torque = 0;
+  for (const std::size_t e : motor.elements) torque += s.sums.element_torque[e];
+  return torque;
+}
+
+// Of a machine in steady motion that knows no cycle, by the torque at the end: all that varies has faded.
+void add_steady_use(const MotorRun& run, const MotorTorque& motor, double rated, std::vector<Figure>& out) {
+  out.push_back(figure("thermal_use", motor, std::abs(torque_at_end(run, motor)) / rated, "", 1));
+  out.back().at = run.end;
+}
+
+// Heat of slip that steady motion makes in a second: by its last cycle, without one by the torque at the end.
+double steady_slip_power(const MotorRun& run, const MotorTorque& motor, std::size_t i, double synchronous) {
+  const Model& m = run.equations.model();
+  if (run.last)
+    return (synchronous * run.last->of_motors[2 * i] - driving_work(m, motor.component, run.last->work)) /
+           (run.last->end - run.last->begin);
+  const double torque = torque_at_end(run, motor);
+  const Snapshot& s = run.equations.snapshot(run.end, run.y);
+  return torque * (synchronous - m.gain_of_node[at(motor.node)] * s.now.speed[m.shaft_of_node[at(motor.node)]]);
+}
+
+// Heat of slip up to run-up's end: that of the run less what steady motion makes of it.
+void add_start_heat(const MotorRun& run, const MotorTorque& motor, std::size_t i, double synchronous,
+                    std::vector<Figure>& out) {
+  if (!run.run_up || (!run.last && !run.steady)) return;
+  const double work = driving_work(run.equations.model(), motor.component, run.work);
+  const double all = synchronous * run.y[run.equations.motor_index(i, false)] - work;
+  const double steady = steady_slip_power(run, motor, i, synchronous) * (run.run_up->end - run.run_up->begin);
+  out.push_back(figure("start_heat", motor, all - steady, "J",
+                       std::max(run.energy_scale, motor.rated_torque * synchronous * run.duration)));
+}
+
 }  // namespace
 
 std::optional<double> rated_torque_of(const Section& s) {
@@ -94,14 +149,18 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
       const double usual = motor.rated_torque * *synchronous * run.duration;
       figures.push_back(
           figure("motor_slip_heat", motor, *synchronous * mean - work, "J", std::max(run.energy_scale, usual)));
+      add_start_heat(run, motor, i, *synchronous, figures);
     }
+    add_currents(run, motor, figures);
+    const std::optional<double> rated = rated_torque(m, motor);
+    if (!run.last && run.steady && m.cycle == 0 && rated && *rated > 0) add_steady_use(run, motor, *rated, figures);
     if (!run.last) continue;
     const double time = run.last->end - run.last->begin;
     const double of_cycle = driving_work(m, motor.component, run.last->work);
     figures.push_back(
         figure("cycle_motor_power", motor, of_cycle / time, "W", std::abs(motor.rated_torque * motor.rated_speed)));
     figures.back().at = run.last->end;
-    if (const std::optional<double> rated = rated_torque(m, motor); rated && *rated > 0) {
+    if (rated && *rated > 0) {
       figures.push_back(
           figure("thermal_use", motor, root_mean_square(run.last->of_motors[2 * i + 1], time) / *rated, "", 1));
       figures.back().at = run.last->end;
@@ -116,9 +175,17 @@ std::vector<Figure> motor_figure_list(const Model& m) {
     list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
     list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
     if (mean_square_current(m, motor)) list.push_back(figure("motor_rms_current", motor, 0, "A", 0));
-    if (synchronous_speed(m, motor)) list.push_back(figure("motor_slip_heat", motor, 0, "J", 0));
-    if (m.cycle == 0) continue;
-    list.push_back(figure("cycle_motor_power", motor, 0, "W", 0));
+    if (synchronous_speed(m, motor))
+      for (const char* words : {"motor_slip_heat", "start_heat"}) list.push_back(figure(words, motor, 0, "J", 0));
+    const MotorCurrents currents(m);
+    for (const MotorCurrents::Motor& of : currents.motors())
+      if (of.component == motor.component) {
+        list.push_back(figure("motor_rms_current", motor, 0, "A", 0));
+        for (const char* words : {"motor_slip_heat", "motor_stator_heat"})
+          list.push_back(figure(words, motor, 0, "J", 0));
+        if (m.cycle > 0) list.push_back(figure("current_use", motor, 0, "", 0));
+      }
+    if (m.cycle > 0) list.push_back(figure("cycle_motor_power", motor, 0, "W", 0));
     if (rated_torque(m, motor)) list.push_back(figure("thermal_use", motor, 0, "", 0));
   }
   return list;

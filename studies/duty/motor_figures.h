@@ -2,9 +2,13 @@
 //
 //     mean power    ∫ M ω dt / t                        work of the motor's account over the time run
 //     RMS torque    √( ∫ M² dt / t )                    a lower bound of heating: no-load losses and starts come on top
-//     RMS current   √( ∫ i² dt / t )                    of a direct-current motor's armature: i = M/k, i² = M/κ
+//     RMS current   √( ∫ i² dt / t )                    of a direct-current motor's armature: i = M/k, i² = M/κ; of a
+//                                                       line of the two-axis model: i² = ½ |i_s|²
 //     heat of slip  ω_s ∫ M dt − ∫ M ω dt               of the rotor of an induction motor at the mains (theory 4)
-//     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats
+//                   3/2 R_r ∫ |i_r|² dt                 the same, of the two-axis model; of its stator with R_s, i_s
+//     start heat    heat of slip − P_s (t_off − t_up)   P_s: of the last whole cycle; t_up, t_off: steady from and to
+//     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats; without a
+//                                                       cycle of the steady torque
 // All of them are integrated along with the motion: ∫ M dt and ∫ M² dt are quadratures of the audit.
 #pragma once
 
@@ -12,6 +16,7 @@
 #include <vector>
 
 #include "engine/events/equations.h"
+#include "studies/duty/motor_currents.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {
@@ -25,11 +30,18 @@ std::optional<double> breakdown_torque_of(const Section& component);
 // What was integrated up to the end `y` of a run that lasted `duration` [s]; `work`: per account up to there [J]; `last`:
 // the last whole cycle of a motion that repeats, else null.
 struct MotorRun {
-  const Equations& equations;
+  Equations& equations;
   std::span<const double> y;
   const std::vector<double>& work;
   double duration = 0, energy_scale = 0;
   const CycleRecord* last = nullptr;
+  const MotorCurrents* currents = nullptr;
+  double end = 0;       // of the run [s]
+  bool steady = false;  // the motion is steady to the end
+  struct Span {
+    double begin = 0, end = 0;
+  };
+  std::optional<Span> run_up = {};  // from run-up's end to where the drive goes off, of a run with a run-up [s]
 };
 std::vector<Figure> motor_figures(const MotorRun& run);
 // Those that a run can yield: names and units.

@@ -1,5 +1,5 @@
 // elimination.cpp — pivots by weights, zeros told by what was cancelled.
-#include "engine/numerics/elimination.h"
+#include "engine/matrices/elimination.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,103 @@
+// flywheel_falls.cpp — highest so far, and how far below it; turning points within a step by its dense output.
+#include "studies/duty/flywheel_falls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
+
+namespace kurbel {
+namespace {
+
+// Flywheels whose inertia is given.
+std::vector<const Section*> flywheels_of(const Model& model) {
+  std::vector<const Section*> list;
+  for (const Section& s : model.scene.components)
+    if (s.kind->name == "flywheel" && s.has("inertia")) list.push_back(&s);
+  return list;
+}
+
+}  // namespace
+
+FlywheelFalls::FlywheelFalls(const Model& model) {
+  for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+    if (model.network.elements[e].element->account == Account::driving) sources_.push_back(e);
+  for (const Section* s : flywheels_of(model)) {
+    const std::size_t node = at(model.network.ports.at(s->name).out);
+    if (at(model.shaft_of_node[node]) >= model.free_shafts) continue;  // its speed is given
+    wheels_.push_back({.component = s->name,
+                       .inertia = s->number("inertia"),
+                       .shaft = model.shaft_of_node[node],
+                       .gain = model.gain_of_node[node]});
+  }
+}
+
+bool FlywheelFalls::is_driven(const std::vector<char>& active) const {
+  return std::any_of(sources_.begin(), sources_.end(), [&](std::size_t e) { return active[e] != 0; });
+}
+
+void FlywheelFalls::begin(double /*t*/, std::span<const double> y, Equations& equations) {
+  for (Wheel& w : wheels_) {
+    w.state = equations.speed_index(w.shaft);
+    w.highest = std::max(w.highest, std::abs(w.gain * y[w.state]));
+  }
+}
+
+void FlywheelFalls::step(StepView& view) {
+  const bool driven = is_driven(view.equations().modes().active);
+  for (Wheel& w : wheels_) {
+    const auto see = [&](double t, double speed) {
+      w.highest = std::max(w.highest, speed);
+      if (driven && w.highest - speed > w.from - w.to) w.from = w.highest, w.to = speed, w.low_at = t;
+    };
+    if (!driven) w.highest = 0;  // what nothing drives runs down
+    const double w0 = std::abs(w.gain * view.y_previous()[w.state]), w1 = std::abs(w.gain * view.y()[w.state]);
+    see(view.t_previous(), w0);
+    // Within the step it may go beyond both ends; looked for only where that could count.
+    const double change = std::abs(w1 - w0), reach = 2 * (change + w.change);
+    w.change = change;
+    if (driven && (std::max(w0, w1) + reach > w.highest || w.highest - std::min(w0, w1) + reach > w.from - w.to))
+      search(view, w, see);
+    see(view.t(), w1);
+  }
+}
+
+template <class See>
+void FlywheelFalls::search(StepView& view, const Wheel& w, const See& see) {
+  const double begin = view.t_previous(), end = view.t(), middle = 0.5 * (begin + end), delta = 1e-3 * (end - begin);
+  const auto speed = [&](double t) { return std::abs(w.gain * view.at(t, w.state)); };
+  const auto rate = [&](double t) { return speed(std::min(t + delta, end)) - speed(std::max(t - delta, begin)); };
+  const double r0 = rate(begin), rm = rate(middle), r1 = rate(end);
+  const auto turn = [&](double ta, double ra, double tb, double rb) {
+    if (ra == 0 || rb == 0 || (ra > 0) == (rb > 0)) return;
+    const double t = find_root(rate, ta, ra, tb, rb);
+    see(t, speed(t));
+  };
+  turn(begin, r0, middle, rm);
+  turn(middle, rm, end, r1);
+}
+
+std::vector<Figure> FlywheelFalls::figures(double energy_scale) const {
+  std::vector<Figure> list;
+  for (const Wheel& w : wheels_) {
+    if (!(w.from > 0)) continue;
+    list.push_back(Figure::of_name(Name::own("speed_drop", w.component), (w.from - w.to) / w.from, "", 1));
+    list.back().at = w.low_at;
+    list.push_back(Figure::of_name(Name::own("energy_given", w.component),
+                                   0.5 * w.inertia * (w.from * w.from - w.to * w.to), "J", energy_scale));
+    list.back().at = w.low_at;
+  }
+  return list;
+}
+
+std::vector<Figure> flywheel_fall_list(const Model& model) {
+  std::vector<Figure> list;
+  for (const Section* s : flywheels_of(model)) {
+    list.push_back(Figure::of_name(Name::own("speed_drop", s->name)));
+    list.push_back(Figure::of_name(Name::own("energy_given", s->name), 0, "J"));
+  }
+  return list;
+}
+
+}  // namespace kurbel

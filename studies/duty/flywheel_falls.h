@@ -1,0 +1,46 @@
+// flywheel_falls.h — how far flywheels fall in speed, and what they give thereby: of a press at its blow, of a punch.
+//
+//     fall = max (|ω(t₁)| − |ω(t₂)|), t₁ < t₂, while something drives
+//     speed_drop = fall/|ω(t₁)|,   energy_given = ½ J (ω(t₁)² − ω(t₂)²)
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+class FlywheelFalls final : public Observer {
+ public:
+  explicit FlywheelFalls(const Model& model);
+  bool empty() const { return wheels_.empty(); }
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+  void remember(Tape& tape) override { tape(wheels_); }
+
+  std::vector<Figure> figures(double energy_scale) const;
+
+ private:
+  struct Wheel {
+    std::string component;
+    double inertia = 0;  // [kg·m²]
+    int shaft = 0;
+    double gain = 1;
+    std::size_t state = 0;    // in y
+    double highest = 0;       // |ω| so far [rad/s]
+    double from = 0, to = 0;  // of the greatest fall [rad/s]
+    double low_at = 0;        // when it was lowest in that [s]
+    double change = 0;        // of |ω| in the step before [rad/s]
+    void remember(Tape& tape) { tape(highest, from, to, low_at, change); }
+  };
+  bool is_driven(const std::vector<char>& active) const;
+  template <class See>
+  void search(StepView& view, const Wheel& wheel, const See& see);
+
+  std::vector<std::size_t> sources_;  // elements that drive
+  std::vector<Wheel> wheels_;
+};
+std::vector<Figure> flywheel_fall_list(const Model& model);
+
+}  // namespace kurbel

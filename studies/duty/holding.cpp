@@ -1,0 +1,73 @@
+// holding.cpp — torques of joints that are locked at full command, over what they hold.
+#include "studies/duty/holding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double least_held = 1e-6;  // of the capacity: what passes less than that on has no reserve worth a figure
+
+// A joint that locks, and the command that closes it; −1: it is always closed.
+struct Holder {
+  std::string component;
+  int elastic = 0, joint = 0, command = -1;
+  double capacity = 0, scale = 1;  // M_s, usual torque [N·m]
+};
+
+std::vector<Holder> holders_of(const Model& m) {
+  std::vector<Holder> list;
+  for (std::size_t e = 0; e < m.elastic.size(); ++e) {
+    const int joint = m.elastic[e].joint;
+    const std::string& component = m.network.joints[at(joint)].component;
+    const Section* section = m.scene.find(component);
+    if (!m.elastic[e].slips || !section) continue;
+    if (section->kind->name != "clutch" && section->kind->name != "torque limiter") continue;
+    Holder h{.component = component, .elastic = static_cast<int>(e), .joint = joint};
+    h.capacity = m.network.joints[at(joint)].element->capacity;
+    h.scale = m.torque_scale / m.scale_ratio[at(m.network.joints[at(joint)].a)];
+    for (std::size_t c = 0; c < m.commands.size(); ++c)
+      if (m.commands[c].component == component) h.command = static_cast<int>(c);
+    list.push_back(h);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<ExtremeOf> held_torques_of(const Model& model) {
+  std::vector<ExtremeOf> wanted;
+  for (const Holder& h : holders_of(model))
+    wanted.push_back({.name = Name::own("held_torque", h.component),
+                      .unit = "N*m",
+                      .scale = h.scale,
+                      .value =
+                          [h](const Snapshot& s) {
+                            const bool closed = h.command < 0 || s.now.command[h.command] >= 1;
+                            return closed && s.now.slip[h.elastic] == 0 ? s.joint_torque[h.joint] : 0.0;
+                          },
+                      .rate = {}});
+  return wanted;
+}
+
+std::vector<Figure> reserves(const Model& model, const std::vector<Figure>& known) {
+  std::vector<Figure> list;
+  for (const Holder& h : holders_of(model))
+    for (const Figure& f : known)
+      if (f.name == Name::own("held_torque", h.component).text && std::abs(f.value) > least_held * h.capacity)
+        list.push_back(
+            Figure::of_name(Name::own("torque_reserve", h.component), h.capacity / std::abs(f.value), "", 1));
+  return list;
+}
+
+std::vector<Figure> reserve_list(const Model& model) {
+  std::vector<Figure> list;
+  for (const ExtremeOf& held : held_torques_of(model)) list.push_back(Figure::of_name(held.name, 0, held.unit));
+  for (const Holder& h : holders_of(model)) list.push_back(Figure::of_name(Name::own("torque_reserve", h.component)));
+  return list;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,20 @@
+// holding.h — with how much reserve closed clutches and limiters hold.
+//
+//     torque_reserve = M_s/max |τ|     τ: what it transmits while it is closed for good and does not slip; told where that
+//                                      is more than a millionth of M_s
+#pragma once
+
+#include <vector>
+
+#include "studies/findings/result.h"
+
+namespace kurbel {
+
+// Largest torques that clutches hold, to be looked for along with the others.
+std::vector<ExtremeOf> held_torques_of(const Model& model);
+// From those among `known`.
+std::vector<Figure> reserves(const Model& model, const std::vector<Figure>& known);
+// Those that a run can yield: names and units.
+std::vector<Figure> reserve_list(const Model& model);
+
+}  // namespace kurbel

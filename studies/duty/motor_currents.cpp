@@ -1,0 +1,71 @@
+// motor_currents.cpp — Gauss's rule within every step, on its dense output.
+#include "studies/duty/motor_currents.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+// Gauss–Legendre, 4 points on [−1, 1].
+constexpr std::array<double, 4> gauss_nodes = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
+                                               0.861136311594053};
+constexpr std::array<double, 4> gauss_weights = {0.347854845137454, 0.652145154862546, 0.652145154862546,
+                                                 0.347854845137454};
+
+double half_square(std::span<const double> y, std::size_t own, const std::vector<std::size_t>& parts) {
+  double sum = 0;
+  for (const std::size_t k : parts) sum += y[own + k] * y[own + k];
+  return 0.5 * sum;
+}
+
+}  // namespace
+
+MotorCurrents::MotorCurrents(const Model& m) : own_begin_(m.state_count() - m.own_states.size()) {
+  for (const MotorTorque& motor : m.motors) {
+    Motor found;
+    found.component = motor.component;
+    for (std::size_t k = 0; k < m.own_states.size(); ++k) {
+      const OwnState& state = m.own_states[k].state;
+      if (m.own_states[k].component != motor.component) continue;
+      if (state.name.starts_with("stator_current")) found.stator.push_back(k), found.usual = state.scale;
+      if (state.name.starts_with("rotor_current")) found.rotor.push_back(k);
+    }
+    if (!found.stator.empty()) motors_.push_back(std::move(found));
+  }
+}
+
+void MotorCurrents::begin(double t, std::span<const double> /*y*/, Equations& /*equations*/) {
+  if (!time_.empty()) return;
+  time_.push_back(t);
+  for (Motor& motor : motors_) motor.on_stator.push_back(0), motor.on_rotor.push_back(0);
+}
+
+void MotorCurrents::step(StepView& view) {
+  const double begin = view.t_previous(), half = 0.5 * (view.t() - begin);
+  time_.push_back(view.t());
+  for (Motor& motor : motors_)
+    motor.on_stator.push_back(motor.on_stator.back()), motor.on_rotor.push_back(motor.on_rotor.back());
+  for (std::size_t k = 0; k < gauss_nodes.size(); ++k) {
+    const std::span<const double> y = view.at(begin + half * (1 + gauss_nodes[k]));
+    for (Motor& motor : motors_) {
+      motor.on_stator.back() += half * gauss_weights[k] * half_square(y, own_begin_, motor.stator);
+      motor.on_rotor.back() += half * gauss_weights[k] * half_square(y, own_begin_, motor.rotor);
+    }
+  }
+}
+
+double MotorCurrents::stator_square(const Motor& motor, double begin, double end) const {
+  const auto up_to = [&](double t) {
+    const auto after = static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), t) - time_.begin());
+    if (after == 0) return motor.on_stator.front();
+    if (after == time_.size()) return motor.on_stator.back();
+    const double part = (t - time_[after - 1]) / (time_[after] - time_[after - 1]);
+    return motor.on_stator[after - 1] + part * (motor.on_stator[after] - motor.on_stator[after - 1]);
+  };
+  return up_to(end) - up_to(begin);
+}
+
+}  // namespace kurbel
