@@ -16,7 +16,7 @@ bool is_bad(const Answer& a) { return a.severity > 0; }
 
 std::string as_sentence(std::string sentence) {
   while (sentence.ends_with('.') || sentence.ends_with(' ') || sentence.ends_with('\n')) sentence.pop_back();
-  return sentence.empty() ? sentence : sentence + ".";
+  return sentence.empty() ? sentence : capitalised(std::move(sentence)) + ".";
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 namespace kurbel {
 namespace {
 
+constexpr double likeness = 1e-4;  // falls that differ by less are the same one, come again
+
 // Flywheels whose inertia is given.
 std::vector<const Section*> flywheels_of(const Model& model) {
   std::vector<const Section*> list;
@@ -37,6 +39,16 @@ bool FlywheelFalls::is_driven(const std::vector<char>& active) const {
   return std::any_of(sources_.begin(), sources_.end(), [&](std::size_t e) { return active[e] != 0; });
 }
 
+// In a motion that repeats the falls differ by rounding: the time is that of the first.
+void FlywheelFalls::Wheel::look(double t, double speed) {
+  const double fall = highest - speed;
+  if (speed > to + 0.01 * (from - to)) risen = true;
+  if (!(fall > from - to)) return;
+  from = highest, to = speed;
+  if (risen && fall < alike * (1 + likeness)) return;
+  low_at = t, alike = fall, risen = false;
+}
+
 void FlywheelFalls::begin(double /*t*/, std::span<const double> y, Equations& equations) {
   for (Wheel& w : wheels_) {
     w.state = equations.speed_index(w.shaft);
@@ -49,7 +61,7 @@ void FlywheelFalls::step(StepView& view) {
   for (Wheel& w : wheels_) {
     const auto see = [&](double t, double speed) {
       w.highest = std::max(w.highest, speed);
-      if (driven && w.highest - speed > w.from - w.to) w.from = w.highest, w.to = speed, w.low_at = t;
+      if (driven) w.look(t, speed);
     };
     if (!driven) w.highest = 0;  // what nothing drives runs down
     const double w0 = std::abs(w.gain * view.y_previous()[w.state]), w1 = std::abs(w.gain * view.y()[w.state]);

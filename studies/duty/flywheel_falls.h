@@ -30,9 +30,12 @@ class FlywheelFalls final : public Observer {
     std::size_t state = 0;    // in y
     double highest = 0;       // |ω| so far [rad/s]
     double from = 0, to = 0;  // of the greatest fall [rad/s]
-    double low_at = 0;        // when it was lowest in that [s]
+    double low_at = 0;        // when it was lowest in that: the first of falls that are alike [s]
+    double alike = 0;         // the fall at that time [rad/s]
+    bool risen = false;       // since then
     double change = 0;        // of |ω| in the step before [rad/s]
-    void remember(Tape& tape) { tape(highest, from, to, low_at, change); }
+    void look(double t, double speed);
+    void remember(Tape& tape) { tape(highest, from, to, low_at, alike, risen, change); }
   };
   bool is_driven(const std::vector<char>& active) const;
   template <class See>

@@ -80,6 +80,20 @@ TEST(Troubles, AClosedClutchThatLetsGoOnTheWayIsSaid) {
       "\"clutch\" lets go once although it is closed, first at 1 s: the torque reaches the 120 N·m that it holds.");
 }
 
+// It slips from 1 s on: (300 − 100) N·m stop 5 kg·m² at 100 rad/s after 2.5 s, 225 rad on, and hold it there.
+TEST(Troubles, AStallBehindAClutchThatSlipsNamesTheClutch) {
+  expect_first(R"(
+    line = ["motor", "clutch", "press"]
+    motor = { kind = "dc shunt motor", stall_torque = "2 kN*m", no_load_speed = "100 rad/s", rated_torque = "200 N*m", inertia = "5 kg*m2" }
+    clutch = { kind = "clutch", torque = "100 N*m", static_torque = "120 N*m" }
+    press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "5 kg*m2", slider_mass = "1 g" }
+    jam = { kind = "load", on = "press", torque = "300 N*m", acts = "against motion", start = "1 s" }
+    run = { start = { speed = "100 rad/s" }, until = "6 s" }
+  )",
+               "\"press\" stalls at 291.6° after 3.5 s: \"clutch\" slips to the end under the 100 N·m that it can "
+               "transmit.");
+}
+
 // A crank asks 150 % of what its motor is rated for, in the mean of a cycle that repeats; nothing where a duty is judged.
 TEST(Troubles, AMotorThatIsOverloadedForGoodGetsTooHot) {
   const std::string text = R"(

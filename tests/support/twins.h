@@ -233,6 +233,8 @@ struct TwinMap {
         return found == output_sign.end() ? 1 : found->second;
       }
     if (unit == "rad" || unit == "rad/s" || unit == "rad/s2") return (magnitude ? 1 : v.sign) * v.ratio;
+    // Pulleys keep their radius, so that forces go with torques.
+    if (quantity == "strand_force" || quantity == "slack_force") return 1 / v.ratio;
     if (unit == "N*m") return (magnitude ? 1 : v.sign) / v.ratio;
     return 1;
   }
