@@ -52,8 +52,8 @@ TEST(Conclusion, BadNewsComesFirstThenTheQuestionsInTheirOrder) {
                                                    {Question::bears, "a third excess", 1.1},
                                                    {Question::runs, "it runs"},
                                                    {Question::sure, "NOT confirmed", 1}});
-  EXPECT_EQ(said, (std::vector<std::string>{"NOT confirmed.", "the shaft is overloaded.", "the clutch gets too hot.",
-                                            "it runs.", "friction would change it.", "figures."}));
+  EXPECT_EQ(said, (std::vector<std::string>{"NOT confirmed.", "The shaft is overloaded.", "The clutch gets too hot.",
+                                            "It runs.", "Friction would change it.", "Figures."}));
 }
 
 // All example scenes: one conclusion everywhere; on a terminal at most 25 lines with the two that name the files, and no
