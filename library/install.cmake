@@ -38,16 +38,29 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL program dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/library/package.cmake)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "The program, its manual page, completion for bash, and scenes to start from:
+motor, coupling, gearbox, flywheel, crank mechanism and load as one scene file,
+simulated rigid and elastic, with the error of every figure.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers <kurbel/...>, the static library, and what CMake's find_package and
+pkg-config find them by; examples of elements and mechanisms of one's own.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "import kurbel: runs with numpy arrays, every study, motions stepped by their
+caller, sweeps by any executor.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kurbel)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libkurbel-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libsimbody-dev, libsundials-dev, libsuitesparse-dev, libtomlplusplus-dev, libfmt-dev, libsqlite3-dev, libxlsxwriter-dev, libmatio-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "g++, cmake, pkg-config")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kurbel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-distributed")
 set(CPACK_STRIP_FILES ON)
 
 # Pages of <kurbel/…>, by Doxygen.
