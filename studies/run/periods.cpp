@@ -103,6 +103,8 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   if (periods.without_limit)
     periods.verdict =
         fmt::format("the {} speed changes by {:+.2g} % a {}, and that does not shrink", speed, change, unit);
+  else if (*approach.remaining > scale)
+    periods.verdict = fmt::format("the {} speed is still to change by more than itself", speed);
   else
     periods.verdict = fmt::format("the {} speed is {}within {:.3g} % of its limit", speed,
                                   periods.steady ? "" : "only ", 100 * *approach.remaining / scale);

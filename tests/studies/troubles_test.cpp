@@ -94,6 +94,20 @@ TEST(Troubles, AStallBehindAClutchThatSlipsNamesTheClutch) {
                "transmit.");
 }
 
+// Two masses on a spring swing about zero: a percentage of their mean speed would tell nothing.
+TEST(Troubles, WhatSwingsAboutZeroIsStillToChangeByMoreThanItself) {
+  const std::string said = first_sentence(test::run(R"(
+    line = ["left", "spring", "right"]
+    left = { kind = "inertia", inertia = "1 kg*m2" }
+    right = { kind = "inertia", inertia = "1 kg*m2" }
+    spring = { kind = "coupling", stiffness = "100 N*m/rad" }
+    effects = { elasticity = true }
+    run = { start = { spring = { twist = "0.05 rad" } }, until = "2 s" }
+  )"));
+  EXPECT_EQ(said,
+            "\"left\" has not come to a steady motion by 2 s: the mean speed is still to change by more than itself.");
+}
+
 // A crank asks 150 % of what its motor is rated for, in the mean of a cycle that repeats; nothing where a duty is judged.
 TEST(Troubles, AMotorThatIsOverloadedForGoodGetsTooHot) {
   const std::string text = R"(
