@@ -81,7 +81,7 @@ void bind_machine(py::module_& m) {
   py::class_<Machine>(m, "Machine", "A machine as its scene describes it, read and found to be sound. Never changes.")
       .def_static("from_file", &Machine::from_file, without_lock, py::arg("path"), py::arg("settings") = Settings{},
                   "Reads a scene's file. Raises SceneError with all faults at once.")
-      .def_static("from_text", &Machine::from_text, without_lock, py::arg("text"), py::arg("file") = "scene.toml",
+      .def_static("from_text", &Machine::from_text, without_lock, py::arg("text"), py::arg("file") = "text",
                   py::arg("settings") = Settings{}, "Reads a scene's text; data files are looked for beside `file`.")
       .def("with_settings", &Machine::with, without_lock, py::arg("settings"), "The same with further settings put in.")
       .def_property_readonly("title", &Machine::title, "as the scene says")

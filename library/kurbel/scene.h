@@ -43,8 +43,7 @@ class Machine {
   static Machine from_file(const std::string& path, const Settings& settings = {});
   // Of a scene's text. `file` is its name in messages and need not exist; data files are looked for beside it. Throws
   // BadScene with all faults at once.
-  static Machine from_text(const std::string& text, const std::string& file = "scene.toml",
-                           const Settings& settings = {});
+  static Machine from_text(const std::string& text, const std::string& file = "text", const Settings& settings = {});
 
   // The same with further settings put in; the later one of a path holds. Throws BadScene.
   Machine with(const Settings& settings) const;

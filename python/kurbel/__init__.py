@@ -6,8 +6,9 @@
     r.trajectory["torque.main_coupling"]      # numpy, in the run's own memory [N*m]
 
 A scene is the path of a file, a text (with a line end in it), a mapping as tomllib hands out (a dict), or a Machine.
-All numbers are in SI units, angles in rad, speeds in rad/s. What is wrong with a scene raises SceneError, a ValueError
-whose `places` tell file, line, column and text of every fault. A run that cannot go on is no exception: `complete` is
+What is handed out is in SI units, angles in rad, speeds in rad/s; values of a scene and of `set` carry their units, as in
+its file. What is wrong with a scene raises SceneError, a ValueError whose `places` tell file, line, column and text of
+every fault. A run that cannot go on is no exception: `complete` is
 False, `diagnosis` says why.
 """
 
@@ -35,8 +36,8 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
     method    "auto", "dop853", …
     accuracy  of every figure over its scale
     until     end of the simulated time [s]
-    errors    measure them by further runs
-    plots     follow what the page draws
+    errors    measure them by further runs, two or three of tighter tolerances: several times the time of one
+    plots     follow what the page draws; errors=False, plots=False is the quick way
     trials    behind a short run: the rigid machine's figures, and which effects that are off would move a key figure
     measured  a test's record (a CSV file) laid over it; map: {"T1": "torque.main_coupling"}; shift: "0.2 s" or "fit";
               offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; what is left between them is told as figures

@@ -1,6 +1,7 @@
 // trace.cpp — samples within each step; a full trace is thinned to half.
 #include "studies/findings/trace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,6 +27,8 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
     if (channel.name.what == QuantityKind::spring_torque || channel.name.what == QuantityKind::angle) continue;
     channels_.push_back(std::move(channel));
   }
+  for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+    if (model.network.elements[e].element->account == Account::driving) sources_.push_back(e);
   const int link = model.reduction_node;
   channels_.push_back(
       {Name::make(QuantityKind::angle), "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
@@ -61,6 +64,11 @@ const Trace* Traces::find(const std::string& name) const {
   return nullptr;
 }
 
+bool TraceRecorder::is_driven(const Equations& equations) const {
+  const std::vector<char>& active = equations.modes().active;
+  return std::any_of(sources_.begin(), sources_.end(), [&](std::size_t e) { return active[e] != 0; });
+}
+
 void TraceRecorder::record(double t, std::span<const double> y, Equations& equations, bool only_jumps) {
   const Snapshot& s = equations.snapshot(t, y);
   for (std::size_t k = 0; k < channels_.size(); ++k) now_[k] = channels_[k].value(s);
@@ -79,13 +87,23 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
     const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
     if (!only_jumps || !same) push(trace, t, now_[i]);
   }
-  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle);
+  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle, is_driven(equations));
 }
 
-void TraceRecorder::follow_cycle(double t, double angle) {
+// A turn of the run-down is none of the cycles that figures are of.
+void TraceRecorder::keep_open_cycle() {
+  if (any_driven_ && !open_driven_) return;
+  if (open_driven_ && !any_driven_) traces_->last_cycles.clear();
+  any_driven_ = any_driven_ || open_driven_;
+  traces_->last_cycles.push_back(std::move(open_));
+  if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
+}
+
+void TraceRecorder::follow_cycle(double t, double angle, bool driven) {
   const double turn = std::floor(angle / model_->cycle + 1e-12);
   const auto start = [&] {
     open_ = {t, t, {}};
+    open_driven_ = driven;
     for (const std::size_t i : over_angle_) {
       const Trace& like = traces_->over_time[i];
       open_.traces.push_back({like.name, like.unit, {}, {}, like.what, like.of});
@@ -100,15 +118,14 @@ void TraceRecorder::follow_cycle(double t, double angle) {
     open_whole_ = std::abs(angle - turn * model_->cycle) < 1e-6;
     start();
   } else if (turn != turn_) {
+    open_driven_ = open_driven_ && driven;
     add(angle - turn_ * model_->cycle);
-    if (open_whole_ && turn > turn_) {
-      traces_->last_cycles.push_back(std::move(open_));
-      if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
-    }
+    if (open_whole_ && turn > turn_) keep_open_cycle();
     open_whole_ = turn > turn_;
     turn_ = turn;
     start();
   }
+  open_driven_ = open_driven_ && driven;
   add(angle - turn_ * model_->cycle);
 }
 

@@ -27,7 +27,7 @@ struct CycleTraces {
 // What a run leaves for plots, whoever integrated it.
 struct Traces {
   std::vector<Trace> over_time;
-  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last
+  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last; while something drives, if ever
   const Trace* find(const std::string& name) const;
   static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
 };
@@ -46,7 +46,9 @@ class TraceRecorder final : public Observer {
 
  private:
   void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
-  void follow_cycle(double t, double angle);
+  bool is_driven(const Equations& equations) const;
+  void keep_open_cycle();
+  void follow_cycle(double t, double angle, bool driven);
 
   const Model* model_;  // outlives the run
   std::vector<Channel> channels_;
@@ -55,6 +57,9 @@ class TraceRecorder final : public Observer {
   CycleTraces open_;
   double turn_ = 0;          // number of the open cycle
   bool open_whole_ = false;  // it was seen from its beginning
+  bool open_driven_ = false,
+       any_driven_ = false;           // something drove all through it; a whole one is kept that was driven
+  std::vector<std::size_t> sources_;  // elements of the network that drive
   std::vector<double> now_;
 };
 

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "studies/findings/figure_text.h"
 
 namespace kurbel {
 namespace {
@@ -47,6 +50,24 @@ bool is_told_first(const BarredRange& b) { return !(b.everywhere && b.by == Barr
 
 std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
   return fmt::format("{:.5g} … {}", unit.of(b.from), unit.text(b.to, 5));
+}
+
+// ": up to 939.9 N·m where 75 N·m are allowed": by a limit that is given.
+std::string excess_text(const BarredRange& b) {
+  if (b.by != BarredRange::By::limit || !std::isfinite(b.peak) || !(b.peak > b.limit)) return "";
+  return fmt::format(": up to {} where {} are allowed", told_shortly(b.peak, "N*m"), told_shortly(b.limit, "N*m"));
+}
+
+// Ranges of several joints that overlap are one to keep away from.
+std::size_t number_apart(std::vector<BarredRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(), [](const BarredRange& a, const BarredRange& b) { return a.from < b.from; });
+  std::size_t number = 0;
+  double end = 0;
+  for (const BarredRange& b : ranges) {
+    if (number == 0 || b.from > end) ++number;
+    end = std::max(number == 0 ? b.to : end, b.to);
+  }
+  return number;
 }
 
 }  // namespace
@@ -101,13 +122,14 @@ std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vec
                             const std::vector<LimitedJoint>& joints, const SpeedUnit& unit) {
   std::vector<BarredRange> told;
   std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(told), is_told_first);
+  const std::size_t number = number_apart(told);
   std::string text;
   if (const BarredRange* b = worst_of(told))
     text = b->everywhere ? fmt::format("{} at every speed of {} ({})",
                                        b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
                                        range_text(*b, unit), joints[b->joint].name)
-                         : fmt::format("{} barred range{}, worst {} ({})", told.size(), told.size() == 1 ? "" : "s",
-                                       range_text(*b, unit), joints[b->joint].name);
+                         : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
+                                       range_text(*b, unit), joints[b->joint].name, excess_text(*b));
   const std::string judged = sentence_of(verdicts, "limit");
   return judged + (judged.empty() || text.empty() ? "" : "; ") + text;
 }

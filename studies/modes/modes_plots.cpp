@@ -46,6 +46,16 @@ Series level(const ModesStudy& m, const std::string& name, Role role, double y) 
   return {.name = name, .role = role, .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)}, .y = {y, y}};
 }
 
+// Whether springs hold each shaft: a damper's ring, say, swims, and a line through it would show a node that is none.
+std::vector<char> held_by_springs(const LinearDrive& drive) {
+  std::vector<char> held(drive.ratio.size(), 0);
+  for (Eigen::Index c = 0; c < drive.motion.outerSize(); ++c)
+    if (drive.stiffness.col(c).norm() > 0)
+      for (SparseMatrix::InnerIterator it(drive.motion, c); it; ++it)
+        if (it.value() != 0) held[static_cast<std::size_t>(it.row())] = 1;
+  return held;
+}
+
 // Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
 Plot shape_plot(const ModesStudy& m) {
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
@@ -53,6 +63,7 @@ Plot shape_plot(const ModesStudy& m) {
             .y = {"relative amplitude", ""},
             .series = {},
             .wide = m.shaft_names.size() > 8};
+  const std::vector<char> held = held_by_springs(m.drive);
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}, {:.4g} Hz: {}", m.modes[k].number, hertz(m.modes[k].natural()),
                                  name_of(m, m.modes[k])),
@@ -63,6 +74,7 @@ Plot shape_plot(const ModesStudy& m) {
     s.points = shape.size() <= 60;
     double largest = 0;
     for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      if (!held[static_cast<std::size_t>(i)]) continue;
       const double ratio = m.drive.ratio[static_cast<std::size_t>(i)];
       s.x.push_back(static_cast<double>(i + 1));
       s.y.push_back(ratio != 0 ? shape[i] / ratio : shape[i]);
@@ -72,6 +84,9 @@ Plot shape_plot(const ModesStudy& m) {
     plot.series.push_back(std::move(s));
   }
   if (plot.x.names.empty()) plot.note = numbered(m.shaft_names, "Shafts: ") + ", …";
+  for (std::size_t i = 0; i < held.size() && i < m.shaft_names.size(); ++i)
+    if (!held[i])
+      plot.note += fmt::format("{}No spring holds {}: left out.", plot.note.empty() ? "" : " ", m.shaft_names[i]);
   return plot;
 }
 

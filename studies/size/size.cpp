@@ -79,8 +79,8 @@ class Sizer {
     apply_methods();
     if (s_.basis == SizeBasis::classical) count_motor();
     find_punch();
-    find_dimensions();
     if (options_.simulate) reach_sized(s_, scene_, options_, start_speed_);
+    find_dimensions();
     say_what_is_left_out(s_, beyond_);
     return std::move(s_);
   }
@@ -407,16 +407,13 @@ class Sizer {
   }
 
   void find_dimensions() {
-    if (!s_.needed) return;
-    FlywheelRequest request{options_.form,
-                            flywheel_material(options_.material),
-                            s_.methods.front().flywheel,
-                            s_.mid_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
-                            options_.diameter,
-                            options_.rim_speed};
+    if (!(s_.chosen().flywheel > 0)) return;
+    FlywheelRequest request{options_.form,        flywheel_material(options_.material),
+                            s_.chosen().flywheel, s_.mid_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
+                            options_.diameter,    options_.rim_speed};
     try {
       s_.dimensions = flywheel_dimensions(request);
-      request.inertia += s_.methods.front().error.value_or(0);
+      request.inertia += s_.chosen().error.value_or(0);
       s_.mass_error = std::abs(flywheel_dimensions(request).mass - s_.dimensions->mass) + 1e-12 * s_.dimensions->mass;
     } catch (const std::invalid_argument& error) {
       if (options_.diameter > 0) throw;

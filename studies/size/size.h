@@ -109,8 +109,11 @@ struct Sizing {
   std::optional<SizeMethod> meeting;
   std::string meeting_words;  // what it meets, or the least δ that was found; empty: nothing was sought
 
-  std::optional<FlywheelDimensions> dimensions;
-  double mass_error = 0;  // [kg]
+  // What is to be built: that which meets δ with the scene's effects, else that of the work equation.
+  const SizeMethod& chosen() const { return meeting ? *meeting : methods.front(); }
+
+  std::optional<FlywheelDimensions> dimensions;  // of the chosen one
+  double mass_error = 0;                         // [kg]
   std::string dimensions_why;
   std::optional<PunchPress> punch;  // loads that act for a part of the cycle only
   std::vector<DeltaReached> reached;

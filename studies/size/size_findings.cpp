@@ -55,7 +55,7 @@ std::string conclusion_of(const Sizing& s) {
 
 std::string comparison_with_scene(const Sizing& s) {
   if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of {}.", s.link);
-  const double needed = exact_method(s).flywheel;
+  const double needed = s.chosen().flywheel;
   const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
                                                   : fmt::format("δ = {:.5g} {}", s.delta_now, basis_of(s));
   return fmt::format("The scene's \"{}\" has {:.6g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
@@ -304,14 +304,14 @@ std::string diagrams_csv(const Sizing& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const Sizing& s) {
-  f.figures = {{"flywheel", exact_method(s).flywheel, "kg*m2", exact_method(s).error,
-                "Wittenbauer, exact " + basis_of(s), 0, "flywheel"}};
-  if (s.soft)
-    f.figures.push_back(
-        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", s.soft->error, "", 0, "flywheel_with_slope"});
   if (s.meeting)
     f.figures.push_back({"flywheel that meets δ", s.meeting->flywheel, "kg*m2", s.meeting->error, s.meeting->name, 0,
                          "flywheel_that_meets"});
+  f.figures.push_back({"flywheel", exact_method(s).flywheel, "kg*m2", exact_method(s).error,
+                       "Wittenbauer, exact " + basis_of(s), 0, "flywheel"});
+  if (s.soft)
+    f.figures.push_back(
+        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", s.soft->error, "", 0, "flywheel_with_slope"});
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
       f.figures.push_back(
@@ -349,8 +349,10 @@ void add_answers(Findings& f, const Sizing& s) {
   if (s.needed && real && real->crank - real->crank_error.value_or(0) > visible * s.delta)
     f.answer(
         Question::bears,
-        fmt::format("Simulated, this flywheel does not keep δ = {:g}: it is {:.4g} at the crank, {:.3g} times that",
-                    s.delta, real->crank, real->crank / s.delta),
+        fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the crank, "
+                    "{:.3g} times that",
+                    s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
+                    exact_method(s).flywheel, s.delta, real->crank, real->crank / s.delta),
         real->crank / s.delta);
 }
 
