@@ -98,6 +98,8 @@ std::string headline(std::string_view text) {
 }
 
 std::string capitalised(std::string sentence) {
+  const std::string first = sentence.substr(0, sentence.find(' '));
+  if (first.find_first_of("_.") != std::string::npos && first != sentence) return sentence;  // a figure's name
   if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
     sentence[0] = static_cast<char>(sentence[0] - 'a' + 'A');
   return sentence;

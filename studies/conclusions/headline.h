@@ -19,7 +19,7 @@ std::string rounded_number(double value, int digits);
 // A number as a headline has it: 19092.63 → "19090", 0.10438192 → "0.1044", 1.0 → "1".
 std::string headline_number(double value);
 
-// With a capital letter where it begins with a small one: for what begins with a word, not with a name.
+// With a capital letter where it begins with a word in small ones; names of figures ("peak_torque.shaft") stay.
 std::string capitalised(std::string sentence);
 
 // Significant digits as they are written: "0.0120" has 3, "19000" has 2, "1.0e-06" has 2.

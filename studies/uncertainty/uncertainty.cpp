@@ -20,6 +20,8 @@
 namespace kurbel {
 namespace {
 
+constexpr std::size_t enough_for_ends = 40;  // so that one of the samples lies beyond each end of 95 %
+
 // Of the deviation: a central difference over ± 0.2 u is off by 0.04/6 u² y''', little of what the linear law itself is
 // off. Where the measured errors would be more than 2 % of the difference, it is taken over ± u.
 constexpr double short_step = 0.2, long_step = 1, most_noise = 0.02;
@@ -198,6 +200,10 @@ class UncertaintyWork {
         if (const double v = value_in(r, numbers_[f]); std::isfinite(v)) y.push_back(v);
       spread(study_.figures[f], std::move(y));
     }
+    if (rows.size() < enough_for_ends)
+      study_.notes.push_back(
+          fmt::format("{} samples do not tell where 95 % of the machines lie: that takes {} and more", rows.size(),
+                      enough_for_ends));
     for (const FigureLimit& limit : limits_) study_.limits.push_back(chance_of(limit, rows));
   }
 
@@ -215,7 +221,7 @@ class UncertaintyWork {
       const auto i = static_cast<std::size_t>(place);
       return i + 1 < y.size() ? std::lerp(y[i], y[i + 1], place - static_cast<double>(i)) : y.back();
     };
-    figure.low = at(0.025), figure.high = at(0.975);
+    if (y.size() >= enough_for_ends) figure.low = at(0.025), figure.high = at(0.975);
   }
 
   // A machine that does not run holds no limit.

@@ -47,11 +47,12 @@ struct Bias {
 
 struct FigureUncertainty {
   SweptFigure figure;
-  double value = 0;                        // at the values as given
-  std::optional<double> numerical = {};    // measured error there
-  double by_gradients = 0;                 // standard uncertainty u
-  std::optional<double> noise_floor = {};  // of u, √Σ noise²: what is below may be numerical errors alone
-  double by_samples = 0, mean = 0, low = 0, high = 0;  // deviation, mean, 95 % of the samples
+  double value = 0;                           // at the values as given
+  std::optional<double> numerical = {};       // measured error there
+  double by_gradients = 0;                    // standard uncertainty u
+  std::optional<double> noise_floor = {};     // of u, √Σ noise²: what is below may be numerical errors alone
+  double by_samples = 0, mean = 0;            // deviation, mean of the samples
+  std::optional<double> low = {}, high = {};  // between them lie 95 % of the samples; of fewer than 40 nobody can say
   std::size_t samples = 0;
   std::vector<ToleranceShare> shares = {};  // the greatest first
   std::vector<Bias> biases = {};

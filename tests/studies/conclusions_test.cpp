@@ -27,6 +27,13 @@ TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
   EXPECT_EQ(headline("from 12345…67891 to −2.000012"), "from 12340…67890 to −2");
 }
 
+TEST(Headline, SentencesBeginWithACapitalButNamesOfFiguresStay) {
+  EXPECT_EQ(capitalised("all limits hold"), "All limits hold");
+  EXPECT_EQ(capitalised("\"press\" stalls"), "\"press\" stalls");
+  EXPECT_EQ(capitalised("peak_torque.shaft is 4 N·m"), "peak_torque.shaft is 4 N·m");
+  EXPECT_EQ(capitalised("delta.press <= 0.1 holds"), "delta.press <= 0.1 holds");
+}
+
 // Torques of machines are no powers of ten to be read.
 TEST(Headline, NumbersBelowABillionHaveNoExponent) {
   EXPECT_EQ(rounded_number(410469.7, 5), "410470");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -58,14 +59,27 @@ TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
   EXPECT_NEAR(f.mean, f.value * (1 - 0.05 * 0.05 / 8), 3.5 * f.by_gradients / std::sqrt(4000.0));
   EXPECT_NEAR(f.by_samples, f.by_gradients, 3.5 * f.by_gradients / std::sqrt(8000.0));
   // Quantiles scatter by √(p (1 − p)/n)/density: 4 % of u here.
-  EXPECT_NEAR(f.low, resonance(boost::math::quantile(k, 0.025), j2), 3.5 * 0.042 * f.by_gradients);
-  EXPECT_NEAR(f.high, resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients);
+  EXPECT_NEAR(f.low.value(), resonance(boost::math::quantile(k, 0.025), j2), 3.5 * 0.042 * f.by_gradients);
+  EXPECT_NEAR(f.high.value(), resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients);
   const double chance = boost::math::cdf(k, at_limit);
   ASSERT_EQ(s.limits.size(), 1u);
   EXPECT_LT(s.limits[0].chance.low, chance);
   EXPECT_GT(s.limits[0].chance.high, chance);
   EXPECT_LT(s.limits[0].chance.high - s.limits[0].chance.low, 0.04);
   EXPECT_EQ(s.limits[0].holds + s.limits[0].beyond + s.limits[0].undecided, 4000u);
+}
+
+// Beyond either end of 95 % lies one of 40: fewer tell no ends.
+TEST(Uncertainty, FewSamplesTellNoEndsOfTheirDistribution) {
+  for (const std::size_t samples : {39u, 40u}) {
+    UncertaintyOptions options;
+    options.samples = samples;
+    const UncertaintyStudy s = study_uncertainty(resonator("\"1.5 kg*m2\""), options);
+    EXPECT_EQ(of_figure(s, "natural_frequency.1").low.has_value(), samples >= 40) << samples;
+    EXPECT_EQ(std::any_of(s.notes.begin(), s.notes.end(),
+                          [](const std::string& note) { return note.starts_with("39 samples do not tell"); }),
+              samples < 40);
+  }
 }
 
 // ∂f/∂k = f/2k, ∂f/∂J₂ = −f/2 · (1/J₂²)/(1/J₁ + 1/J₂).
