@@ -17,6 +17,7 @@ constexpr int rounds_looked_at = 6;
 
 // How much the largest eigenvalue moves with an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
+  if (!derivative.allFinite()) return 1 / floor_of_rounds;
   const auto [values, vectors] = eigenpairs(derivative);
   Eigen::Index largest = 0;
   values.cwiseAbs().maxCoeff(&largest);

@@ -10,6 +10,9 @@ namespace kurbel {
 namespace {
 
 Eigen::EigenSolver<Eigen::MatrixXd> solved(const Eigen::MatrixXd& a, bool with_vectors) {
+  if (!a.allFinite())  // the solver may not notice, and hand out what looks like a result
+    throw std::runtime_error(
+        fmt::format("the eigenvalues of a matrix of {} rows were asked for that holds no numbers", a.rows()));
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, with_vectors);
   if (solver.info() != Eigen::Success)
     throw std::runtime_error(

@@ -11,7 +11,8 @@ struct Eigenpairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;  // columns, of length one
 };
-// Throws std::runtime_error where the iteration does not converge (QR algorithm; Golub, Van Loan 2013, 7.5).
+// Throws std::runtime_error where an entry is no number, or the iteration does not converge (QR algorithm; Golub, Van Loan
+// 2013, 7.5).
 Eigenpairs eigenpairs(const Eigen::MatrixXd& a);
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 

@@ -139,20 +139,14 @@ void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equati
   gain_ = m.gain_of_node[node];
   angle_ = static_cast<std::size_t>(m.reduction_angle);
   free_ = shaft_ < m.free_shafts;
-  for (std::size_t e = 0; e < m.network.elements.size(); ++e)
-    if (m.network.elements[e].element->account == Account::driving) driving_.push_back(e);
-  for (const Network::Node& n : m.network.nodes)
-    if (n.prescribed >= 0 && !m.network.prescribed[static_cast<std::size_t>(n.prescribed)].is_nothing())
-      prescribed_somewhere_ = true;
+  sources_.emplace(m);
   if (m.cycle == 0 && t == 0 && angles_.empty()) angles_.push_back(equations.angle_with_turns(angle_, y));
 }
 
 // Elements are switched between steps only, at events and edges.
 bool SpeedRecorder::is_driven(StepView& view) const {
-  if (prescribed_somewhere_ || driving_.empty()) return true;
   if (!view.begins_anew()) return on_;
-  const char* active = view.snapshot(view.t()).now.active;
-  return std::any_of(driving_.begin(), driving_.end(), [&](std::size_t e) { return active[e] != 0; });
+  return sources_->none() || sources_->drive(view.equations().modes().active);
 }
 
 double SpeedRecorder::speed_at(StepView& view, double t) const {

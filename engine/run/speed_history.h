@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/run/run.h"
+#include "engine/run/sources.h"
 
 namespace kurbel {
 
@@ -73,9 +74,8 @@ class SpeedRecorder final : public Observer {
   double until_;
   std::size_t shaft_ = 0, angle_ = 0;
   double gain_ = 1;
-  bool free_ = true;                   // the link's speed is a state, not prescribed
-  bool prescribed_somewhere_ = false;  // a prescribed shaft drives as long as the run lasts
-  std::vector<std::size_t> driving_;   // elements
+  bool free_ = true;  // the link's speed is a state, not prescribed
+  std::optional<Sources> sources_;
   bool on_ = true;
   BandHistory driven_, coasting_;
   std::optional<double> off_since_;

@@ -138,7 +138,9 @@ std::vector<Definition> entries_of_own() {
              "the torque of greatest magnitude that it transmits while it is closed for good and does not slip",
              "its peak torque, which slipping counts in"),
       of_run("torque_reserve", "torque reserve of a clutch", "", "CLUTCH",
-             "what it could hold over the largest torque that it does hold: below 1 it would slip",
+             "what it could hold over the largest torque that it does hold, where that is more than a millionth of it; "
+             "1: it "
+             "reaches that, and slips",
              "a reserve of its heat, for which it has ratings", "M_s/max |τ|"),
       of_run(
           "loop_power", "mean power of a mechanism's load", "W", "MECHANISM",

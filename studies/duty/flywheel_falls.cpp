@@ -22,9 +22,7 @@ std::vector<const Section*> flywheels_of(const Model& model) {
 
 }  // namespace
 
-FlywheelFalls::FlywheelFalls(const Model& model) {
-  for (std::size_t e = 0; e < model.network.elements.size(); ++e)
-    if (model.network.elements[e].element->account == Account::driving) sources_.push_back(e);
+FlywheelFalls::FlywheelFalls(const Model& model) : sources_(model) {
   for (const Section* s : flywheels_of(model)) {
     const std::size_t node = at(model.network.ports.at(s->name).out);
     if (at(model.shaft_of_node[node]) >= model.free_shafts) continue;  // its speed is given
@@ -33,10 +31,6 @@ FlywheelFalls::FlywheelFalls(const Model& model) {
                        .shaft = model.shaft_of_node[node],
                        .gain = model.gain_of_node[node]});
   }
-}
-
-bool FlywheelFalls::is_driven(const std::vector<char>& active) const {
-  return std::any_of(sources_.begin(), sources_.end(), [&](std::size_t e) { return active[e] != 0; });
 }
 
 // In a motion that repeats the falls differ by rounding: the time is that of the first.
@@ -57,7 +51,7 @@ void FlywheelFalls::begin(double /*t*/, std::span<const double> y, Equations& eq
 }
 
 void FlywheelFalls::step(StepView& view) {
-  const bool driven = is_driven(view.equations().modes().active);
+  const bool driven = sources_.drive(view.equations().modes().active);
   for (Wheel& w : wheels_) {
     const auto see = [&](double t, double speed) {
       w.highest = std::max(w.highest, speed);

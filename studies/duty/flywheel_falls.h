@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/sources.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {
@@ -37,11 +38,10 @@ class FlywheelFalls final : public Observer {
     void look(double t, double speed);
     void remember(Tape& tape) { tape(highest, from, to, low_at, alike, risen, change); }
   };
-  bool is_driven(const std::vector<char>& active) const;
   template <class See>
   void search(StepView& view, const Wheel& wheel, const See& see);
 
-  std::vector<std::size_t> sources_;  // elements that drive
+  Sources sources_;
   std::vector<Wheel> wheels_;
 };
 std::vector<Figure> flywheel_fall_list(const Model& model);

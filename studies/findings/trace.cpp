@@ -1,7 +1,6 @@
 // trace.cpp — samples within each step; a full trace is thinned to half.
 #include "studies/findings/trace.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,14 +20,12 @@ void push(Trace& trace, double x, double y) {
 
 }  // namespace
 
-TraceRecorder::TraceRecorder(const Model& model) : model_(&model) {
+TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(model) {
   for (Channel& channel : channels_of(
            model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
     if (channel.name.what == QuantityKind::spring_torque || channel.name.what == QuantityKind::angle) continue;
     channels_.push_back(std::move(channel));
   }
-  for (std::size_t e = 0; e < model.network.elements.size(); ++e)
-    if (model.network.elements[e].element->account == Account::driving) sources_.push_back(e);
   const int link = model.reduction_node;
   channels_.push_back(
       {Name::make(QuantityKind::angle), "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
@@ -64,11 +61,6 @@ const Trace* Traces::find(const std::string& name) const {
   return nullptr;
 }
 
-bool TraceRecorder::is_driven(const Equations& equations) const {
-  const std::vector<char>& active = equations.modes().active;
-  return std::any_of(sources_.begin(), sources_.end(), [&](std::size_t e) { return active[e] != 0; });
-}
-
 void TraceRecorder::record(double t, std::span<const double> y, Equations& equations, bool only_jumps) {
   const Snapshot& s = equations.snapshot(t, y);
   for (std::size_t k = 0; k < channels_.size(); ++k) now_[k] = channels_[k].value(s);
@@ -87,7 +79,7 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
     const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
     if (!only_jumps || !same) push(trace, t, now_[i]);
   }
-  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle, is_driven(equations));
+  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle, sources_.drive(equations.modes().active));
 }
 
 // A turn of the run-down is none of the cycles that figures are of.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/run/recorders.h"
+#include "engine/run/sources.h"
 
 namespace kurbel {
 
@@ -46,7 +47,6 @@ class TraceRecorder final : public Observer {
 
  private:
   void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
-  bool is_driven(const Equations& equations) const;
   void keep_open_cycle();
   void follow_cycle(double t, double angle, bool driven);
 
@@ -58,8 +58,8 @@ class TraceRecorder final : public Observer {
   double turn_ = 0;          // number of the open cycle
   bool open_whole_ = false;  // it was seen from its beginning
   bool open_driven_ = false,
-       any_driven_ = false;           // something drove all through it; a whole one is kept that was driven
-  std::vector<std::size_t> sources_;  // elements of the network that drive
+       any_driven_ = false;  // something drove all through it; a whole one is kept that was driven
+  Sources sources_;
   std::vector<double> now_;
 };
 

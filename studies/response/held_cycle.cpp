@@ -376,9 +376,11 @@ class CycleSearch {
   // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
   void judge_stability(Index n, Index k) {
     if (n == 0) return;
+    out_.uncertain = image_.grazed || !derivative_.topLeftCorner(n, n).allFinite();
+    if (out_.uncertain) return;
     const auto [values, right] = eigenpairs(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
     const Eigen::MatrixXcd left = right.fullPivLu().inverse();
-    out_.uncertain = image_.grazed || !left.allFinite();
+    out_.uncertain = !left.allFinite();
     if (out_.uncertain) return;
     const VectorXd share = (left * derivative_.topRightCorner(n, k))
                                .rowwise()

@@ -26,7 +26,7 @@ constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
 constexpr double enough = 1e-11;  // residual of the map, over the rated values
 constexpr double rounding_of_multipliers = 1e-12;
 constexpr double rounding_of_works = 1e-13;  // a quadrature adds up that of all its steps, which both searches share
-constexpr double regime_cost_limit = 40;  // cycles
+constexpr double regime_cost_limit = 40;     // cycles
 
 // A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
 struct AddedTorque {

@@ -91,6 +91,21 @@ TEST(Flywheel, FallsAndGivesWhatTheBlowTakesBeyondTheDrive) {
   EXPECT_NEAR(*r.find("speed_drop.wheel")->at, 1.1, 1e-9);
 }
 
+// A prescribed shaft drives, too: a step of 500 N·m against 4 kg·m² on 400 N·m/rad swings about ω₀ = 100 rad/s by
+// M/(J p) = 12.5 rad/s, p = √(k/J) = 10 rad/s: from 112.5 rad/s down to 87.5 rad/s.
+TEST(Flywheel, FallsBehindAPrescribedShaft) {
+  const Result r = test::run(R"(
+    line = ["grid", "spring", "wheel"]
+    grid = { kind = "prescribed speed", speed = "100 rad/s" }
+    spring = { kind = "coupling", stiffness = "400 N*m/rad" }
+    wheel = { kind = "flywheel", inertia = "4 kg*m2" }
+    blow = { kind = "load", on = "wheel", torque = "500 N*m", acts = "against motion", start = "1 s" }
+    effects = { elasticity = true }
+    run = { start = { speed = "100 rad/s" }, until = "3 s", accuracy = 1e-9 }
+  )");
+  EXPECT_NEAR(figure(r, "speed_drop.wheel"), 25 / 112.5, 1e-7);
+}
+
 // Behind a clutch that is open at times it falls, too; what nothing drives runs down, and does not count.
 TEST(Flywheel, RunDownIsNoFall) {
   const Result r = test::run(R"(

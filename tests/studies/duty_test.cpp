@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "studies/duty/work_periods.h"
+#include "studies/findings/trace.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady_findings.h"
 #include "studies/steady/steady_ratings.h"
@@ -152,6 +153,27 @@ TEST(SteadyRatings, AreThoseOfTheMotionThatItKeeps) {
   EXPECT_TRUE(f.conclusion().starts_with("\"motor\" gets too hot: the RMS torque of its steady motion is 150 %"))
       << f.conclusion();
   EXPECT_NE(f.conclusion().find("1 of 2 ratings EXCEEDED, worst \"wheel\", rim speed"), std::string::npos);
+}
+
+// Plots over the angle show the cycle that figures are of: driven up to 1 s, though it turns on to 3 s; what nothing ever
+// drove shows its last one.
+TEST(Traces, OverTheAngleAreOfTheLastCycleThatIsDriven) {
+  SimulateOptions options;
+  options.traces = true, options.measure_error = false;
+  const auto end_of_last = [&](const std::string& stop) {
+    const Scene scene = test::scene_from(R"(
+      line = ["motor", "press"]
+      motor = { kind = "torque source", torque = ")" +
+                                         stop + R"( }
+      press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "5 kg*m2", slider_mass = "1 kg" }
+      run = { start = { speed = "50 rad/s" }, until = "3 s" }
+    )");
+    const Result r = simulate(scene, scene.effects, "test", options);
+    return r.traces->last_cycles.back().end;
+  };
+  EXPECT_LE(end_of_last("10 N*m\", stop = \"1 s\""), 1);
+  EXPECT_GT(end_of_last("10 N*m\", stop = \"1 s\""), 0.8);
+  EXPECT_GT(end_of_last("10 N*m\""), 2.8);
 }
 
 // --- works by period ---

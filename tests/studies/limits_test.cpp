@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "studies/limits/limits_findings.h"
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
@@ -98,6 +99,24 @@ TEST(Limits, VerdictHoldsUpToItsLimitAndNotBeyond) {
     const ModesStudy m = modes_of(two_masses(1, fmt::format("nominal_torque = \"{} N*m\"", limit)));
     EXPECT_EQ(verdict_on(m, "nominal").holds(), limit > 40) << limit;
   }
+}
+
+// 10 … 20 and 15 … 30 rad/s of two joints are one range to keep away from, 40 … 50 another.
+TEST(Limits, RangesOfSeveralJointsThatOverlapAreOne) {
+  const std::vector<LimitedJoint> joints(2, LimitedJoint{.name = "shaft", .component = "shaft"});
+  const auto said = [&](const std::vector<std::pair<double, double>>& ends) {
+    std::vector<BarredRange> ranges;
+    for (const auto& [from, to] : ends) {
+      BarredRange b;
+      b.joint = ranges.size() % 2, b.from = from, b.to = to, b.limit = 75, b.peak = 940, b.by = BarredRange::By::limit;
+      ranges.push_back(b);
+    }
+    return limits_sentence({}, ranges, joints, SpeedUnit{});
+  };
+  EXPECT_TRUE(said({{15, 30}, {10, 20}}).starts_with("1 barred range, worst ")) << said({{15, 30}, {10, 20}});
+  EXPECT_TRUE(said({{15, 30}, {40, 50}, {10, 20}}).starts_with("2 barred ranges, worst "));
+  EXPECT_NE(said({{10, 20}}).find("(shaft: up to 940 N·m where 75 N·m are allowed)"), std::string::npos)
+      << said({{10, 20}});
 }
 
 // A negative mean torque strains a coupling like a positive one: every verdict and every barred range is the same.

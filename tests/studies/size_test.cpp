@@ -223,6 +223,17 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
   EXPECT_NE(output_of(large).table.find("already larger than needed"), std::string::npos);
 }
 
+// By the work equation 356.8 kg·m² do, simulated elastic 438.1 are needed: what is to be built is the latter, and the
+// scene's 420 are too small.
+TEST(Size, DimensionsAreThoseOfTheFlywheelThatMeetsTheDemand) {
+  const Sizing s = size_flywheel(test::scene_file("scenes/crank_press.toml"), demand(0.1, true));
+  ASSERT_TRUE(s.meeting && s.dimensions);
+  ASSERT_LT(s.methods.front().flywheel, s.flywheel_now);
+  ASSERT_GT(s.meeting->flywheel, s.flywheel_now);
+  EXPECT_NEAR(s.dimensions->inertia, s.meeting->flywheel, 1e-9 * s.meeting->flywheel);
+  EXPECT_NE(output_of(s).table.find("it is too small"), std::string::npos);
+}
+
 TEST(Size, RefusesInWords) {
   const std::string sound = press(straight(1200, 9));
   for (const double delta : {0.0, -0.05, 2.0, 3.0})

@@ -1,0 +1,34 @@
+// sources.h — what drives a machine, and whether it does so now.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "engine/model/model.h"
+
+namespace kurbel {
+
+class Sources {
+ public:
+  explicit Sources(const Model& m) {
+    for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+      if (m.network.elements[e].element->account == Account::driving) elements_.push_back(e);
+    for (const Network::Node& n : m.network.nodes)
+      if (n.prescribed >= 0 && !m.network.prescribed[static_cast<std::size_t>(n.prescribed)].is_nothing())
+        prescribed_ = true;
+  }
+  bool none() const { return elements_.empty() && !prescribed_; }
+  // Under modes whose elements are `active`: within their windows of time, and switched on. A prescribed shaft drives as
+  // long as the run lasts.
+  bool drive(const std::vector<char>& active) const {
+    return prescribed_ ||
+           std::any_of(elements_.begin(), elements_.end(), [&](std::size_t e) { return active[e] != 0; });
+  }
+
+ private:
+  std::vector<std::size_t> elements_;
+  bool prescribed_ = false;
+};
+
+}  // namespace kurbel
