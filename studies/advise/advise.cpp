@@ -30,6 +30,7 @@ class Adviser {
     simulate_ = options.simulate;
     simulate_.watch.progress = {};
     simulate_.traces = false;
+    simulate_.timed = true;
   }
 
   Advice run() {

@@ -116,7 +116,7 @@ Plot plane(const Advice& a) {
                          .x = {low, high},
                          .y = {100 * a.tolerance, 100 * a.tolerance},
                          .dashed = true});
-  plot.note = fmt::format("Deviations below {:g} % are drawn there.", least_shown);
+  plot.note = "Deviations below a millionth of a per cent are drawn there.";
   return plot;
 }
 

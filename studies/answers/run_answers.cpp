@@ -66,19 +66,20 @@ void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
     if (!by_torque && f.name != Name::own("current_use", f.of).text) continue;
     const Section* motor = r.model ? r.model->scene.find(f.of) : nullptr;
     if (!motor || !(f.value - f.error.value_or(0) > 1)) continue;
-    if (std::optional<Answer> answer = overload_answer(*motor, f.value, by_torque))
+    const char* of = r.model->commands.empty() ? "its steady motion" : "its heaviest cycle";
+    if (std::optional<Answer> answer = overload_answer(*motor, f.value, by_torque, of))
       answers.push_back(std::move(*answer));
   }
 }
 
 }  // namespace
 
-std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque) {
+std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque, const std::string& of) {
   if (motor.has("duty") || !(use > 1)) return {};
   const std::optional<double> rated = by_torque ? rated_torque_of(motor) : std::nullopt;
   return Answer{Question::bears,
-                fmt::format("\"{}\" gets too hot: the {} of its steady motion is {:.0f} % of the rated one{}",
-                            motor.name, by_torque ? "RMS torque" : "RMS current", 100 * use,
+                fmt::format("\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor.name,
+                            by_torque ? "RMS torque" : "RMS current", of, 100 * use,
                             rated ? fmt::format("; it holds from a rated torque of {:.4g} N·m on", *rated * use) : ""),
                 use};
 }

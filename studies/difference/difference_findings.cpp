@@ -31,16 +31,13 @@ std::string percent(double relative) {
   return std::abs(relative) >= 10 ? fmt::format("× {:.3g}", 1 + relative) : fmt::format("{:+.3g} %", 100 * relative);
 }
 
-// The figures that differ, those worth a headline first, then by how much.
+// The figures that differ, by how much; those that are worth a headline count as if it were more.
 std::vector<const FigureDifference*> by_size(const MachineDifference& d) {
   std::vector<const FigureDifference*> list;
   for (const FigureDifference& f : d.figures)
     if (f.differs() && f.relative()) list.push_back(&f);
-  const bool any = std::any_of(list.begin(), list.end(), [](const auto* f) { return f->telling; });
-  std::stable_sort(list.begin(), list.end(), [&](const auto* x, const auto* y) {
-    if (any && x->telling != y->telling) return x->telling;
-    return x->weight() > y->weight();
-  });
+  const auto rank = [](const FigureDifference& f) { return (f.telling ? 10 : 1) * f.weight(); };
+  std::stable_sort(list.begin(), list.end(), [&](const auto* x, const auto* y) { return rank(*x) > rank(*y); });
   return list;
 }
 

@@ -57,8 +57,21 @@ Figure figure(const char* words, const MotorTorque& motor, double value, const c
   return Figure::of_name(Name::own(words, motor.component), value, unit, scale);
 }
 
+// The cycle by which a motor's heating is judged: the last one of a motion that repeats. Where commands change it, the
+// last may be the lightest: then the one that heats the most, of those after the run-up and before the run-down.
+const CycleRecord& cycle_that_heats(const MotorRun& run, std::size_t i) {
+  if (run.equations.model().commands.empty()) return *run.last;
+  const CycleRecord* most = run.last;
+  const auto heat = [i](const CycleRecord& c) { return c.of_motors[2 * i + 1] / (c.end - c.begin); };
+  for (const CycleRecord& c : run.cycles) {
+    const bool in_use = !run.after_run_up || (c.begin >= run.after_run_up->begin && c.end <= run.after_run_up->end);
+    if (in_use && heat(c) > heat(*most)) most = &c;
+  }
+  return *most;
+}
+
 // RMS current and heat of the windings of a motor whose currents are states.
-void add_currents(const MotorRun& run, const MotorTorque& motor, std::vector<Figure>& out) {
+void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, std::vector<Figure>& out) {
   const Section* section = run.equations.model().scene.find(motor.component);
   const std::optional<InductionWindings> windings = section ? induction_windings(*section) : std::nullopt;
   if (!windings || !run.currents) return;
@@ -69,10 +82,11 @@ void add_currents(const MotorRun& run, const MotorTorque& motor, std::vector<Fig
     out.push_back(figure("motor_slip_heat", motor, 3 * windings->rotor_resistance * m.rotor_square(), "J", heat));
     out.push_back(figure("motor_stator_heat", motor, 3 * windings->stator_resistance * m.stator_square(), "J", heat));
     if (!run.last || !(windings->rated_current > 0)) continue;
-    const double square = run.currents->stator_square(m, run.last->begin, run.last->end);
+    const CycleRecord& cycle = cycle_that_heats(run, i);
+    const double square = run.currents->stator_square(m, cycle.begin, cycle.end);
     out.push_back(figure("current_use", motor,
-                         root_mean_square(square, run.last->end - run.last->begin) / windings->rated_current, "", 1));
-    out.back().at = run.last->end;
+                         root_mean_square(square, cycle.end - cycle.begin) / windings->rated_current, "", 1));
+    out.back().at = cycle.end;
   }
 }
 
@@ -103,12 +117,21 @@ double steady_slip_power(const MotorRun& run, const MotorTorque& motor, std::siz
 // Heat of slip up to run-up's end: that of the run less what steady motion makes of it.
 void add_start_heat(const MotorRun& run, const MotorTorque& motor, std::size_t i, double synchronous,
                     std::vector<Figure>& out) {
-  if (!run.run_up || (!run.last && !run.steady)) return;
+  if (!run.after_run_up || (!run.last && !run.steady)) return;
   const double work = driving_work(run.equations.model(), motor.component, run.work);
   const double all = synchronous * run.y[run.equations.motor_index(i, false)] - work;
-  const double steady = steady_slip_power(run, motor, i, synchronous) * (run.run_up->end - run.run_up->begin);
+  const double steady =
+      steady_slip_power(run, motor, i, synchronous) * (run.after_run_up->end - run.after_run_up->begin);
   out.push_back(figure("start_heat", motor, all - steady, "J",
                        std::max(run.energy_scale, motor.rated_torque * synchronous * run.duration)));
+}
+
+void add_thermal_use(const MotorRun& run, const MotorTorque& motor, std::size_t i, double rated,
+                     std::vector<Figure>& out) {
+  const CycleRecord& cycle = cycle_that_heats(run, i);
+  const double rms = root_mean_square(cycle.of_motors[2 * i + 1], cycle.end - cycle.begin);
+  out.push_back(figure("thermal_use", motor, rms / rated, "", 1));
+  out.back().at = cycle.end;
 }
 
 }  // namespace
@@ -151,20 +174,17 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
           figure("motor_slip_heat", motor, *synchronous * mean - work, "J", std::max(run.energy_scale, usual)));
       add_start_heat(run, motor, i, *synchronous, figures);
     }
-    add_currents(run, motor, figures);
+    add_currents(run, motor, i, figures);
     const std::optional<double> rated = rated_torque(m, motor);
-    if (!run.last && run.steady && m.cycle == 0 && rated && *rated > 0) add_steady_use(run, motor, *rated, figures);
+    if (!run.last && run.steady && m.cycle == 0 && m.commands.empty() && rated && *rated > 0)
+      add_steady_use(run, motor, *rated, figures);
     if (!run.last) continue;
     const double time = run.last->end - run.last->begin;
     const double of_cycle = driving_work(m, motor.component, run.last->work);
     figures.push_back(
         figure("cycle_motor_power", motor, of_cycle / time, "W", std::abs(motor.rated_torque * motor.rated_speed)));
     figures.back().at = run.last->end;
-    if (rated && *rated > 0) {
-      figures.push_back(
-          figure("thermal_use", motor, root_mean_square(run.last->of_motors[2 * i + 1], time) / *rated, "", 1));
-      figures.back().at = run.last->end;
-    }
+    if (rated && *rated > 0) add_thermal_use(run, motor, i, *rated, figures);
   }
   return figures;
 }

@@ -35,13 +35,14 @@ struct MotorRun {
   const std::vector<double>& work;
   double duration = 0, energy_scale = 0;
   const CycleRecord* last = nullptr;
+  std::span<const CycleRecord> cycles = {};  // all of them
   const MotorCurrents* currents = nullptr;
   double end = 0;       // of the run [s]
   bool steady = false;  // the motion is steady to the end
   struct Span {
     double begin = 0, end = 0;
   };
-  std::optional<Span> run_up = {};  // from run-up's end to where the drive goes off, of a run with a run-up [s]
+  std::optional<Span> after_run_up = {};  // from run-up's end to where the drive goes off, of a run with a run-up [s]
 };
 std::vector<Figure> motor_figures(const MotorRun& run);
 // Those that a run can yield: names and units.

@@ -67,8 +67,8 @@ std::string conclusion_of(const EffectStudy& s) {
   if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
   const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
                                         [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
-  if (dearest->time_ratio > 1.05)
-    text += fmt::format("; {} costs most, {:.3g} × the time without it", dearest->effect.words, dearest->time_ratio);
+  if (dearest->time_ratio > alike_in_time)
+    text += fmt::format("; {} costs most, {:.2g} × the time without it", dearest->effect.words, dearest->time_ratio);
   return text + "." + beyond(s);
 }
 
@@ -126,6 +126,7 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   SimulateOptions quiet = options;
   quiet.watch.progress = {};
   quiet.traces = false;
+  quiet.timed = true;
   EffectSet on = fullest_set(scene, study.units);
   say("all effects", 0);
   study.full = simulate(scene, effects_of(scene, study.units, on), "full", quiet);

@@ -114,7 +114,7 @@ Plot plane(const EffectStudy& s) {
                            .points = true,
                            .line = false});
   }
-  plot.note = fmt::format("Changes below {:g} % are drawn there.", least_shown);
+  plot.note = "Changes below a millionth of a per cent are drawn there.";
   return plot;
 }
 

@@ -1,9 +1,11 @@
 // render_page.cpp — findings as a page: sections of cards; and all renderings together.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <set>
 
+#include "engine/scene/units.h"
 #include "studies/conclusions/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/output.h"
@@ -116,6 +118,16 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
   show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
 }
 
+// "629.3 kN", "85.5 MPa": as it is said of forces and stresses.
+void in_readable_unit(KeyFigure& figure) {
+  constexpr double large = 1e4;
+  if (!(std::abs(figure.value) >= large)) return;
+  const ReadableUnit unit = readable_unit(figure.value, figure.unit);
+  figure.value *= unit.factor;
+  if (figure.error) *figure.error *= unit.factor;
+  figure.unit = unit.unit;
+}
+
 Report page_of(const Findings& f) {
   Report page{.title = f.page_title.empty() ? f.title : f.page_title,
               .subtitle = f.subtitle,
@@ -133,6 +145,7 @@ Report page_of(const Findings& f) {
   for (KeyFigure& figure : page.figures) {
     figure.means = definition_id(figure.means);
     figure.note = headline(figure.note);
+    if (figure.unit == "N" || figure.unit == "Pa") in_readable_unit(figure);
   }
   page.meanings = meanings_of(page);
   return page;

@@ -24,7 +24,7 @@ ReadableUnit readable_unit(double largest, const std::string& si_unit, const Spe
   largest = std::abs(largest);
   if (si_unit == "rad/s") return {speed.name, speed.of(1)};
   if (si_unit == "m") return largest < 2 ? ReadableUnit{"mm", 1e3} : ReadableUnit{"m", 1};
-  if (si_unit == "N" || si_unit == "N*m" || si_unit == "J" || si_unit == "W") {
+  if (si_unit == "N" || si_unit == "N*m" || si_unit == "J" || si_unit == "W" || si_unit == "N*m/rad") {
     const std::string unit = pretty_unit(si_unit);
     if (largest >= 2e6) return {"M" + unit, 1e-6};
     if (largest >= 2e3) return {"k" + unit, 1e-3};

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "engine/numerics/roots.h"
 #include "studies/findings/thin.h"
 
 namespace kurbel {
@@ -123,12 +125,28 @@ void TraceRecorder::follow_cycle(double t, double angle, bool driven) {
 
 void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) { record(t, y, equations, false); }
 
+// Where the link passes from one turn to the next, so that a cycle begins and ends there and not at the sample after it.
+std::optional<double> TraceRecorder::border_between(double from, double to, StepView& view) const {
+  const auto turns = [&](double t) {
+    return view.equations().snapshot(t, view.at(t)).node_angle[model_->reduction_node] / model_->cycle;
+  };
+  const double first = turns(from), last = turns(to);
+  const double border = std::max(std::floor(first), std::floor(last));
+  if (std::floor(first) == std::floor(last) || first == border || last == border) return {};
+  return find_root([&](double t) { return turns(t) - border; }, from, first - border, to, last - border);
+}
+
 void TraceRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
   record(t0, view.at(t0), view.equations(), true);
+  double before = t0;
   for (int i = 1; i <= samples_per_step; ++i) {
     const double t = i == samples_per_step ? t1 : t0 + (t1 - t0) * i / samples_per_step;
+    if (model_->cycle > 0)
+      if (const std::optional<double> border = border_between(before, t, view))
+        record(*border, view.at(*border), view.equations(), false);
     record(t, view.at(t), view.equations(), false);
+    before = t;
   }
 }
 

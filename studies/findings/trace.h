@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ class TraceRecorder final : public Observer {
 
  private:
   void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
+  std::optional<double> border_between(double from, double to, StepView& view) const;
   void keep_open_cycle();
   void follow_cycle(double t, double angle, bool driven);
 

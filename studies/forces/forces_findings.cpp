@@ -70,13 +70,14 @@ std::string conclusion_of(const Forces& f) {
 Rows peak_table(const Forces& f) {
   const std::vector<NamedPeak> of_first = peaks_of(*f.prescribed);
   auto table = table_of("", "", numbers_below(of_first.size()));
+  const auto unit_of = [&](std::size_t i) { return readable_unit(of_first[i].peak->value, of_first[i].unit); };
   table.not_on_page().only_for_people("largest", [&](std::size_t i) { return of_first[i].name; });
   for (const ForceCycle* c : problems_of(f)) {
     const std::vector<NamedPeak> peaks = peaks_of(*c);
-    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(*peaks[i].peak); })
+    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(*peaks[i].peak, unit_of(i).factor); })
         .only_for_people("at", [&](std::size_t i) { return at_angle(*peaks[i].peak); });
   }
-  return table.only_for_people("unit", [&](std::size_t i) { return pretty_unit(of_first[i].unit); });
+  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
 }
 
 // Rounding errors beside large forces read as zero.
@@ -331,7 +332,7 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
                         .symbols = "η = A_useful / (A_in − ΔT)",
                         .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
                         .note = fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
-                                            efficiency_text(c), c.harmful, c.kinetic_change)});
+                                            efficiency_text(c), c.harmful, or_zero(c.kinetic_change, 1e3 * c.spent))});
   else
     to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
                      .body = c.no_efficiency + "."});

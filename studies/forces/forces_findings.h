@@ -16,7 +16,7 @@ double degrees(double angle);
 std::string at_angle(const Peak& p);
 bool is_nothing(const Peak& p);
 std::string in_words(const Peak& p, const std::string& si_unit);
-std::string peak_text(const Peak& p);
+std::string peak_text(const Peak& p, double factor = 1);
 
 // Motion, inertia forces and shares of the links; the cycle must outlive the findings.
 void say_links(Findings& to, Chapter in, const LinkageCycle& cycle);

@@ -43,11 +43,12 @@ Plot guide_point_plot(const Forces& f) {
   Plot plot =
       angle_plot("Where the guide's reaction acts, from the slider pin towards the extended end", "point of action");
   plot.note = "Beyond the guide's ends both edges bear.";
-  // Where N passes through zero the point runs away to infinity: left out beyond three guides.
-  const double reach = 3 * std::max({f.joints.guide.length, f.joints.guide.width, f.data.radius});
+  // Where N passes through zero the point runs away to infinity: left out where it is as far beyond the guide's ends as
+  // these are apart.
+  const double reach = f.joints.guide.length > 0 ? 1.5 * f.joints.guide.length : 3 * f.data.radius;
   for (const auto& c : force_curves_of(f))
     plot.series.push_back(over_angle(c.name, c.role, *c.cycle, [&](const CyclePosition& p) {
-      return std::abs(p.forces.guide_point) < reach ? p.forces.guide_point : std::nan("");
+      return std::abs(p.forces.guide_point - f.joints.guide.middle) < reach ? p.forces.guide_point : std::nan("");
     }));
   if (f.joints.guide.length > 0)
     for (const int side : {1, -1})

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
@@ -19,7 +20,10 @@ std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
-std::string peak_text(const Peak& p) { return p.unbounded ? "no bound" : with_error(p.value, p.error, ""); }
+std::string peak_text(const Peak& p, double factor) {
+  const std::optional<double> error = p.error ? std::optional(factor * *p.error) : std::nullopt;
+  return p.unbounded ? "no bound" : with_error(factor * p.value, error, "");
+}
 
 namespace {
 
@@ -85,13 +89,14 @@ Rows peak_table(const LinkageStudy& f) {
   const auto first = peaks_of(*f.prescribed);
   auto table = table_of("", "Largest values over the cycle", numbers_below(first.size()));
   table.text_in(0);
+  const auto unit_of = [&](std::size_t i) { return readable_unit(first[i]->peak.value, first[i]->unit); };
   table.only_for_people("largest", [&](std::size_t i) { return first[i]->name; });
   for (const LinkageCycle* c : problems_of(f)) {
     const auto peaks = peaks_of(*c);
-    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(peaks[i]->peak); })
+    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(peaks[i]->peak, unit_of(i).factor); })
         .only_for_people("at", [&](std::size_t i) { return at_angle(peaks[i]->peak); });
   }
-  return table.only_for_people("unit", [&](std::size_t i) { return pretty_unit(first[i]->unit); });
+  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
 }
 
 Rows position_table(const LinkageCycle& c) {

@@ -35,13 +35,11 @@ std::string shape_of(const GearPair& p) {
 
 std::string summary_of(const GearStage& s) {
   const GearPair& p = s.pair;
-  std::string text =
-      fmt::format("{}: {} {}/{}, m_n = {:g} mm, a_w = {:.4f} mm, α_wt = {:.3f}°, ε_α = {:.3f}", s.name, shape_of(p),
-                  p.data.teeth[0], p.data.teeth[1], in_millimetres * p.data.module,
-                  in_millimetres * std::abs(p.centre_distance), p.working_angle / degree, p.contact_ratio);
+  std::string text = fmt::format("{}: {} {}/{}, m_n = {:g} mm, ε_α = {:.3f}", s.name, shape_of(p), p.data.teeth[0],
+                                 p.data.teeth[1], in_millimetres * p.data.module, p.contact_ratio);
   if (p.overlap_ratio > 0) text += fmt::format(", ε_β = {:.3f}", p.overlap_ratio);
   const Finding worst = worst_of(s);
-  if (worst < Finding::warning) return text + ": sound";
+  if (worst < Finding::warning) return text + ": sound geometry";
   int count = 0;
   std::string first;
   for (const GearVerdict& v : s.verdicts)
@@ -53,7 +51,7 @@ std::string summary_of(const GearStage& s) {
 std::string conclusion_of(const Gears& g) {
   std::string text;
   for (const GearStage& s : g.stages) text += (text.empty() ? "" : "; ") + summary_of(s);
-  return text + ".";
+  return text + "; strength is not judged.";
 }
 
 // --- tables ---

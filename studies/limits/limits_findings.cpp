@@ -70,16 +70,26 @@ std::size_t number_apart(std::vector<BarredRange> ranges) {
   return number;
 }
 
+// A limit's key as people read it: "vibratory torque".
+std::string in_words(std::string key) {
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
 }  // namespace
 
+std::string reason_in_words(const BarredRange& range) { return in_words(range.reason); }
+
 Rows verdict_table(const std::vector<Verdict>& verdicts) {
+  // What matters first: a narrow page shows the left of it.
+  constexpr std::size_t at_use = 1;
   Rows table =
       table_of("verdicts", "What the components may bear", verdicts)
           .headed("limits")
           .text_in(3)
           .column("component", "component", &Verdict::component)
+          .only_for_people("use", use_of)
           .column("requirement", "requirement", &Verdict::requirement)
-          .column("note", "note", &Verdict::note)
           .only_for_programs("value", &Verdict::value)
           .only_for_programs("error", &Verdict::error)
           .only_for_programs("bound", &Verdict::bound)
@@ -93,11 +103,11 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
                              const ReadableUnit unit = readable_unit(v.limit, v.unit);
                              return fmt::format("{} {}", read_as(unit.factor * v.limit, {.digits = 5}), unit.unit);
                            })
-          .only_for_people("use", use_of);
+          .column("note", "note", &Verdict::note);
   // On the page the use has the colour of its verdict.
   for (const Verdict& v : verdicts) {
     table.tones.emplace_back(table.headings().size(), Tone::none);
-    table.tones.back().back() = tone_of(v.state());
+    table.tones.back()[at_use] = tone_of(v.state());
   }
   return table;
 }
@@ -109,7 +119,8 @@ Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<Limi
       .headed("barred speed ranges")
       .text_in(2)
       .column("joint", "joint", [&joints](const BarredRange& b) { return joints[b.joint].name; })
-      .column("reason", "barred because of", &BarredRange::reason)
+      .column("reason", "barred because of", &BarredRange::reason,
+              [](const std::string& reason) { return in_words(reason); })
       .only_for_programs("by", [](const BarredRange& b) { return std::string(name_of(b.by)); })
       .only_for_programs("everywhere", &BarredRange::everywhere)
       .column("from", fmt::format("from [{}]", unit.name), &BarredRange::from, speed)
@@ -145,7 +156,7 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
       notes.push_back(
           fmt::format("\"{}\" is beyond its {} at every speed looked at, by up to {:.3g} times: no range "
                       "of speed is free of it",
-                      name, b.reason, b.peak / b.limit));
+                      name, reason_in_words(b), b.peak / b.limit));
     else if (b.by == BarredRange::By::rule)
       notes.push_back(
           fmt::format("\"{}\" swings by more than {} at every speed looked at, by up to {:.3g} times: that "

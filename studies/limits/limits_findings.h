@@ -8,6 +8,9 @@
 
 namespace kurbel {
 
+// What bars a range: "vibratory torque", "1 × mean torque".
+std::string reason_in_words(const BarredRange& range);
+
 Rows verdict_table(const std::vector<Verdict>& verdicts);
 Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
                   const SpeedUnit& unit);

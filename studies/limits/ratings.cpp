@@ -200,8 +200,10 @@ class Rater {
     // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
     const bool continuous = !rating.time && !rating.share && result_.find(QuantityKind::run_up_time, "");
     if (const auto use = continuous ? found("thermal_use." + section_.name) : std::nullopt) {
-      add("RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N", {use->value * rated, use->error * rated}, rated, "N*m",
-          mends);
+      const bool changes = result_.model && !result_.model->commands.empty();
+      add(changes ? "RMS torque of the heaviest cycle: √(∫ M² dt/T) ≤ M_N"
+                  : "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
+          {use->value * rated, use->error * rated}, rated, "N*m", mends);
     } else {
       // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
       const double span = result_.until - result_.begins_at,

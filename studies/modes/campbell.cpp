@@ -9,7 +9,7 @@
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
-#include "studies/modes/kept_speeds.h"
+#include "studies/modes/critical_speeds.h"
 #include "studies/modes/modes_plots.h"
 
 namespace kurbel::modes {
@@ -99,6 +99,20 @@ double top_of(const ModesStudy& m) {
   return 1.15 * top;
 }
 
+// "Above the diagram, where no order of weight meets it: mode 2, 481.8 Hz.": what is not drawn is said.
+std::string modes_above(const ModesStudy& m, double top) {
+  constexpr std::size_t most_told = 4;
+  std::string text;
+  std::size_t number = 0;
+  for (const Mode& mode : m.modes) {
+    const double f = hertz(mode.natural());
+    if (f <= top) continue;
+    if (++number <= most_told) text += fmt::format("{}mode {} at {:.4g} Hz", number == 1 ? "" : ", ", mode.number, f);
+  }
+  if (number > most_told) text += fmt::format(" and {} more", number - most_told);
+  return number == 0 ? "" : "Above the diagram, where no order of weight meets a mode: " + text + ". ";
+}
+
 // From the origin to the edge of the diagram.
 Series ray(const ModesStudy& m, double order, double top, std::string name, Role role) {
   const double end = std::min(m.fastest, top / (order * hertz(1)));
@@ -112,7 +126,8 @@ Series ray(const ModesStudy& m, double order, double top, std::string name, Role
 std::string words_of(const ModesStudy& m, const CriticalSpeed& c) {
   const Mode* mode = mode_of(m, c.mode);
   return fmt::format(
-      "{}\norder {:g}{}\nmode {}{}\n{} in {}\n{:.3g} % of what it may bear", m.speed_unit.text(c.speed, 4), c.order,
+      "{}{}\norder {:g}{}\nmode {}{}\n{} in {}\n{:.3g} % of what it may bear", m.speed_unit.text(c.severest(), 4),
+      c.peak ? fmt::format(", meets the mode at {}", m.speed_unit.text(c.speed, 4)) : "", c.order,
       source_of(m, c.harmonic).empty() ? "" : " of " + source_of(m, c.harmonic), c.mode,
       mode ? ": " + name_of(m, *mode) : "", torque_text(c.amplitude), readable(m.joint_names[c.joint]), 100 * c.share);
 }
@@ -125,8 +140,8 @@ Series circles(const ModesStudy& m, const std::vector<std::size_t>& orders) {
   for (const CriticalSpeed& c : m.critical) {
     if (std::find(orders.begin(), orders.end(), c.harmonic) == orders.end()) continue;
     if (!(c.share > least_circle * most) && !std::isinf(c.share)) continue;
-    s.x.push_back(m.speed_unit.of(c.speed));
-    s.y.push_back(hertz(c.order * c.speed));
+    s.x.push_back(m.speed_unit.of(c.severest()));
+    s.y.push_back(hertz(c.order * c.severest()));
     s.sizes.push_back(std::isinf(c.share) ? 3 : std::isinf(most) ? 1 : 0.7 + 2.3 * std::sqrt(c.share / most));
     s.labels.push_back(words_of(m, c));
   }
@@ -225,9 +240,7 @@ Plot campbell_plot(const ModesStudy& m) {
             .greatest = m.speed_unit.of(m.fastest)},
       .y = {.label = "frequency", .unit = "Hz", .least = 0, .greatest = top},
       .series = {},
-      .note = "Level lines: modes. Grey rays: orders of the turn of " + m.link +
-              ", with what excites them most; dotted: frequencies and tooth meshes. Circles: critical speeds, the "
-              "larger the more of what its joint may bear.",
+      .note = "Level lines: modes. Grey rays: orders of the turn of " + m.link + ", with what excites them most. ",
       .wide = true,
       .bands = bands_of(m)};
   const std::vector<std::size_t> orders = orders_shown(m);
@@ -243,7 +256,7 @@ Plot campbell_plot(const ModesStudy& m) {
     if (meshing.x.back() - plot.x.least.value_or(0) > 0.15 * (m.speed_unit.of(m.fastest) - plot.x.least.value_or(0)))
       plot.series.push_back(std::move(meshing));
     else
-      plot.note += fmt::format(" Mesh of {}: order {:.5g}, mostly above the diagram.", readable(mesh.name), mesh.order);
+      plot.note += fmt::format("Mesh of {}: order {:.5g}, mostly above the diagram. ", readable(mesh.name), mesh.order);
   }
   std::size_t named = 0;
   for (const Mode& mode : m.modes) {
@@ -262,8 +275,14 @@ Plot campbell_plot(const ModesStudy& m) {
                                     .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)},
                                     .y = {hertz(f.omega), hertz(f.omega)},
                                     .text_at_end = readable(f.component)}));
+  if (std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.dashed; }))
+    plot.note += "Dotted: frequencies and tooth meshes. ";
   Series met = circles(m, orders);
-  if (!met.x.empty()) plot.series.push_back(std::move(met));
+  if (!met.x.empty()) {
+    plot.note += "Circles: critical speeds, the larger the more of what its joint may bear. ";
+    plot.series.push_back(std::move(met));
+  }
+  plot.note += modes_above(m, top);
   for (const ParametricZone& z : m.zones)
     if (z.half_width > 0) plot.marks.push_back({m.speed_unit.of(z.centre), fmt::format("parametric, mode {}", z.mode)});
   return plot;
@@ -316,11 +335,13 @@ Rows critical_table(const ModesStudy& m) {
       .headed(fmt::format("critical speeds ({} of {}, the severest first)", severest.size(), m.critical.size()))
       .text_in(0)
       .people_see(severest)
-      .column("speed", fmt::format("speed [{}]", m.speed_unit.name), &CriticalSpeed::speed,
+      .column("speed", fmt::format("order meets mode at [{}]", m.speed_unit.name), &CriticalSpeed::speed,
               {.factor = m.speed_unit.of(1)})
+      .column("peak", fmt::format("swings most at [{}]", m.speed_unit.name), &CriticalSpeed::peak,
+              {.factor = m.speed_unit.of(1), .otherwise = "no peak"})
       .column("mode", "mode", &CriticalSpeed::mode)
       .column("order", "order", &CriticalSpeed::order, {.digits = 4, .otherwise = "unbounded"})
-      .column("amplitude", "amplitude of that order [N·m]", &CriticalSpeed::amplitude,
+      .column("amplitude", "amplitude of that order there [N·m]", &CriticalSpeed::amplitude,
               {.digits = 5, .otherwise = "unbounded"})
       .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; })
       .column("share", "of what it may bear [%]", [](const CriticalSpeed& c) { return c.share; },

@@ -9,7 +9,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/limits/limits_findings.h"
-#include "studies/modes/kept_speeds.h"
+#include "studies/modes/critical_speeds.h"
 
 namespace kurbel {
 namespace {
@@ -35,19 +35,15 @@ std::vector<Passing> passing_of(const ModesStudy& found) {
 // One order's amplitude about the mean at that speed, as a load of its joint.
 void find_severity(double factor, ModesStudy& found) {
   for (CriticalSpeed& c : found.critical) {
-    const auto nearest =
-        std::min_element(found.sweep.begin(), found.sweep.end(), [&c](const SpeedResponse& a, const SpeedResponse& b) {
-          return std::abs(a.speed - c.speed) < std::abs(b.speed - c.speed);
-        });
-    if (nearest == found.sweep.end()) return;
+    const double speed = c.severest();
     JointLoad load;
-    load.mean.value = nearest->joints[c.joint].mean;
-    load.upper.value = load.mean.value + c.amplitude, load.lower.value = load.mean.value - c.amplitude;
+    load.mean.value = c.mean;
+    load.upper.value = c.mean + c.amplitude, load.lower.value = c.mean - c.amplitude;
     load.swing.value = c.amplitude;
-    load.frequency = c.order * c.speed / (2 * std::numbers::pi);
+    load.frequency = c.order * speed / (2 * std::numbers::pi);
     load.frequency_factor = frequency_factor(load.frequency);
     load.weighted.value = load.frequency_factor * c.amplitude;
-    c.share = share_of_bearable(found.limited[c.joint], load, c.speed, factor);
+    c.share = share_of_bearable(found.limited[c.joint], load, speed, factor);
   }
 }
 

@@ -14,8 +14,8 @@
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "studies/history/torque_history.h"
+#include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
-#include "studies/modes/kept_speeds.h"
 #include "studies/modes/mode_list.h"
 #include "studies/modes/spot_checks.h"
 #include "studies/validity/substitutes.h"
@@ -55,7 +55,7 @@ class Study {
     say("excitation", 0.15);
     find_forcing();
     say("forced response", 0.2);
-    find_critical_speeds();
+    find_critical_speeds(found_);
     find_zones();
     sweep();
     find_barred_ranges(
@@ -272,29 +272,6 @@ class Study {
     return linearise(model_, point);
   }
 
-  // The frequency at which an order meets a mode: undamped, as is usual; with states of elements, which stiffen or soften
-  // the drive, that of the damped swing.
-  double of_resonance(const Mode& mode) const { return found_.drive.own_states() > 0 ? mode.natural() : mode.omega; }
-
-  // Where an order that has any strength meets a mode.
-  void find_critical_speeds() {
-    const Excitations& x = found_.excitations;
-    if (x.by_order.empty() || found_.joint_names.empty()) return;
-    double strongest = 0;
-    for (std::size_t r = 1; r <= x.harmonics; ++r)
-      strongest = std::max(strongest, x.strength(r, signed_speed(found_.fastest)));
-    for (const Mode& mode : found_.modes)
-      for (std::size_t r = 1; r <= x.harmonics; ++r) {
-        if (!x.is_looked_at(r)) continue;
-        const double speed = of_resonance(mode) / x.order(r);
-        if (speed < found_.slowest || speed > found_.fastest || x.strength(r, signed_speed(speed)) < 1e-6 * strongest)
-          continue;
-        found_.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
-      }
-    std::sort(found_.critical.begin(), found_.critical.end(),
-              [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.speed < b.speed; });
-  }
-
   void find_zones() {
     const auto& elements = model_->network.elements;
     if (std::none_of(elements.begin(), elements.end(),
@@ -305,7 +282,7 @@ class Study {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * of_resonance(mode) / found_.excitations.order(r);
+        zone.centre = 2 * frequency_of_resonance(found_.drive, mode) / found_.excitations.order(r);
         zone.variation = variation[r];
         zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
         if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
@@ -314,6 +291,15 @@ class Study {
     }
     std::sort(found_.zones.begin(), found_.zones.end(),
               [](const ParametricZone& a, const ParametricZone& b) { return a.centre < b.centre; });
+  }
+
+  // A point of the sweep.
+  SpeedResponse respond_at(double speed) const {
+    const LinearDrive drive = drive_at(speed);
+    SpeedResponse response = respond(drive, found_.excitations);
+    response.speed = speed;
+    judge_kept_speeds(found_, drive, response);
+    return response;
   }
 
   std::vector<double> sweep_speeds() {
@@ -359,29 +345,24 @@ class Study {
       if (speeds[i] == 0) continue;
       const double fraction = static_cast<double>(i) / static_cast<double>(speeds.size());
       options_.watch.at("forced response", 0.2 + 0.6 * fraction);
-      const LinearDrive drive = drive_at(speeds[i]);
-      found_.sweep.push_back(respond(drive, x));
-      found_.sweep.back().speed = speeds[i];
-      judge_kept_speeds(found_, drive, found_.sweep.back());
+      found_.sweep.push_back(respond_at(speeds[i]));
     }
-    fill_critical_amplitudes();
+    sweep_as_if_rigid();
+    measure_critical_speeds(
+        *model_, [this](double speed) { return respond_at(speed); }, found_);
     leave_out_what_is_not_kept(found_);
   }
 
-  // From the sweep, which has a point at every critical speed unless it was thinned.
-  void fill_critical_amplitudes() {
-    for (CriticalSpeed& c : found_.critical) {
-      const SpeedResponse* nearest = nullptr;
-      for (const SpeedResponse& s : found_.sweep)
-        if (!nearest || std::abs(s.speed - c.speed) < std::abs(nearest->speed - c.speed)) nearest = &s;
-      if (!nearest) return;
-      double most = -1;
-      for (std::size_t j = 0; j < nearest->orders.size(); ++j) {
-        const double scale = model_->scale_ratio[at(model_->network.joints[at(model_->elastic[j].joint)].a)];
-        const double reduced = scale * std::abs(nearest->orders[j][c.harmonic]);  // to the link
-        if (reduced > most * (1 + 1e-9)) most = reduced, c.joint = j;
-      }
-      c.amplitude = std::abs(nearest->orders[c.joint][c.harmonic]);
+  // What stands behind the curves over the speed: smooth, so that some points do.
+  void sweep_as_if_rigid() {
+    constexpr std::size_t points = 60;
+    const std::size_t every = std::max<std::size_t>(1, found_.sweep.size() / points);
+    for (std::size_t i = 0; i < found_.sweep.size() && !stopped(); i += every) {
+      const std::optional<LinearDrive> rigid = as_if_rigid(drive_at(found_.sweep[i].speed));
+      if (!rigid) return found_.rigid.clear();
+      found_.rigid.push_back(respond(*rigid, found_.excitations));
+      found_.rigid.back().speed = found_.sweep[i].speed;
+      found_.rigid.back().kept = found_.sweep[i].kept;
     }
   }
 

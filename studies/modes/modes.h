@@ -98,12 +98,17 @@ struct SpotCheck {
 };
 
 struct CriticalSpeed {
-  double speed = 0;  // of the reduction link [rad/s]
+  double speed = 0;  // of the reduction link, where the order meets the mode [rad/s]
   int mode = 0;
   double order = 0;
   std::size_t harmonic = 0;
-  double amplitude = 0;  // of this order alone, in the joint where it is largest, reduced to the link [N·m]
-  std::size_t joint = 0;
+  // Where this order swings most near it: damping, and torques that follow the speed, take the two apart. None: it has
+  // no peak there.
+  std::optional<double> peak = {};
+  std::size_t joint = 0;                                    // in which the order is largest, reduced to the link
+  double amplitude = 0;                                     // of this order alone there, at `severest` [N·m]
+  double mean = 0;                                          // of that joint's torque, there
+  double severest() const { return peak.value_or(speed); }  // [rad/s]
   double share = 0;  // of what that joint may bear (barred_ranges.h): how severe it is
 };
 
@@ -135,6 +140,7 @@ struct ModesStudy {
   std::vector<Rattle> rattles;
   bool keeps_its_speed = true;        // nothing grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range
+  std::vector<SpeedResponse> rigid;   // some of its speeds, with joints that do not twist; none where that says nothing
   std::vector<LimitedJoint> limited;  // per joint: what it may bear
   std::vector<BarredRange> barred;
   std::vector<SpotCheck> spots;  // by speed

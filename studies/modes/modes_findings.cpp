@@ -11,8 +11,8 @@
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/modes/campbell.h"
+#include "studies/modes/drive_limits.h"
 #include "studies/modes/modes_plots.h"
-#include "studies/modes/spot_findings.h"
 #include "studies/shafts/stress_findings.h"
 
 namespace kurbel {
@@ -25,46 +25,6 @@ constexpr std::size_t responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.
 ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
-
-bool is_forced(const ModesStudy& m) {
-  return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());
-}
-
-// With its damping; and what springs and inertias alone would say, where states of elements make much of the frequency.
-std::string first_mode(const Mode& mode) {
-  constexpr double much = 0.005;
-  std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.natural()));
-  if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not swing: ζ ≥ 1)";
-  text += fmt::format(" (ζ = {:.3g}", mode.ratio);
-  if (std::abs(mode.natural() - mode.omega) > much * mode.omega)
-    text += fmt::format("; springs and inertias alone: {:.4g} Hz", hertz(mode.omega));
-  return text + ")";
-}
-
-std::string conclusion_of(const ModesStudy& m) {
-  std::string text;
-  const std::string rest =
-      m.rests_at ? fmt::format("about its rest at {:.4g}° of {}", *m.rests_at * 180 / std::numbers::pi, m.link) : "";
-  if (m.modes.empty()) {
-    text = m.rests_at ? "The machine does not swing " + rest : "The drive has no mode with twist";
-  } else {
-    text = first_mode(m.modes.front());
-    if (m.rests_at) text += ", " + rest;
-    if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
-  }
-  if (is_forced(m)) {
-    const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
-    const std::size_t j = joint_with_largest_swing(said);
-    text +=
-        fmt::format("; at {} {} swings by {} about {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                    m.joint_names[j], torque_text(said.joints[j].peak),
-                    torque_text(std::abs(said.joints[j].mean) > 1e-6 * said.joints[j].peak ? said.joints[j].mean : 0));
-    const double linear = m.here.joints[j].peak, really = said.joints[j].peak;
-    if (m.cycle && std::abs(linear - really) > 0.1 * really)
-      text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / really - 1));
-  }
-  return text;
-}
 
 // --- tables ---
 
@@ -175,7 +135,7 @@ Rows response_table(const ModesStudy& m) {
     const auto really = [&](auto member) { return [&m, member](std::size_t j) { return m.cycle->joints[j].*member; }; };
     table.column("cycle_peak", "in the steady motion", really(&JointResponse::peak), digits(6))
         .column(
-            "linear_error", "linear less that",
+            "linear_error", "linear − steady motion",
             [&m](std::size_t j) { return m.here.joints[j].peak - m.cycle->joints[j].peak; }, digits(3))
         .only_for_programs("cycle_amplitude", really(&JointResponse::dominant_amplitude));
   }
@@ -326,8 +286,8 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_with_largest_swing(said);
   if (std::isfinite(said.joints[j].peak))
-    f.figures.push_back({"largest swing at that speed", said.joints[j].peak, "N*m", swing_error(m, j), m.joint_names[j],
-                         5, "largest_swing"});
+    f.figures.push_back({fmt::format("largest swing at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
+                         said.joints[j].peak, "N*m", swing_error(m, j), m.joint_names[j], 5, "largest_swing"});
 }
 
 FormulaCard rayleigh(const ModesStudy& m) {

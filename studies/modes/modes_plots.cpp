@@ -8,8 +8,8 @@
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
+#include "studies/limits/limits_findings.h"
 #include "studies/modes/campbell.h"
-#include "studies/modes/spot_findings.h"
 
 namespace kurbel::modes {
 namespace {
@@ -108,6 +108,17 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
   return plot;
 }
 
+// What the joint would swing by in a machine that is rigid.
+Series rigid_curve(const ModesStudy& m, std::size_t j) {
+  Series curve{.name = "rigid machine", .role = Role::rigid, .x = {}, .y = {}};
+  for (const SpeedResponse& s : m.rigid) {
+    if (!s.kept || !std::isfinite(s.joints[j].peak)) continue;
+    curve.x.push_back(m.speed_unit.of(s.speed));
+    curve.y.push_back(s.joints[j].peak);
+  }
+  return curve;
+}
+
 Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   std::vector<const SpeedResponse*> finite;
   double largest = 0;
@@ -129,6 +140,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
           curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
           dashed(curve("sum of amplitudes", Role::sky, [](const JointResponse& r) { return r.amplitude_sum; })),
           dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
+  if (!m.rigid.empty()) plot.series.insert(plot.series.begin(), rigid_curve(m, j));
   mark_spots(m, j, plot);
   if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0)
     plot.series.push_back(
@@ -137,7 +149,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
     if (b.joint != j) continue;
     plot.bands.push_back({m.speed_unit.of(b.from), m.speed_unit.of(b.to), "barred", Role::vermillion});
     plot.note += fmt::format("{}Barred {:.5g} … {} by {}.", plot.note.empty() ? "" : " ", m.speed_unit.of(b.from),
-                             m.speed_unit.text(b.to, 5), b.reason);
+                             m.speed_unit.text(b.to, 5), reason_in_words(b));
   }
   return in_readable_unit(std::move(plot), "N*m", largest);
 }

@@ -1,10 +1,11 @@
-// modes_plots.h — plots of mode shapes, forced response and a torque's spectrum.
+// modes_plots.h — plots of mode shapes, forced response and a torque's spectrum; what is said first, and of spot checks.
 #pragma once
 
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "studies/findings/findings.h"
 #include "studies/findings/report.h"
 #include "studies/modes/modes.h"
 
@@ -17,8 +18,16 @@ std::size_t joint_with_largest_swing(const SpeedResponse& response);
 // Up to a little above the highest mode that still shows [Hz].
 double end_of_spectrum(const ModesStudy& study, const AmplitudeSpectrum& spectrum);
 
+bool is_forced(const ModesStudy& study);
+// "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm "coupling" swings by 9.94 N·m about 154 N·m"
+std::string conclusion_of(const ModesStudy& study);
+
 std::vector<Plot> mode_plots(const ModesStudy& study);
 std::vector<Plot> response_plots(const ModesStudy& study);
 std::vector<Plot> history_plots(const ModesStudy& study, const TorqueHistory& history);
+
+// Of spot checks (spot_findings.cpp): a line each and a table; on the curves, peaks of a joint in the nonlinear cycles.
+void say_spots(Findings& findings, Chapter in, const ModesStudy& study);
+void mark_spots(const ModesStudy& study, std::size_t joint, Plot& plot);
 
 }  // namespace kurbel::modes

@@ -1,6 +1,4 @@
 // spot_findings.cpp — spot checks in words, tables and plots.
-#include "studies/modes/spot_findings.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,7 +68,7 @@ Rows spot_table(const ModesStudy& m) {
       .only_for_people(
           "peak, linear [N·m]", [linear](const Line& l) { return linear(l).peak; }, torque)
       .only_for_people("in the cycle", of([](const SpotCheck& s, std::size_t j) { return really(s, j).peak; }), torque)
-      .only_for_people("linear less that", of([](const SpotCheck& s, std::size_t j) { return s.difference(j); }),
+      .only_for_people("linear − cycle", of([](const SpotCheck& s, std::size_t j) { return s.difference(j); }),
                        ReadAs{.digits = 3, .otherwise = "unbounded"})
       .only_for_people(
           "mean, linear", [linear](const Line& l) { return linear(l).mean; }, torque)
@@ -112,12 +110,15 @@ Record spot_record(const ModesStudy& m, const SpotCheck& spot) {
   return record;
 }
 
-// Where the linear response is off by most.
-const SpotCheck* worst(const ModesStudy& m) {
+// That bears most of what it may; of speeds that were asked for alone, where the linear response is off by most.
+const SpotCheck* to_tell(const ModesStudy& m) {
   const SpotCheck* found = nullptr;
   const auto off = [](const SpotCheck& s) { return std::abs(s.difference(s.joint)) / really(s, s.joint).peak; };
+  const auto before = [&](const SpotCheck& a, const SpotCheck& b) {
+    return a.share || b.share ? a.share.value_or(0) > b.share.value_or(0) : off(a) > off(b);
+  };
   for (const SpotCheck& spot : m.spots)
-    if (spot.cycle && (!found || off(spot) > off(*found))) found = &spot;
+    if (spot.cycle && (!found || before(spot, *found))) found = &spot;
   return found;
 }
 
@@ -130,7 +131,7 @@ void say_spots(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, std::move(lines));
   f.say(in, spot_table(m));
   f.tell("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
-  if (const SpotCheck* spot = worst(m))
+  if (const SpotCheck* spot = to_tell(m))
     f.figures.push_back({fmt::format("swing at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
                          really(*spot, spot->joint).peak, "N*m", spot->error(spot->joint),
                          fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)),

@@ -362,12 +362,17 @@ class Reducer {
       }
       r_.notes.push_back(fmt::format(
           "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid "
-          "speed {}) the mean driving torque is {:.6g} N·m instead of {:.6g} N·m, the mean resisting "
-          "torque {:.6g} N·m instead of {:.6g} N·m, and 2T/ω² {}",
-          and_effects(), r_.speed_unit.text(c.mid_speed()), c.cycle.drive.mean(), r_.mean_drive, c.cycle.load.mean(),
-          r_.mean_load, off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
+          "speed {}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
+          and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive),
+          in_place_of(c.cycle.load.mean(), r_.mean_load),
+          off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
     } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
     }
+  }
+  // "17.51 N·m instead of 16.2 N·m"; what four digits do not tell apart is the same.
+  static std::string in_place_of(double really, double here) {
+    const std::string a = fmt::format("{:.4g} N·m", really), b = fmt::format("{:.4g} N·m", here);
+    return a == b ? a + ", as here" : a + " instead of " + b;
   }
   std::string and_effects() const {
     return scene_.effects.describe() == "none" ? "" : fmt::format(", and {}", scene_.effects.describe());

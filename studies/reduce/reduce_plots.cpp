@@ -9,6 +9,7 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 
 namespace kurbel {
@@ -154,7 +155,7 @@ Plot chain_plot(const MachineReduction& r) {
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (const ChainSpring& s : chain.springs) {
     const Place a = places[s.a], b = places[s.b];
-    plot.series.push_back({.name = fmt::format("{}: k = {:.4g} N·m/rad", s.name, s.reduced_stiffness),
+    plot.series.push_back({.name = fmt::format("{}: k = {}", s.name, told_shortly(s.reduced_stiffness, "N*m/rad")),
                            .role = Role::elastic,
                            .x = {1e6 * a.x, 1e6 * b.x},
                            .y = {-2.5 * a.row, -2.5 * b.row}});

@@ -23,12 +23,35 @@
   const colour = name => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
   const withUnit = axis => axis.unit ? `${axis.label} [${axis.unit}]` : axis.label;
   const narrow = () => window.innerWidth < 600;
+  const extent = values => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+  // "0.002", "3·10⁻⁷" to a few digits.
+  function withPower(v, digits) {
+    const n = Math.floor(Math.log10(Math.abs(v)) + 1e-9), lead = +(v / 10 ** n).toPrecision(digits);
+    return n === 0 ? `${lead}` : n === 1 && lead === 1 ? '10' : `${lead === 1 ? '' : lead + '·'}10<sup>${n}</sup>`.replace(/-/g, '−');
+  }
+  const letters = text => text.replace(/<.*?>/g, '').length;
+  const needsPower = v => v !== 0 && (Math.abs(v) < 1e-4 || Math.abs(v) >= 1e6);
+  const shortNumber = v => needsPower(v) ? withPower(v, 3) : `${+v.toPrecision(3)}`.replace('-', '−');
 
   // --- plots ---------------------------------------------------------------------------------------------------------
   const plots = [];
 
-  // A curve that comes back on itself, such as a polar diagram, is read point by point.
-  const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || s.x.some((x, i) => i && x < s.x[i - 1]));
+  // About how large the field of a diagram is [px]: its place without what stands around the axes.
+  const widthOf = plot => (plot.place && plot.place.clientWidth || 560) - 65;
+  const heightOf = plot => (plot.place && plot.place.clientHeight || 330) - 95 - 15 * (legendRows(plot) - 1);
+  const lengthOf = (plot, along) => along === 'x' ? widthOf(plot) : heightOf(plot);
+  const isTold = s => Boolean(s.name) && !saysItself(s) && !(s.sizes && s.sizes.some(size => size !== s.sizes[0]));
+  // Names of the legend stand in columns that are as wide as the longest; one that is wider than the page is broken.
+  const nameLetters = plot => (widthOf(plot) - 45) / 6.5;
+  function legendRows(plot) {
+    const names = plot.series.filter(isTold).map(s => s.name.length);
+    const columns = Math.max(1, Math.floor(widthOf(plot) / (6.5 * Math.max(...names, 1) + 45)));
+    return Math.max(1, Math.ceil(names.length / columns));
+  }
+
+  // A curve that comes back on itself, such as a polar diagram, is read point by point; a crank that swings back a little is none.
+  const wayBack = x => x.reduce((sum, value, i) => sum + (i ? Math.max(x[i - 1] - value, 0) : 0), 0);
+  const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || wayBack(s.x) > 0.2 * Math.abs(s.x[s.x.length - 1] - s.x[0]));
 
   const plain = text => text.replace(/[<&]/g, '').replace(/\n/g, '<br>');
   const saysItself = s => s.textAtStart || s.textAtEnd;
@@ -37,7 +60,7 @@
     const reading = isLocus(plot) ? `(%{x:.5~g}, %{y:.5~g}) ${plot.y.unit}` : `%{y:.6~g} ${plot.y.unit}`;
     const traces = plot.map ? [mapTrace(plot)] : [];
     for (const s of plot.series) traces.push({
-      x: s.x, y: s.y, name: s.name, type: plot.bars ? 'bar' : 'scatter', showlegend: Boolean(s.name) && !saysItself(s) && !(s.sizes && s.sizes.some(size => size !== s.sizes[0])),
+      x: s.x, y: s.y, name: plain(broken(s.name, nameLetters(plot))), type: plot.bars ? 'bar' : 'scatter', showlegend: isTold(s),
       marker: {color: colour(s.role), size: s.sizes ? s.sizes.map(size => 9 * size) : s.line ? 6 : 9, ...s.sizes ? {opacity: 0.75, line: {color: colour('card'), width: s.sizes[0] < 0.7 ? 0.4 : 1}} : {}},
       ...plot.bars ? {} : {
         mode: s.line ? (s.points ? 'lines+markers' : 'lines') : 'markers',
@@ -46,13 +69,30 @@
       ...s.labels ? {text: s.labels.map(plain)} : {}, ...saysItself(s) ? {hoverinfo: 'skip'} : {},
       ...saysItself(s) ? {} : {hovertemplate: s.sizes ? '%{text}<extra></extra>' : `${s.labels ? '%{text}<br>' : ''}${reading}<extra>${plain(s.name)}</extra>`},
     });
-    traces.push(...againOnTop(plot), ...peaksOf(plot));
-    if (plot.marks.length) traces.push({
-      x: plot.marks.map(m => m.x), y: plot.marks.map(() => 0.025), text: plot.marks.map(m => plain(m.text)), name: 'events', yaxis: 'y2', type: 'scatter',
-      mode: 'markers', showlegend: false, cliponaxis: true, marker: {symbol: 'line-ns-open', size: 9, color: colour('vermillion'), line: {width: 1.4}},
-      hovertemplate: '%{text} at %{x:.6~g}<extra></extra>',
-    });
+    traces.push(...againOnTop(plot), ...peaksOf(plot).map(circleAt));
+    if (plot.marks.length) traces.push(...eventTraces(plot, rangeOf(plot).range, widthOf(plot)));
     return traces;
+  }
+  // Ticks at events. Where more than a few stand closer than four pixels a light band takes their place; pointing reads each.
+  function eventTraces(plot, range, width) {
+    const marks = [...plot.marks].sort((a, b) => a.x - b.x), near = range ? 4 * (range[1] - range[0]) / width : 0;
+    const alone = marks.map(() => 1), band = {x: [], y: []};
+    for (let i = 0, k = 0; i < marks.length; i = ++k) {
+      while (k + 1 < marks.length && marks[k + 1].x - marks[k].x < near) ++k;
+      if (k - i < 3) continue;
+      alone.fill(0, i, k + 1);
+      band.x.push(marks[i].x, marks[k].x, null);
+      band.y.push(0.025, 0.025, null);
+    }
+    const common = {yaxis: 'y2', type: 'scatter', showlegend: false}, red = colour('vermillion');
+    return [
+      {...band, ...common, name: 'event bands', mode: 'lines', hoverinfo: 'skip', opacity: 0.35, line: {color: red, width: 9}},
+      {
+        x: marks.map(m => m.x), y: marks.map(() => 0.025), text: marks.map(m => plain(broken(m.text, narrow() ? 36 : 60))), ...common, name: 'events', mode: 'markers',
+        cliponaxis: true, marker: {symbol: 'line-ns-open', size: 9, color: red, opacity: alone, line: {width: 1.4}},
+        hovertemplate: '%{text} at %{x:.6~g}<extra></extra>',
+      },
+    ];
   }
   // A map is a picture below the lines (Plotly's small edition has none), a colour bar, and invisible points to point at.
   const viridis = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
@@ -116,12 +156,42 @@
     return front.map(s => {
       let k = 0;
       s.y.forEach((y, i) => { if (Math.abs(y) > Math.abs(s.y[k])) k = i; });
+      return {x: s.x[k], y: s.y[k], role: s.role};
+    });
+  }
+  const circleAt = peak => ({
+    x: [peak.x], y: [peak.y], mode: 'markers', type: 'scatter', showlegend: false, hoverinfo: 'skip', cliponaxis: false,
+    marker: {symbol: 'circle-open', size: 8, color: colour(peak.role), line: {width: 1.6}},
+  });
+  // Their values on the card's colour, above what is positive and below what is negative: moved out until no curve runs through
+  // them, if it is not too far, and into the diagram from its sides. Heights are pixels away from the axis.
+  function peakWords(plot, layout) {
+    const peaks = peaksOf(plot), x = layout.xaxis.range || extent(plot.series.flatMap(s => s.x));
+    const [low, high] = extent(plot.series.flatMap(s => s.y));
+    if (!peaks.length || plot.x.log || plot.y.log || !(high > low)) return [];
+    const W = widthOf(plot), across = W / (x[1] - x[0]), up = heightOf(plot) / (high - low), placed = [];
+    return peaks.sort((a, b) => Math.abs(a.y) - Math.abs(b.y)).map(peak => {
+      const text = shortNumber(peak.y), half = 3.5 * letters(text) + 4, sign = peak.y < 0 ? -1 : 1;
+      const from = (peak.x - x[0]) * across, middle = Math.max(Math.min(from, W - half), half), own = sign * peak.y * up;
+      const curves = plot.series.flatMap(s => s.y.filter((_, i) => Math.abs((s.x[i] - x[0]) * across - middle) < half)).map(y => sign * y * up);
+      const words = placed.filter(other => other.sign === sign && Math.abs(other.middle - middle) < half + other.half);
+      const at = freeAbove(own + 7, [...curves, ...words.flatMap(other => [other.at, other.at + 13])]);
+      placed.push({at, middle, half, sign});
       return {
-        x: [s.x[k]], y: [s.y[k]], text: [`${+s.y[k].toPrecision(3)}`], mode: 'markers+text', type: 'scatter', showlegend: false, hoverinfo: 'skip', cliponaxis: false,
-        textposition: s.x[k] > s.x[0] + 0.85 * (s.x[s.x.length - 1] - s.x[0]) ? 'middle left' : 'middle right', textfont: {size: 11, color: colour(s.role)},
-        marker: {symbol: 'circle-open', size: 8, color: colour(s.role), line: {width: 1.6}},
+        x: peak.x, y: peak.y, text, showarrow: false, xanchor: 'center', yanchor: sign > 0 ? 'bottom' : 'top',
+        xshift: middle - from, yshift: sign * (at - own), font: {size: 11, color: colour(peak.role)}, bgcolor: colour('card'), opacity: 0.92,
       };
     });
+  }
+  // The least height from here on at which a line of words meets none of these heights; here, where that is far away.
+  function freeAbove(from, heights) {
+    let at = from;
+    for (;;) {
+      const hit = heights.filter(y => y > at - 3 && y < at + 15);
+      if (!hit.length) return at;
+      at = Math.max(...hit) + 5;
+      if (at > from + 50) return from;
+    }
   }
   // Names on an axis; of more lines the first alone where the page is narrow.
   const shortName = name => narrow() ? name.split('\n')[0] : name;
@@ -136,6 +206,8 @@
     }
     return lines.length > 4 ? null : lines.map(line => line.trim()).join('\n');
   }
+  // What would run over its room in lines that do not, as far as its words allow.
+  const broken = (text, most) => text.length > most ? inLines(text, Math.max(most, 8)) || text : text;
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
     const given = plot.x.least !== undefined && plot.x.greatest !== undefined ? {range: [plot.x.least, plot.x.greatest]} : {};
@@ -144,19 +216,54 @@
       return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: -35})};
     }
     if (given.range) return given;
+    // A closed curve does not touch the frame.
+    if (!plot.x.log && !plot.map && isLocus(plot) && plot.series.every(s => s.line && !s.points && !saysItself(s))) {
+      const [low, high] = extent(plot.series.flatMap(s => s.x)), margin = 0.04 * (high - low);
+      if (margin > 0) return {range: [low - margin, high + margin]};
+    }
     if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
-    const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
+    // A turn that was recorded from 0.9° to 360.8° is one from 0° to 360°.
+    const whole = v => plot.x.unit === '°' && Math.abs(v - 45 * Math.round(v / 45)) < 3 ? 45 * Math.round(v / 45) : v;
+    const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []).map(whole);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
   }
+  // Ticks of a logarithmic axis say their whole value, "2·10⁻³" and not "2", and are as close as their words allow:
+  // round steps where less than half a decade is seen, else all digits or some, every decade, or every so many.
+  function logTicks(low, high, roomFor) {
+    const exponents = Array.from({length: Math.ceil(high) - Math.floor(low) + 1}, (_, i) => Math.floor(low) + i);
+    const seen = list => list.filter(v => Math.log10(v) > low - 1e-9 && Math.log10(v) < high + 1e-9);
+    const choices = high - low > 0.5 ? [] : [12, 6, 4, 3, 2].map(parts => roundSteps(10 ** low, 10 ** high, parts));
+    for (const leads of [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 3, 5, 7], [1, 2, 5], [1, 3], [1]]) choices.push(exponents.flatMap(n => leads.map(lead => Number(`${lead}e${n}`))));
+    for (const each of [2, 3, 5, 10, 20]) choices.push(exponents.filter(n => n % each === 0).map(n => Number(`1e${n}`)));
+    for (const values of choices.map(seen)) {
+      const ticktext = values.map(v => values.some(needsPower) ? withPower(v, 6) : `${+v.toPrecision(6)}`);
+      const apart = Math.min(...values.slice(1).map((v, i) => Math.log10(v / values[i]))) / (high - low);
+      if (values.length && values.length < 13 && apart >= roomFor(Math.max(...ticktext.map(letters)))) return {tickmode: 'array', tickvals: values, ticktext};
+    }
+    return {};
+  }
+  function roundSteps(low, high, parts) {
+    const rough = (high - low) / parts, power = 10 ** Math.floor(Math.log10(rough));
+    const step = power * [1, 2, 5, 10].find(lead => lead >= rough / power - 1e-9), first = Math.ceil(low / step);
+    return Array.from({length: parts + 1}, (_, i) => +((first + i) * step).toPrecision(9));
+  }
+  // Words beside each other need their length, words above each other their height; as parts of the axis.
+  const roomFor = (along, length) => count => (along === 'x' ? 6.5 * count + 14 : 24) / length;
+  function ticksOf(plot, given, along) {
+    const [low, high] = given.log ? extent(plot.series.flatMap(s => s[along]).filter(v => v > 0).map(Math.log10)) : [0, -1];
+    if (!(low <= high)) return {};
+    const margin = high > low ? 0.06 * (high - low) : 0.5;
+    return logTicks(low - margin, high + margin, roomFor(along, lengthOf(plot, along)));
+  }
+  // Numbers below bars: each, every other, every fifth, as their words have room.
+  function stepOfBars(plot) {
+    const [first, last] = extent(plot.series.flatMap(s => s.x)), least = (last - first + 1) * 24 / widthOf(plot);
+    return [1, 2, 5, 10, 20, 50].find(step => step >= least) || 100;
+  }
   function layoutOf(plot) {
-    // A logarithmic axis of few decades has 2 and 5 between its powers of ten.
-    const ticks = (given, along) => {
-      const values = plot.series.flatMap(s => s[along]).filter(v => v > 0);
-      return given.log && values.length && Math.log10(Math.max(...values) / Math.min(...values)) < 2.5 ? {dtick: 'D2'} : {};
-    };
     const axis = (given, along) => ({
-      ...ticks(given, along), title: {text: withUnit(given), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
-      linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', hoverformat: '.6~g',
+      title: {text: plain(broken(withUnit(given), lengthOf(plot, along) / 6.8)), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
+      linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', hoverformat: '.6~g', ...ticksOf(plot, given, along),
     });
     const layout = {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
@@ -166,7 +273,7 @@
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
     if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];
-    if (plot.bars && !plot.x.names) Object.assign(layout.xaxis, {dtick: 1});
+    if (plot.bars && !plot.x.names) Object.assign(layout.xaxis, {dtick: stepOfBars(plot)});
     if (plot.x.unit === '°' && !isLocus(plot)) Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
     if (plot.map) {
       const ys = edgesOf(plot.map.y);
@@ -185,7 +292,9 @@
     for (const band of plot.bands || []) {
       const line = band.from === band.to;
       shapes.push({type: line ? 'line' : 'rect', xref: 'x', yref: 'paper', x0: band.from, x1: band.to, y0: 0, y1: 1, layer: plot.map ? 'above' : 'below', fillcolor: colour(band.role), opacity: line ? 1 : 0.16, line: {width: line ? 1.4 : 0, color: colour(band.role), dash: 'dash'}});
-      annotations.push({x: (band.from + band.to) / 2, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: line ? 'right' : 'center', yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
+      // Before its line, and within its band where it begins: curves have their peaks, and lines stand, in the middle.
+      const from = x ? Math.max(band.from, Math.min(x[0], band.to)) : band.from;
+      annotations.push({x: from, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: line ? 'right' : 'left', yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
     }
     // "6 · 4 × cylinder" and "2  ring against flywheel, 280 Hz": where the page is narrow their numbers alone.
     const short = text => narrow() ? text.split(' ')[0] : text;
@@ -229,6 +338,7 @@
     top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: narrow() ? 'center' : 'left', yanchor: 'bottom', textangle: narrow() ? 0 : -40}));
     const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * 6.2 + 8), t: ceiling ? (narrow() ? 24 : ceiling * 4 + 18) : layout.margin.t};
     const legend = ceiling ? {...layout.legend, y: -0.22, yanchor: 'top'} : layout.legend;
+    annotations.push(...peakWords(plot, layout));
     return {shapes, annotations, margin, legend};
   }
   function csvOf(plot) {
@@ -274,6 +384,7 @@
       tool.onclick = event => { event.preventDefault(); act(); };
     }
     const entry = {plot, place, drawn: false};
+    plot.place = place;
     // Names that a narrow diagram has no room for.
     const named = narrow() ? plot.series.filter(s => s.textAtStart) : [];
     if (named.length) {
@@ -287,7 +398,19 @@
     const {plot, place} = entry, layout = layoutOf(plot);
     if (root.classList.contains('printing')) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
     Plotly.react(place, tracesOf(plot), layout, {responsive: true, displaylogo: false, displayModeBar: false});
+    if (!entry.drawn && (plot.marks.length || plot.x.log || plot.y.log)) place.on('plotly_relayout', () => refine(entry));
     entry.drawn = true;
+  }
+  // Who looks closer sees finer ticks on logarithmic axes, and events apart that were one band.
+  function refine({plot, place}) {
+    const seen = place._fullLayout, first = place.data.findIndex(trace => trace.name === 'event bands'), axes = {};
+    for (const along of ['x', 'y']) {
+      const {range, _length} = seen[along + 'axis'];
+      if (plot[along].log) for (const [key, value] of Object.entries(logTicks(...range, roomFor(along, _length)))) axes[`${along}axis.${key}`] = value;
+    }
+    if (first < 0) return Plotly.update(place, {}, axes);
+    const [bands, events] = eventTraces(plot, seen.xaxis.range, seen.xaxis._length);
+    Plotly.update(place, {x: [bands.x, events.x], y: [bands.y, events.y], 'marker.opacity': [1, events.marker.opacity]}, axes, [first, first + 1]);
   }
   const drawAll = () => plots.forEach(drawPlot);
   // One after the other, so that the page answers meanwhile.
@@ -485,6 +608,12 @@
       stage.classList.add('beside');
       stage.style.setProperty('--sides', [line.svg, linkages[0]].map(svg => `minmax(0, ${ratio(svg).toFixed(3)}fr)`).join(' '));
     }
+    // Several mechanisms share the room in columns of at least 200 pixels.
+    const columns = Math.max(1, Math.min(linkages.length, Math.floor((room + 16) / 216))), most = linkages.length > 1 ? 300 : 460;
+    for (const svg of linkages) {
+      const {width, height} = svg.viewBox.baseVal, scale = beside ? high / height : Math.min(room / columns / width, most / height);
+      svg.style.setProperty('--words', `${Math.min(13 / scale, 22).toFixed(1)}px`);
+    }
     const words = Math.min(13 / Math.min(beside ? high / box.height : room / box.width, parseFloat(line.svg.style.maxHeight) / box.height), 24);
     line.svg.style.setProperty('--words', `${words.toFixed(1)}px`);
     for (const [text, middle] of line.names) {
@@ -622,6 +751,20 @@
     return lanes;
   }
 
+  // A row for each line, and lines of few parts beside the one before where that leaves room; from where each begins.
+  function putLanes(lanes, lengthOf) {
+    const widest = Math.max(420, ...lanes.map(lane => lengthOf(lane.list))), most = Math.max(widest, narrow() ? 0 : 1100), rows = [];
+    for (const lane of lanes) {
+      const before = rows[rows.length - 1], length = lengthOf(lane.list), whole = lane.begins && lane.ends;
+      if (before && whole && before.whole && before.length + length <= most) Object.assign(lane, {level: rows.length - 1, left: before.length});
+      else { Object.assign(lane, {level: rows.length, left: 0}); rows.push({length: 0, whole}); }
+      rows[lane.level].length += length;
+    }
+    const width = Math.max(420, ...rows.map(row => row.length));
+    for (const lane of lanes) lane.left += (width - rows[lane.level].length) / 2;
+    return {width, rows: rows.length};
+  }
+
   // Parts side by side, a line painted along the shafts, and a dial below each part.
   function drawShaftLine(m, front, stage) {
     const ghost = m.motions.length > 1 ? m.motions[0] : null;
@@ -636,16 +779,16 @@
     }
     const axis = 112 + raise, dials = axis + deepest + 62, tied = m.ties.length || lanes.some(lane => !lane.begins), rowHeight = dials + (tied ? 71 : 41);
     const lengthOf = list => list.reduce((sum, e) => sum + (e ? partWidth(e.p) : 40) + gap, gap);
-    const width = Math.max(420, ...lanes.map(lane => lengthOf(lane.list)));
-    const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * lanes.length}`, class: 'line', role: 'img'}, stage);
-    svg.style.maxHeight = `${460 * lanes.length}px`;
+    const {width, rows} = putLanes(lanes, lengthOf);
+    const svg = draw('svg', {viewBox: `0 0 ${width} ${rowHeight * rows}`, class: 'line', role: 'img'}, stage);
+    svg.style.maxHeight = `${rows > 1 ? Math.min(460, rowHeight) * rows : 460}px`;  // several rows are not enlarged
     draw('title', {}, svg, 'Shaft line');
     const updates = [], stations = [], names = [];
     const ends = [], shaftsOf = [];  // of each lane: its first and last point; of each part: its two shafts
     const under = draw('g', {}, svg);  // ties between the lanes, behind everything
-    lanes.forEach(({row, list, begins, ends: closes}, r) => {
+    lanes.forEach(({row, list, begins, ends: closes, level, left}, r) => {
       const comesFrom = !begins || m.ties.some(tie => tie.row === row && !tie.atEnd), goesTo = !closes || m.ties.some(tie => tie.row === row && tie.atEnd);
-      let x = gap + (width - lengthOf(list)) / 2, y = rowHeight * r + axis, line = [];
+      let x = gap + left, y = rowHeight * level + axis, line = [];
       stations.push(line);
       list.forEach((entry, n) => {
         if (!entry) {
@@ -657,7 +800,7 @@
         const {p, k} = entry, w = partWidth(p), kind = p.kind, middle = x + w / 2, out = y + stepOf(p);
         // Shafts to both neighbours.
         const shaft = (a, b, at) => draw('rect', {x: a, y: at - R, width: b - a, height: 2 * R, class: 'shaft'}, svg);
-        shaftsOf[k] = {lane: r, middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
+        shaftsOf[k] = {level, middle, in: {x: x - gap / 2, y}, out: {x: x + w + gap / 2, y: out}};
         ends[r] = {first: ends[r] ? ends[r].first : {x: x - gap / 2, y}, last: {x: x + w + gap / 2, y: out}};
         const joins = couples(kind) || stepsDown(kind);
         if (n > 0 || comesFrom || joins) shaft(x - gap / 2, middle, y);
@@ -686,9 +829,10 @@
           if (/motor/.test(kind)) for (let j = 1; j < 6; ++j) stroke(svg, middle - thick / 2 + 8, y - height / 2 + j * height / 6, middle + thick / 2 - 8, y - height / 2 + j * height / 6, 0.6);
           if (p.crank) {
             shaft(middle, middle + 22, y);
-            const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg), at0 = y;
+            const web = draw('rect', {class: 'body', x: middle + 14, width: 12}, svg), pin = draw('rect', {class: 'shaft', x: middle + 26, width: 26, height: 12}, svg);
+            const at0 = y, pinHeight = pinHeightOf(m, front, k);
             updates.push(at => {
-              const h = 40 * Math.sin(at(front.angle));
+              const h = 40 * pinHeight(at);
               place(web, {y: at0 + Math.min(0, -h) - 10, height: Math.abs(h) + 20});
               place(pin, {y: at0 - h - 6});
             });
@@ -700,15 +844,15 @@
         if (n < list.length - 1 || goesTo) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
         // Name, and the dial.
         const name = p.name.length > 16 ? p.name.slice(0, 15) + '…' : p.name;
-        names.push([draw('text', {x: middle, y: rowHeight * r + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name), middle]);
-        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * r + dials, svg));
+        names.push([draw('text', {x: middle, y: rowHeight * level + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name), middle]);
+        updates.push(drawDial(m, front, ghost, k, middle, rowHeight * level + dials, svg));
         x += w + gap;
         y = out;
       });
     });
     // A line begins, and may end, at a shaft of another, and goes on below where it was cut: drawn as a way round the dials.
     const tie = (from, a, b, atEnd, n) => {
-      const shelf = rowHeight * from.lane + dials + 42 + 8 * (n % 3), aside = atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
+      const shelf = rowHeight * from.level + dials + 42 + 8 * (n % 3), aside = atEnd ? Math.min(width - 4, b.x + 10) : Math.max(4, b.x - 10);
       draw('polyline', {points: `${from.middle},${a.y} ${a.x},${a.y} ${a.x},${shelf} ${aside},${shelf} ${aside},${b.y} ${b.x},${b.y}`, class: 'tie'}, under);
     };
     m.ties.forEach((t, n) => {
@@ -718,7 +862,7 @@
       tie(to, a, t.atEnd ? ends[own].last : ends[own].first, t.atEnd, n);
       draw('circle', {cx: a.x, cy: a.y, r: 4, class: 'tie-end'}, svg);
     });
-    lanes.forEach((lane, r) => { if (!lane.begins && ends[r] && ends[r - 1]) tie({lane: r - 1, middle: ends[r - 1].last.x}, ends[r - 1].last, ends[r].first, false, 0); });
+    lanes.forEach((lane, r) => { if (!lane.begins && ends[r] && ends[r - 1]) tie({level: lanes[r - 1].level, middle: ends[r - 1].last.x}, ends[r - 1].last, ends[r].first, false, 0); });
     const angleOf = (motion, s, at) => at(motion.angle) + apartOf(m, motion, s.k, s.side === 'twistOut', at);
     for (const line of stations.filter(l => l.length > 1)) {
       const background = draw('polyline', ghost ? {class: 'ghost', 'stroke-width': 8} : {class: 'untwisted'}, svg);
@@ -730,6 +874,32 @@
       });
     }
     return {svg, names, update: (at, loads) => updates.forEach(update => update(at, loads))};
+  }
+
+  // Where a mechanism's joint stands at an angle of its crank: by table over 240 places a turn, of which a cycle may have two.
+  function jointsOf(g) {
+    const steps = g.x[0].length - 1, turns = Math.max(1, Math.round(steps / 240));
+    return (k, angle) => {
+      const place = ((angle / (2 * Math.PI * turns)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
+      return [g.x, g.y].map(list => list[k][i] + share * (list[k][i + 1] - list[k][i]));
+    };
+  }
+  // The angle of a mechanism's crank: in its own speed, and with what slips between it and the link.
+  function crankAngle(m, g, motion, at) {
+    const k = m.parts.findIndex(p => p.name === g.name);
+    return g.ratio * (at(motion.angle) + (k < 0 ? 0 : slipOf(motion, k, true, at)));
+  }
+  // How high the pin of a part's crank stands, as part of its throw: as the view of its mechanism shows it, in its phase and
+  // direction. Of many mechanisms the last have no view.
+  function pinHeightOf(m, front, k) {
+    const part = m.parts[k], g = m.linkages.find(linkage => linkage.name === part.name);
+    if (!g) return at => Math.sin(part.ratioOut * (at(front.angle) + slipOf(front, k, true, at)));
+    const jointAt = jointsOf(g), c = Math.cos(g.direction), s = Math.sin(g.direction);
+    return at => {
+      const angle = crankAngle(m, g, front, at), bearing = jointAt(0, angle), pin = jointAt(1, angle);
+      const [u, v] = [0, 1].map(axis => pin[axis] - bearing[axis]);
+      return (u * s + v * c) / (Math.hypot(u, v) || 1);
+    };
   }
 
   // By how much a part's shaft stands before the link: its twist enlarged, its slip as it is.
@@ -780,19 +950,16 @@
   // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
   function drawLinkage(m, g, which, front, ghosts, stage) {
     const own = front.force[which] || [];
-    const c = Math.cos(g.direction), s = Math.sin(g.direction), steps = g.x[0].length - 1;
-    const turns = Math.max(1, Math.round(steps / 240));  // 240 places a turn, of which a cycle may have two
-    const jointAt = (k, angle) => {
-      const place = ((angle / (2 * Math.PI * turns)) % 1 + 1) % 1 * steps, i = Math.min(Math.floor(place), steps - 1), share = place - i;
-      return [g.x, g.y].map(list => list[k][i] + share * (list[k][i + 1] - list[k][i]));
-    };
+    const c = Math.cos(g.direction), s = Math.sin(g.direction), jointAt = jointsOf(g);
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
     const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
     const slider = g.links.find(link => link.shape === 'slider'), end = slider ? slider.joints[0] : g.output;
     const forced = own.length > 0;
     // Corners of what is seen, in the mechanism's axes.
-    const far = most(g.x) + (slider ? body + (forced ? 0.55 * room : 0) : 0.4 * body);
-    const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [least(g.y) - 0.75 * body, most(g.y) + 0.75 * body].map(v => [u * c - v * s, -(u * s + v * c)]));
+    const far = most(g.x) + (slider ? body + (forced ? 0.55 * room : 0) : 0.4 * body), aside = (g.load === 'press' ? 1.25 : 0.75) * body;
+    const way = slider ? [g.y[end][0] - aside, g.y[end][0] + aside] : [];
+    const low = Math.min(least(g.y) - 0.3 * body, ...way), high = Math.max(most(g.y) + 0.3 * body, ...way);
+    const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [low, high].map(v => [u * c - v * s, -(u * s + v * c)]));
     const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
     const w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - Math.min(...ys);
     const scale = 380 / Math.max(w, h), padding = 18;
@@ -826,10 +993,10 @@
     }
     const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
-    draw('text', {x: 10, y: 30, class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
-    if (g.name) draw('text', {x: 22 + bar * scale, y: 18, class: 'soft'}, svg, g.name);
+    draw('text', {x: 10, y: 19, dy: '.85em', class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
+    if (g.name) draw('text', {x: 22 + bar * scale, y: 14, dy: '.35em', class: 'soft'}, svg, g.name);
 
-    if (bent) draw('text', {x: 10, y: 48, class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    if (bent) draw('text', {x: 10, y: 38, dy: '.85em', class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
     // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
     const gaps = g.gaps.map((gap, k) => {
       const x = W - 76 - 150 * k, y = 42, wide = 12, R = 36;
@@ -890,9 +1057,9 @@
     const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
     return {svg, update};
     function update(at, loads) {
-      const points = main(g.ratio * at(front.angle), bent ? g.bendEnlargement * at(bends) : 0);
+      const points = main(crankAngle(m, g, front, at), bent ? g.bendEnlargement * at(bends) : 0);
       gaps.forEach(show => show(at));
-      ghosts.forEach((ghost, i) => shadows[i](g.ratio * at(ghost.angle)));
+      ghosts.forEach((ghost, i) => shadows[i](crankAngle(m, g, ghost, at)));
       const force = at(own), shown = loads && Math.abs(force) > 1e-4 * largest;
       group.setAttribute('visibility', shown ? 'visible' : 'hidden');
       if (!shown) return;

@@ -102,6 +102,18 @@ FrequencyResponse::FrequencyResponse(const LinearDrive& drive) : drive_(drive), 
   solver_->dense_mass = solver_->mass;
 }
 
+std::optional<LinearDrive> as_if_rigid(LinearDrive drive) {
+  constexpr double stiffer = 1e6;
+  const bool springs_alone = std::all_of(drive.joints.begin(), drive.joints.end(), [](const LinearDrive::Joint& joint) {
+    return joint.state == LinearDrive::Joint::State::spring && joint.stiffness > 0;
+  });
+  if (!springs_alone || drive.other_stiffness.nonZeros() > 0 || drive.own_by_twist.nonZeros() > 0) return {};
+  for (LinearDrive::Joint& joint : drive.joints) joint.stiffness *= stiffer;
+  drive.stiffness *= stiffer;
+  drive.torque_by_twist *= stiffer;
+  return drive;
+}
+
 Forcing Forcing::none(const LinearDrive& drive) {
   const auto joints = static_cast<Index>(drive.joints.size());
   return {Eigen::VectorXcd::Zero(drive.size()), Eigen::VectorXcd::Zero(drive.own_states()),

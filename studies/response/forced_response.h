@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "studies/response/excitation.h"
@@ -68,6 +69,10 @@ class FrequencyResponse {
 };
 
 SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations);
+
+// The same drive with springs so much stiffer that its joints transmit what they would in a rigid machine, to some 1e-6
+// of (ω/ω_n)². None where a joint slips or sticks, or where torques hang on the twists besides.
+std::optional<LinearDrive> as_if_rigid(LinearDrive drive);
 
 // The same of torques over a round of the steady motion, evenly sampled; orders are multiples of one per round.
 SpeedResponse response_of_samples(const std::vector<std::vector<double>>& torques, double speed, double round);

@@ -120,8 +120,10 @@ void conclude(Comparison& c) {
                                     : fmt::format("{} changes by {:+.2g} %", what, 100 * (*row.ratio - 1)));
   }
   if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";
-  c.conclusion += fmt::format("; the {} model costs {:.3g} × the time{}.", c.b.label,
-                              c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9), shared(c));
+  const double time = c.b.statistics.cpu_seconds / std::max(c.a.statistics.cpu_seconds, 1e-9);
+  c.conclusion += time < alike_in_time && time > 1 / alike_in_time
+                      ? fmt::format("; the {} model costs about the same time{}.", c.b.label, shared(c))
+                      : fmt::format("; the {} model costs {:.2g} × the time{}.", c.b.label, time, shared(c));
 }
 
 }  // namespace
@@ -165,8 +167,10 @@ Comparison compare(const Scene& scene, const Effects& a, const std::string& labe
                    const std::string& label_b, const SimulateOptions& options) {
   Comparison c;
   c.title = scene.heading();
-  c.a = simulate(scene, a, label_a, options);
-  c.b = simulate(scene, b, label_b, options);
+  SimulateOptions timed = options;
+  timed.timed = true;
+  c.a = simulate(scene, a, label_a, timed);
+  c.b = simulate(scene, b, label_b, timed);
   c.in_both = in_both(a, b).describe();
   add_rows(c);
   if (c.a.trajectory && c.b.trajectory) note_sudden_loads(c);

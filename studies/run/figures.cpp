@@ -283,10 +283,11 @@ class Figures {
                      .duration = run_.outcome.t - begin,
                      .energy_scale = energy_scale(),
                      .last = repeating_,
+                     .cycles = run_.cycles.cycles(),
                      .currents = run_.currents.get(),
                      .end = run_.outcome.t,
                      .steady = run_.periods.steady && !run_.periods.run_down_begin,
-                     .run_up = after_run_up()}))
+                     .after_run_up = after_run_up()}))
       run_.figures.push_back(std::move(f));
   }
   // Where nothing moves, a part of the work of the rated torque over 1 rad, beside which what is left is rounding.

@@ -131,9 +131,9 @@ Plot energy_plot(const Result& r) {
     if (largest({traces[i]}) > 0)
       plot.series.push_back(series_of(*traces[i], found[i].name, found[i].role, 1, unit.factor));
   if (r.energy.checks == 0 || nothing_turned_over(r.energy)) return plot;
-  plot.note = fmt::format(
-      "Kinetic and spring energy less all work since the start stays the same to {:.1e} of the energy turned over.",
-      r.energy.relative);
+  plot.note =
+      fmt::format("Kinetic and spring energy less all work since the start stays the same{}.",
+                  r.energy.relative > 0 ? fmt::format(" to {:.1e} of the energy turned over", r.energy.relative) : "");
   return plot;
 }
 
@@ -285,7 +285,7 @@ std::string told_figure(const Result& r, const std::string& name, const char* wo
 
 // A word that fits the plot's marks, where there are any.
 void note_marks(Plot& plot) {
-  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks below: events; hover to read.";
+  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks and bands below: events; hover to read.";
 }
 
 }  // namespace

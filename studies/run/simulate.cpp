@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/numerics/index.h"
@@ -29,6 +30,7 @@
 namespace kurbel {
 namespace {
 
+constexpr double timed_for = 0.05;  // all timings of a run together [s]
 // Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
 constexpr int energy_checks = 60;
 // Below this a tolerance asks for more than double precision has.
@@ -65,6 +67,7 @@ class Simulation {
       note_interrupt();
       state_errors();
     }
+    if (options_.timed && fine_->outcome.complete) time_again();
     fill(*fine_, tolerance_);
     return std::move(result_);
   }
@@ -179,6 +182,17 @@ class Simulation {
   }
   bool tighten_elsewhere() {
     return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) && run_elsewhere(tighter(elsewhere_tolerance_));
+  }
+
+  // A short run is made again, for its time alone: what else goes on only adds to it, so that the least is told.
+  void time_again() {
+    double &least = fine_->outcome.statistics.cpu_seconds, spent = least;
+    const auto told = std::tuple(result_.runs, result_.cpu_total, result_.flow_calls);
+    for (int i = 0; i < 8 && spent < timed_for && !interrupted(); ++i) {
+      const RunOutcome again = std::move(one_run(tolerance_)->outcome);
+      if (again.complete) spent += again.statistics.cpu_seconds, least = std::min(least, again.statistics.cpu_seconds);
+    }
+    std::tie(result_.runs, result_.cpu_total, result_.flow_calls) = told;
   }
 
   void note_interrupt() {

@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::optional<double> first_tolerance = {};  // the ladder begins there; default: accuracy/10
   std::string chosen_because = {};             // for people: who says so
   std::string go_on_from = {};        // text of a checkpoint (engine/run/checkpoint.h): figures are of what follows it
+  bool timed = false;                 // its time is compared: a short run is made several times, the least counts
   bool keep_state = false;            // the result's checkpoint is wanted: no method over the angle
   std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's
 };
@@ -30,6 +31,9 @@ Result simulate(std::shared_ptr<const Model> model, const std::string& label, co
 
 // Names and units of all figures that runs of a model can yield.
 std::vector<Figure> figure_list(const Model& model);
+
+// Processor times nearer to each other than this factor are not told apart: that of one run differs so much between runs.
+inline constexpr double alike_in_time = 1.15;
 
 // Local tolerances are this much tighter in the run that confirms.
 inline constexpr double tolerance_step = 30;

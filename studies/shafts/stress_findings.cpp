@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace kurbel {
 namespace {
@@ -28,14 +29,21 @@ std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
   return text;
 }
 
-// Where that is more than is allowed, and passed through: what passing it uses of its own limit.
-std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
+// Of a stress that is more than is allowed for long, within a barred range that is passed through: its share of what is
+// allowed then. None: it is to be borne for long.
+std::optional<double> use_in_passing(const ShaftStresses& s, const StressPeak& p) {
   const LimitedJoint& joint = s.joints[p.joint];
   const bool barred = std::any_of(s.normal.barred.begin(), s.normal.barred.end(),
                                   [&](const BarredRange& b) { return b.from <= p.speed && p.speed <= b.to; });
-  if (p.use() <= 1 || !barred || !joint.limits.shaft.is_of_propulsion() || joint.speed_ratio(p.speed) > 0.8) return "";
+  if (p.use() <= 1 || !barred || !joint.limits.shaft.is_of_propulsion() || joint.speed_ratio(p.speed) > 0.8) return {};
+  return p.stress / joint.transient(p.speed);
+}
+
+std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
+  const std::optional<double> use = use_in_passing(s, p);
+  if (!use) return "";
   return fmt::format("; that is within a barred range, and passing through it uses {:.0f} % of what is allowed then",
-                     100 * p.stress / joint.transient(p.speed));
+                     100 * *use);
 }
 
 // Of all cylinders in turn the sums of all orders.
@@ -147,8 +155,12 @@ std::string stress_sentence(const ShaftStresses& s) {
 
 double stress_excess(const ShaftStresses& s) {
   double most = 0;
-  for (const StressPeak& p : stress_peaks(s.joints, s.normal)) most = std::max(most, p.use());
-  for (const StressPeak& p : misfire_peaks(s)) most = std::max(most, p.use());
+  const auto look_at = [&](const StressPeak& p) {
+    const double passing = use_in_passing(s, p).value_or(HUGE_VAL);
+    most = std::max(most, passing <= 1 ? passing : p.use());
+  };
+  for (const StressPeak& p : stress_peaks(s.joints, s.normal)) look_at(p);
+  for (const StressPeak& p : misfire_peaks(s)) look_at(p);
   return most > 1 ? most : 0;
 }
 

@@ -1,6 +1,5 @@
 // cycle_search.cpp — from a guess to the return map's fixed point, and what is told of it.
 #include "studies/steady/cycle_search.h"
-#include "studies/run/compare.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
+#include "studies/run/compare.h"
 #include "studies/steady/round_figures.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
@@ -285,7 +285,20 @@ class Search {
     out_.work_residual = fine.work_residual;
     out_.notes = static_curve_notes(*map_, out_.point);
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
+    find_loads();
     if (options_.traces) follow();
+  }
+
+  // What joints with limits bear, as `kurbel modes` asks it.
+  void find_loads() {
+    const std::vector<LimitedJoint> joints = limited_joints(*out_.model);
+    if (!any_limits(joints)) return;
+    Regime kept;
+    kept.kind = Regime::Kind::cycle;
+    kept.polished = true;
+    kept.map = map_;
+    kept.point = out_.point;
+    out_.loads = steady_loads(kept, out_.model, joints);
   }
 
   // The same machine with its mechanisms extracted anew, where they work from tables.

@@ -10,6 +10,7 @@
 #include "engine/analysis/moment.h"
 #include "engine/analysis/regime.h"
 #include "studies/findings/watch.h"
+#include "studies/limits/joint_loads.h"
 #include "studies/run/simulate.h"
 #include "studies/steady/operating_points.h"
 
@@ -72,6 +73,7 @@ struct SteadyCycle {
   std::vector<Figure> figures;            // with errors measured by a looser search
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;
+  SteadyLoads loads;         // of its joints, where any has limits
   double work_residual = 0;  // of the cycle's works against each other, over the driving work
   double added_torque = 0;   // constant, beside the drive, that the demanded mean speed needs [N·m]
   std::string added_at;      // on this component's shaft

@@ -342,7 +342,7 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
     if (const Figure* delta = c.find("delta." + s.link))
       f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
     if (!c.point.multipliers.empty())
-      f.figures.push_back({"largest multiplier, " + c.label, c.point.largest(), "",
+      f.figures.push_back({"left of a deviation after a cycle, " + c.label, c.point.largest(), "",
                            c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front()),
                            c.stability, 4, "largest_multiplier"});
   }

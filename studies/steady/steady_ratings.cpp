@@ -6,6 +6,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "studies/limits/ratings.h"
+#include "studies/limits/verdicts.h"
 
 namespace kurbel {
 namespace {
@@ -31,6 +32,22 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
         rim.error = speed * *fastest->error / std::abs(fastest->value);
       as_run.figures.push_back(std::move(rim));
     }
+  }
+}
+
+// What joints bear in the steady motion, by DIN 740-2 and the makers' stresses; the start is judged by `modes` and `run`.
+void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
+  if (!c.loads.found) return;
+  RunUp none;
+  none.words = "kurbel modes judges the start";
+  const auto head = [](const Verdict& v) { return v.requirement.substr(0, v.requirement.find(':')); };
+  for (Verdict& v : verdicts)
+    if (v.requirement == requirement::maximum && v.note.empty()) v.note = "in steady motion; " + none.words;
+  for (Verdict& v : judge(limited_joints(*c.model), c.loads, none, {}, c.model->scene.speed_unit)) {
+    const bool known = std::any_of(verdicts.begin(), verdicts.end(), [&](const Verdict& other) {
+      return other.component == v.component && head(other) == head(v);
+    });
+    if (!known) verdicts.push_back(std::move(v));
   }
 }
 
@@ -64,6 +81,7 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
     as_run.figures.push_back(std::move(strand));
   }
   std::vector<Verdict> verdicts = judge_ratings(as_run);
+  add_loads(c, verdicts);
   std::erase_if(verdicts, [&](const Verdict& v) {
     const Section* s = c.model->scene.find(v.component);
     return s && s->has("duty") && duty_rating_fields().read(*s).duty == DutyRating::Duty::short_time;

@@ -29,12 +29,12 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   words.push_back(c.stability);
   if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
   words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; {}{} rounds of Newton's method ({} with derivative), {:.3g} cycles' "
+      "{} unknown{} on the section at {:.4g}°; {}{} round{} of Newton's method ({} with derivative), {:.3g} cycles' "
       "worth "
       "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", c.section * in_degrees,
       c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
-      c.point.rounds, c.point.derivatives, c.cost, c.cost_limit,
+      c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
       c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; the run-up takes most" : "", 1e3 * c.cpu_seconds,
       c.point.residual, c.work_residual));
   if (c.point.grazed)
@@ -55,17 +55,17 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
 }
 
 std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
-  if (!s.diagram) return {"no operating diagram: " + s.no_diagram};
+  if (!s.diagram) return {"No operating diagram: " + s.no_diagram};
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
     words.push_back(
-        fmt::format("operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+        fmt::format("Operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
                     with_error(d.speed_unit.of(p.mean.omega), d.speed_unit.of(p.speed_error), d.speed_unit.name),
                     with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
                     beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format("margin: the drive gives at most {} in the mean (at {}), {}",
+    words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
                                 with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
                                 std::isfinite(d.margin(*p))
                                     ? with_error(d.margin(*p), d.margin_error(*p), "") + " times what it needs"
@@ -77,12 +77,12 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
 std::vector<std::string> words_of_start(const SteadyStudy& s) {
   std::vector<std::string> words;
   if (s.start)
-    words.push_back(s.start->reached ? fmt::format("start: from rest to 95 % of the steady speed in {}",
+    words.push_back(s.start->reached ? fmt::format("Start: from rest to 95 % of the steady speed in {}",
                                                    with_error(s.start->time, s.start->error, "s"))
-                                     : "start: " + s.start->why);
+                                     : "Start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
-        "fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
+        "Fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
         r.at_bound ? " (the end of what was tried)" : "", with_unit(r.best_time, "s", 5),
         r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present, 5), with_unit(r.present_time, "s", 5))
                            : fmt::format("with its ratio of {} the machine does not start", number(r.present, 5))));

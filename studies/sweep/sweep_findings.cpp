@@ -302,8 +302,9 @@ Findings findings_of(const SweepStudyResult& s) {
     if (f.figures.size() < 4)
       f.figures.push_back(
           {"greatest " + spread.figure.name, spread.greatest, spread.figure.unit, {}, "", 5, spread.figure.name});
-  const Chapter limits = f.chapter("Limits"), influence = f.chapter("What moves the figures"),
-                curves = f.chapter("Response"), worst = f.chapter("Machines"), all = f.chapter("The sweep");
+  const Chapter limits = f.chapter(s.limits.empty() ? "Over two parameters" : "Limits"),
+                influence = f.chapter("What moves the figures"), curves = f.chapter("Response"),
+                worst = f.chapter("Machines"), all = f.chapter("The sweep");
   if (!s.limits.empty()) f.say(limits, limit_table(s));
   f.note(limits, notes_on_limits(s));
   f.draw(limits, [&s] { return limit_maps(s); });

@@ -179,12 +179,26 @@ std::vector<const SweepRow*> some_rows(const SweepStudyResult& s, std::size_t mo
   return rows;
 }
 
+// Whether two figures move together so closely that a second picture would be the first again.
+bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
+  constexpr double within = 1e-2;
+  if (s.identity.figures[one].unit != s.identity.figures[other].unit) return false;
+  return std::all_of(s.rows.begin(), s.rows.end(), [&](const SweepRow& row) {
+    const double a = value_in(row, one), b = value_in(row, other);
+    return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > within * std::max(std::abs(a), std::abs(b)));
+  });
+}
+
 std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {
   std::vector<std::size_t> list;
   for (const FigureLimit& l : s.limits)
     if (std::find(list.begin(), list.end(), l.figure) == list.end()) list.push_back(l.figure);
+  const auto is_drawn = [&](std::size_t figure) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](std::size_t drawn) { return drawn == figure || alike(s, drawn, figure); });
+  };
   for (const FigureInfluence& f : s.influences)
-    if (!f.ranked.empty() && std::find(list.begin(), list.end(), f.figure) == list.end()) list.push_back(f.figure);
+    if (!f.ranked.empty() && !is_drawn(f.figure)) list.push_back(f.figure);
   if (list.size() > most_figures) list.resize(most_figures);
   return list;
 }

@@ -102,11 +102,26 @@ Rows parameter_table(const UncertaintyStudy& s) {
       .only_for_programs("cut_off", [](const Tolerated& t) { return t.cut_off(); });
 }
 
+// Whether the picture of one would be that of the other again.
+bool alike(const FigureUncertainty& a, const FigureUncertainty& b) {
+  constexpr double within = 1e-2;
+  const auto near = [](double x, double y) { return std::abs(x - y) <= within * std::max(std::abs(x), std::abs(y)); };
+  if (a.figure.unit != b.figure.unit || a.shares.size() != b.shares.size() || a.biases.size() != b.biases.size())
+    return false;
+  return near(a.value, b.value) && near(a.deviation(), b.deviation()) &&
+         std::equal(a.shares.begin(), a.shares.end(), b.shares.begin(), [&](const auto& x, const auto& y) {
+           return x.parameter == y.parameter && near(x.deviation, y.deviation);
+         });
+}
+
 // Numerical error, inputs and biases side by side, in percent of the value.
 std::vector<Plot> pictures(const UncertaintyStudy& s) {
   std::vector<Plot> plots;
+  std::vector<const FigureUncertainty*> drawn;
   for (const FigureUncertainty& f : s.figures) {
     if (!(std::abs(f.value) > 0) || !(f.by_gradients > 0) || plots.size() >= 6) continue;
+    if (std::any_of(drawn.begin(), drawn.end(), [&f](const auto* other) { return alike(*other, f); })) continue;
+    drawn.push_back(&f);
     const double percent = 100 / std::abs(f.value);
     Plot plot{.title = fmt::format("What makes {} uncertain", f.figure.name),
               .x = {.label = "where it comes from"},

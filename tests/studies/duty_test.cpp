@@ -7,11 +7,14 @@
 
 #include "studies/duty/work_periods.h"
 #include "studies/findings/trace.h"
+#include "studies/limits/ratings.h"
+#include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady_findings.h"
 #include "studies/steady/steady_ratings.h"
 #include "tests/published/published.h"
 #include "tests/support/conclusions.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel {
@@ -99,6 +102,29 @@ TEST(MotorFigures, PowerTimesTimeIsWorkAndRunAgreesWithSteady) {
     EXPECT_TRUE(r.find(name)->error && *r.find(name)->error > 0) << name;
 }
 
+// With both ends at work the compressor asks 55 % of its motor, with one 29 %: its heat is by the heavier, and so is the
+// verdict, though the run ends with the lighter.
+TEST(MotorFigures, ThermalUseIsThatOfTheHeaviestCycle) {
+  std::string text = test::text_of(test::source_path("scenes/unloaded_compressor.toml"));
+  text.insert(text.find("breakdown_ratio"), "duty = \"S1\"\n");
+  const Scene scene = test::scene_from(text);
+  SteadyOptions options;
+  options.at.time = 4.9;
+  const SteadyStudy loaded = steady(scene, {scene.effects}, options);
+  ASSERT_TRUE(loaded.cycles.back().found) << loaded.cycles.back().why;
+  const MotorUse& motor = loaded.cycles.back().motors.front();
+  EXPECT_GT(*motor.thermal(), 0.5);
+  const Result r = test::run(scene);
+  EXPECT_NEAR(figure(r, "thermal_use.motor"), *motor.thermal(), 0.02 * *motor.thermal()) << "it swings on a little";
+  EXPECT_LT(figure(r, "cycle_motor_power.motor"), 5000) << "of the last cycle, which is light";
+  const std::vector<Verdict> verdicts = judge_ratings(r);
+  const auto judged =
+      std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.component == "motor"; });
+  ASSERT_NE(judged, verdicts.end());
+  EXPECT_NE(judged->requirement.find("heaviest cycle"), std::string::npos);
+  EXPECT_NEAR(judged->value, figure(r, "thermal_use.motor") * *motor.rated, 1e-9 * judged->value);
+}
+
 // ½ J (ω_max² − ω_min²) = J δ ω_mid²; `steady` finds the same.
 TEST(FlywheelEnergy, IsInertiaTimesFluctuationTimesSpeedSquared) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
@@ -114,6 +140,29 @@ TEST(FlywheelEnergy, IsInertiaTimesFluctuationTimesSpeedSquared) {
 }
 
 // --- ratings of the steady motion ---
+
+// What DIN 740-2 asks of the steady motion is what `modes` asks of it, value and error; the start is not judged.
+TEST(SteadyRatings, OfACouplingAreThoseOfModes) {
+  const Scene scene = test::scene_file("docs/tasks/genset.toml");
+  const SteadyStudy s = steady(scene, {scene.effects}, {});
+  ASSERT_TRUE(s.cycles.front().found) << s.cycles.front().why;
+  const std::vector<Verdict> verdicts = steady_ratings(s.cycles.front());
+  std::size_t same = 0;
+  for (const Verdict& by_modes : find_modes(scene, scene.effects, {}).verdicts) {
+    if (by_modes.requirement == requirement::maximum) continue;
+    const auto found = std::find_if(verdicts.begin(), verdicts.end(),
+                                    [&](const Verdict& v) { return v.requirement == by_modes.requirement; });
+    ASSERT_NE(found, verdicts.end()) << by_modes.requirement;
+    EXPECT_NEAR(found->value, by_modes.value, found->error + by_modes.error) << by_modes.requirement;
+    EXPECT_LT(found->error, 1e-4 * found->value);
+    ++same;
+  }
+  EXPECT_EQ(same, 3U) << "T_KN, T_KW, P_KW";
+  const auto most = std::find_if(verdicts.begin(), verdicts.end(),
+                                 [](const Verdict& v) { return v.requirement == requirement::maximum; });
+  ASSERT_NE(most, verdicts.end());
+  EXPECT_NE(most->note.find("kurbel modes judges the start"), std::string::npos) << most->note;
+}
 
 // 30 N·m on the motor against a drag of 2.4 N·m·s/rad behind a belt of 1 : 2: 60 N·m, 25 rad/s there, 50 rad/s at the
 // motor. F = F₀ + τ/(2 r₁) = 500 + 30/0.2 = 650 N; v = r ω = 0.4 · 25 m/s; M_rms/M_n = 30/20.

@@ -178,9 +178,10 @@ TEST(Trace, PlotsReachThePeaksThatTheFiguresTell) {
 // T + V − Σ work stays the same along the traces.
 // Every curve over the angle is of the last whole cycle alone: from 0 to the cycle's end, without a way back, and as high
 // as the same quantity over time between the cycle's begin and end.
-TEST(Trace, CurvesOverTheAngleAreOfOneCycle) {
-  Scene scene = test::scene_file("scenes/crank_press.toml");
-  scene.run.until = 4;
+void expect_curves_of_one_cycle(const char* file, double until) {
+  SCOPED_TRACE(file);
+  Scene scene = test::scene_file(file);
+  scene.run.until = until;
   SimulateOptions options;
   options.traces = true;
   options.measure_error = false;
@@ -203,6 +204,11 @@ TEST(Trace, CurvesOverTheAngleAreOfOneCycle) {
       EXPECT_NEAR(found, highest, 1e-6 * largest);
     }
   }
+}
+
+TEST(Trace, CurvesOverTheAngleAreOfOneCycle) {
+  expect_curves_of_one_cycle("scenes/crank_press.toml", 4);
+  expect_curves_of_one_cycle("docs/tasks/two_cylinder_compressor.toml", 2);  // no event where its turns end
 }
 
 TEST(Trace, EnergyTracesBalance) {

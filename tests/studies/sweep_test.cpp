@@ -205,6 +205,25 @@ TEST(SweepPictures, AScatterMatrixHasEveryPairAndAGridsMapItsValues) {
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(map.z[i][k], 3 * map.x[k] + map.y[i], 1e-12);
 }
 
+// What is all but the same figure is not drawn twice; one that is twice as large is.
+TEST(SweepPictures, FiguresThatMoveTogetherAreDrawnOnce) {
+  const File file("alike");
+  const Design design("grid:6x5", ranges({"a.x=1..10", "b.x=1..8"}), 1);
+  SweepStore store(file.path(), identity_of(design, {{"y", ""}, {"nearly_y", ""}, {"twice_y", ""}}));
+  const SweepJob job{.design = &design, .jobs = 1, .evaluator = [&] {
+                       return [&](SweepRow& row) {
+                         const double y = 3 * row.parameters[0] + row.parameters[1];
+                         row.figures = {{0, y}, {1, y * 1.001}, {2, 2 * y}};
+                         return true;
+                       };
+                     }};
+  EXPECT_TRUE(run_sweep(job, store).complete());
+  std::set<std::string> drawn;
+  for (const Plot& plot : limit_maps(study_of(store, {}))) drawn.insert(plot.title.substr(0, plot.title.find(' ')));
+  EXPECT_EQ(drawn.size(), 2U);
+  EXPECT_TRUE(drawn.count("twice_y"));
+}
+
 // Of a great sweep some rows are held; what is counted is of all, and the table has all.
 TEST(SweepReport, CountsAndTablesAreOfAllRowsWhereFewAreHeld) {
   const File file("held");

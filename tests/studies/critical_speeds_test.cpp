@@ -1,5 +1,6 @@
-// kept_speeds_test.cpp — speeds at which a machine can stay, by closed forms; what cannot be kept bars nothing.
-#include "studies/modes/kept_speeds.h"
+// critical_speeds_test.cpp — where orders swing most, and speeds at which a machine can stay, by closed forms; what cannot
+// be kept bars nothing.
+#include "studies/modes/critical_speeds.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -34,6 +35,63 @@ double slope(double speed) {
   const double s = 1 - speed / 100, h = 1e-6;
   const auto torque = [](double slip) { return 180 / (slip / 0.2 + 0.2 / slip); };
   return -(torque(s + h) - torque(s - h)) / (2 * h) / 100;
+}
+
+// Inertias J₁ = 0.5 and J₂ = 1.5 kg·m² on a shaft of k = 3750 N·m/rad, ω₀ = 100 rad/s; 40 N·m of the first order on the
+// second, of which a rigid shaft bears J₁/(J₁ + J₂), 10 N·m.
+std::string swinging(double damping) {
+  return fmt::format(R"~(
+line    = ["motor", "shaft", "wheel"]
+motor   = {{ kind = "dc shunt motor", stall_torque = "1e-6 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }}
+shaft   = {{ kind = "shaft", stiffness = "3750 N*m/rad", damping = "{} N*m*s/rad" }}
+wheel   = {{ kind = "torque source", inertia = "1.5 kg*m2", table = {{ over = "angle", formula = "A*cos(angle)", with = {{ A = "40 N*m" }}, period = "6.283185307179586 rad" }} }}
+effects = {{ elasticity = true }}
+run     = {{ start = {{ speed = "70 rad/s" }} }}
+)~",
+                     damping);
+}
+
+ModesStudy study_over(const std::string& text, double slowest, double fastest) {
+  const Scene scene = scene_from(text);
+  ModesOptions options;
+  options.speed = 70;
+  options.slowest = slowest, options.fastest = fastest;
+  return find_modes(scene, scene.effects, options);
+}
+
+// What a joint with ζ passes on: √((1 + (2ζr)²)/((1 − r²)² + (2ζr)²)) times the rigid torque, r = ω/ω₀, greatest at
+// r² = (√(1 + 8ζ²) − 1)/(4ζ²) (Den Hartog, Mechanical Vibrations, section 2.12).
+TEST(CriticalSpeeds, SwingMostWhereTheClosedFormDoes) {
+  for (const double ratio : {0.02, 0.2, 0.4}) {
+    SCOPED_TRACE(ratio);
+    const double r2 = (std::sqrt(1 + 8 * ratio * ratio) - 1) / (4 * ratio * ratio), damper = 4 * ratio * ratio * r2;
+    const double most = 10 * std::sqrt((1 + damper) / ((1 - r2) * (1 - r2) + damper));
+    const ModesStudy study = study_over(swinging(75 * ratio), 30, 150);
+    ASSERT_EQ(study.critical.size(), 1U);
+    const CriticalSpeed& c = study.critical.front();
+    EXPECT_NEAR(c.speed, 100, 1e-4);
+    ASSERT_TRUE(c.peak);
+    EXPECT_NEAR(*c.peak, 100 * std::sqrt(r2), 1e-3 * 100 * ratio);
+    EXPECT_NEAR(c.amplitude, most, 1e-5 * most);
+    EXPECT_TRUE(std::any_of(study.sweep.begin(), study.sweep.end(), [&](const auto& s) { return s.speed == *c.peak; }))
+        << "curves and tables have the peak, too";
+    EXPECT_TRUE(std::is_sorted(study.sweep.begin(), study.sweep.end(),
+                               [](const auto& a, const auto& b) { return a.speed < b.speed; }));
+  }
+}
+
+// Where the range ends below the peak, or begins above it, there is none to tell.
+TEST(CriticalSpeeds, HaveNoPeakBeyondTheRange) {
+  const ModesStudy study = study_over(swinging(15), 98, 140);
+  ASSERT_EQ(study.critical.size(), 1U);
+  EXPECT_FALSE(study.critical.front().peak);
+  EXPECT_EQ(study.critical.front().severest(), study.critical.front().speed);
+}
+
+TEST(CriticalSpeeds, BehindTheCurvesStandsTheRigidMachine) {
+  const ModesStudy study = study_over(swinging(15), 30, 300);
+  ASSERT_GT(study.rigid.size(), 30U);
+  for (const SpeedResponse& s : study.rigid) EXPECT_NEAR(s.joints.front().peak, 10, 1e-4) << s.speed;
 }
 
 TEST(KeptSpeeds, AMotorBeyondItsBreakdownIsNotKept) {

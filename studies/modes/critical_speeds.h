@@ -1,11 +1,25 @@
-// kept_speeds.h — at which speeds a machine can run for long at all.
+// critical_speeds.h — at which speeds orders meet modes, and at which a machine can run for long at all.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "studies/modes/modes.h"
 
 namespace kurbel {
+
+// At which an order meets a mode [rad/s]: undamped, as is usual; with states of elements, which stiffen or soften the
+// drive, |λ| of the damped swing.
+double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
+
+// Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
+void find_critical_speeds(ModesStudy& found);
+
+// The amplitudes of `critical` by the sweep, which has points at and beside every one of them unless it was thinned; the
+// peaks are located further by `at`, which responds at any speed, to some 1e-3 of the resonance's width, and become
+// points of the sweep.
+void measure_critical_speeds(const Model& model, const std::function<SpeedResponse(double speed)>& at,
+                             ModesStudy& found);
 
 // Whether small motions about a mean speed that is held grow (Re λ > 0): beyond its breakdown an induction motor pulls
 // the less the slower it turns. Only of drives that a dense solver takes (160 coordinates); of larger ones never.

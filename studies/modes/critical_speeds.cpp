@@ -1,0 +1,181 @@
+// critical_speeds.cpp — by frequencies over orders; by eigenvalues of the drive at each speed, and by what it swings.
+#include "studies/modes/critical_speeds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double least_strength = 1e-6;  // of the strongest order
+constexpr int looks_at_a_peak = 2;       // each takes some two digits
+
+constexpr Eigen::Index most_coordinates = 160;
+constexpr double growth = 1e-6;  // of a turn's radian
+
+std::size_t nearest_of(const std::vector<SpeedResponse>& sweep, double speed) {
+  const auto apart = [speed](const SpeedResponse& s) { return std::abs(s.speed - speed); };
+  const auto less = [&](const SpeedResponse& a, const SpeedResponse& b) { return apart(a) < apart(b); };
+  return static_cast<std::size_t>(std::min_element(sweep.begin(), sweep.end(), less) - sweep.begin());
+}
+
+// That bears most of this order, reduced to the link.
+std::size_t joint_of(const Model& model, const SpeedResponse& response, std::size_t harmonic) {
+  std::size_t joint = 0;
+  double most = -1;
+  for (std::size_t j = 0; j < response.orders.size(); ++j) {
+    const double scale = model.scale_ratio[at(model.network.joints[at(model.elastic[j].joint)].a)];
+    const double reduced = scale * std::abs(response.orders[j][harmonic]);
+    if (reduced > most * (1 + 1e-9)) most = reduced, joint = j;
+  }
+  return joint;
+}
+
+// A curve's point: 1/|τ_r|², which is all but a parabola of the speed about a resonance.
+struct Point {
+  double speed = 0, value = 0;
+};
+
+// Where the parabola through three points, the middle one the lowest, is least.
+double vertex(const Point& a, const Point& b, const Point& c) {
+  const double left = (b.value - a.value) / (b.speed - a.speed), right = (c.value - b.value) / (c.speed - b.speed);
+  const double bend = (right - left) / (c.speed - a.speed);
+  return bend > 0 ? 0.5 * (a.speed + b.speed - left / bend) : b.speed;
+}
+
+// What one order does in one joint over the speed.
+class OrderCurve {
+ public:
+  OrderCurve(const CriticalSpeed& c, const std::vector<SpeedResponse>& sweep) : c_(c), sweep_(sweep) {}
+
+  // The response at the greatest amplitude that is climbed to from the critical speed; none where the climb ends at the
+  // range's end, or leaves the resonance.
+  std::optional<SpeedResponse> peak(std::size_t from, double width,
+                                    const std::function<SpeedResponse(double speed)>& at) const {
+    std::size_t i = from;
+    if (value(sweep_[i]) == 0) return sweep_[i];  // without damping it grows beyond bounds
+    while (i > 0 && value(sweep_[i - 1]) < value(sweep_[i])) --i;
+    while (i + 1 < sweep_.size() && value(sweep_[i + 1]) < value(sweep_[i])) ++i;
+    if (i == 0 || i + 1 == sweep_.size() || std::abs(sweep_[i].speed - c_.speed) > width) return {};
+    Point low = point(sweep_[i - 1]), middle = point(sweep_[i]), high = point(sweep_[i + 1]);
+    SpeedResponse most = sweep_[i];
+    for (int look = 0; look < looks_at_a_peak; ++look) {
+      SpeedResponse next = at(vertex(low, middle, high));
+      const Point found = point(next);
+      if (found.speed == middle.speed) break;
+      const bool above = found.speed > middle.speed;
+      if (!(found.value < middle.value)) {
+        (above ? high : low) = found;
+        continue;
+      }
+      (above ? low : high) = middle;
+      middle = found, most = std::move(next);
+    }
+    return most;
+  }
+
+ private:
+  double value(const SpeedResponse& s) const {
+    const double amplitude = std::abs(s.orders[c_.joint][c_.harmonic]);
+    return std::isfinite(amplitude) ? 1 / (amplitude * amplitude) : 0;
+  }
+  Point point(const SpeedResponse& s) const { return {s.speed, value(s)}; }
+
+  const CriticalSpeed& c_;
+  const std::vector<SpeedResponse>& sweep_;
+};
+
+}  // namespace
+
+double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
+  return drive.own_states() > 0 ? mode.natural() : mode.omega;
+}
+
+void find_critical_speeds(ModesStudy& found) {
+  const Excitations& x = found.excitations;
+  if (x.by_order.empty() || found.joint_names.empty()) return;
+  const auto strength = [&](std::size_t r, double speed) {
+    return x.strength(r, std::copysign(speed, found.drive.at.speed));
+  };
+  double strongest = 0;
+  for (std::size_t r = 1; r <= x.harmonics; ++r) strongest = std::max(strongest, strength(r, found.fastest));
+  for (const Mode& mode : found.modes)
+    for (std::size_t r = 1; r <= x.harmonics; ++r) {
+      if (!x.is_looked_at(r)) continue;
+      const double speed = frequency_of_resonance(found.drive, mode) / x.order(r);
+      if (speed < found.slowest || speed > found.fastest || strength(r, speed) < least_strength * strongest) continue;
+      found.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
+    }
+  std::sort(found.critical.begin(), found.critical.end(),
+            [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.speed < b.speed; });
+}
+
+void measure_critical_speeds(const Model& model, const std::function<SpeedResponse(double speed)>& at,
+                             ModesStudy& found) {
+  if (found.sweep.empty()) return;
+  std::vector<SpeedResponse> peaks;
+  for (CriticalSpeed& c : found.critical) {
+    const std::size_t nearest = nearest_of(found.sweep, c.speed);
+    c.joint = joint_of(model, found.sweep[nearest], c.harmonic);
+    const double ratio = found.modes[static_cast<std::size_t>(c.mode) - 1].ratio;
+    const double width = std::clamp(3 * ratio, 0.02, 0.5) * c.speed;
+    std::optional<SpeedResponse> peak = OrderCurve(c, found.sweep).peak(nearest, width, at);
+    const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
+    if (peak) c.peak = peak->speed;
+    c.amplitude = std::abs(there.orders[c.joint][c.harmonic]);
+    c.mean = there.joints[c.joint].mean;
+    if (peak) peaks.push_back(std::move(*peak));
+  }
+  std::move(peaks.begin(), peaks.end(), std::back_inserter(found.sweep));
+  const auto slower = [](const SpeedResponse& a, const SpeedResponse& b) { return a.speed < b.speed; };
+  const auto same = [](const SpeedResponse& a, const SpeedResponse& b) { return a.speed == b.speed; };
+  std::stable_sort(found.sweep.begin(), found.sweep.end(), slower);
+  found.sweep.erase(std::unique(found.sweep.begin(), found.sweep.end(), same), found.sweep.end());
+}
+
+bool grows(const LinearDrive& drive) {
+  if (drive.size() + drive.own_states() > most_coordinates) return false;
+  const std::vector<DampedMode> modes = damped_modes(drive, undamped_modes(drive));
+  const double pace = std::abs(drive.at.speed);
+  return std::any_of(modes.begin(), modes.end(),
+                     [&](const DampedMode& mode) { return mode.lambda.real() > std::max(growth * pace, mode.error); });
+}
+
+void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response) {
+  if (!found.keeps_its_speed) return;
+  response.kept = response.speed_swing < std::abs(response.speed) && !grows(drive);
+}
+
+std::vector<SpeedStretch> stretches(const std::vector<SpeedResponse>& sweep) {
+  std::vector<SpeedStretch> list;
+  for (std::size_t i = 0; i < sweep.size(); ++i) {
+    if (list.empty() || list.back().kept != sweep[i].kept) list.push_back({i, i, sweep[i].kept});
+    list.back().end = i + 1;
+  }
+  return list;
+}
+
+void leave_out_what_is_not_kept(ModesStudy& found) {
+  std::string where;
+  for (const SpeedStretch& s : stretches(found.sweep))
+    if (!s.kept)
+      where += fmt::format("{}{:.4g} … {}", where.empty() ? "" : ", ", found.speed_unit.of(found.sweep[s.begin].speed),
+                           found.speed_unit.text(found.sweep[s.end - 1].speed, 4));
+  if (where.empty()) return;
+  const auto is_kept = [&](const CriticalSpeed& c) { return found.sweep[nearest_of(found.sweep, c.speed)].kept; };
+  const std::size_t before = found.critical.size();
+  std::erase_if(found.critical, [&](const CriticalSpeed& c) { return !is_kept(c); });
+  const std::size_t gone = before - found.critical.size();
+  found.notes.push_back(fmt::format(
+      "at {} the machine does not stay by itself: small motions grow (a motor beyond its breakdown), or the "
+      "speed would swing by more than itself; {}what is barred there and spot checks are left out. Passing "
+      "through on the way up is judged by the start",
+      where, gone > 0 ? fmt::format("{} critical speed{}, ", gone, gone == 1 ? "" : "s") : ""));
+}
+
+}  // namespace kurbel
