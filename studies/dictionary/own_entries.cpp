@@ -115,11 +115,12 @@ std::vector<Definition> entries_of_own() {
       of_both("machine_efficiency", "efficiency of the machine", "", "",
               "useful work over driving work in the last whole cycle of a motion that repeats",
               "the efficiency of one gear or mechanism", "η = −A_useful/A_driving"),
-      of_run(
-          "current_use", "use of a motor's rated current", "", "MOTOR",
-          "RMS current of a line over the last whole cycle of a motion that repeats, over that at the rated slip: of "
-          "the two-axis model",
-          "the thermal use, which is by its torque; iron and friction are in neither", "√( (1/T) ∫ ½ |i_s|² dt )/I_n"),
+      of_run("current_use", "use of a motor's rated current", "", "MOTOR",
+             "RMS current of a line over the cycle that the thermal use is of, over that at the rated slip: of the "
+             "two-axis "
+             "model",
+             "the thermal use, which is by its torque; iron and friction are in neither",
+             "√( (1/T) ∫ ½ |i_s|² dt )/I_n"),
       of_run("motor_stator_heat", "heat of a motor's stator winding", "J", "MOTOR",
              "what the stator's resistance turns into heat over the run: of the two-axis model", "heat of iron",
              "3/2 R_s ∫ |i_s|² dt"),

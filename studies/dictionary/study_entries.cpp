@@ -55,10 +55,9 @@ std::vector<Definition> of_steady() {
       {.name = "thermal_use",
        .words = "thermal use of a motor",
        .of = "MOTOR",
-       .is =
-           "RMS torque of the steady cycle, or of a run's last whole cycle of a motion that repeats, over the rated "
-           "torque; where commands change the motion, of the heaviest cycle between run-up and run-down; beyond 1 the "
-           "motor gets too hot in continuous use",
+       .is = "RMS torque of the steady cycle, or of a run's last whole cycle of a motion that repeats, over the rated "
+             "torque; where commands change the motion, of the heaviest cycle that comes again; beyond 1 the "
+             "motor gets too hot in continuous use",
        .formula = "M_rms/M_n",
        .is_not = "an efficiency",
        .theory = "4",

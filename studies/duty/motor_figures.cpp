@@ -58,16 +58,19 @@ Figure figure(const char* words, const MotorTorque& motor, double value, const c
 }
 
 // The cycle by which a motor's heating is judged: the last one of a motion that repeats. Where commands change it, the
-// last may be the lightest: then the one that heats the most, of those after the run-up and before the run-down.
-const CycleRecord& cycle_that_heats(const MotorRun& run, std::size_t i) {
-  if (run.equations.model().commands.empty()) return *run.last;
-  const CycleRecord* most = run.last;
+// last may be the lightest: then the one that heats the most of all that come again, in speed and in heat, so that
+// neither a start nor what a switching leaves behind counts. Null: none comes again.
+const CycleRecord* cycle_that_heats(const MotorRun& run, std::size_t i) {
+  if (run.equations.model().commands.empty()) return run.last;
+  constexpr double alike = 0.02;
   const auto heat = [i](const CycleRecord& c) { return c.of_motors[2 * i + 1] / (c.end - c.begin); };
-  for (const CycleRecord& c : run.cycles) {
-    const bool in_use = !run.after_run_up || (c.begin >= run.after_run_up->begin && c.end <= run.after_run_up->end);
-    if (in_use && heat(c) > heat(*most)) most = &c;
+  const CycleRecord* most = run.last;
+  for (const CycleRecord* c : run.repeating) {
+    const bool settled = std::abs(heat(*(c - 1)) - heat(*c)) <= alike * heat(*c) &&
+                         std::abs(heat(*(c - 2)) - heat(*c)) <= alike * heat(*c);
+    if (settled && (!most || heat(*c) > heat(*most))) most = c;
   }
-  return *most;
+  return most;
 }
 
 // RMS current and heat of the windings of a motor whose currents are states.
@@ -81,12 +84,12 @@ void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, 
     out.push_back(figure("motor_rms_current", motor, root_mean_square(m.stator_square(), run.duration), "A", m.usual));
     out.push_back(figure("motor_slip_heat", motor, 3 * windings->rotor_resistance * m.rotor_square(), "J", heat));
     out.push_back(figure("motor_stator_heat", motor, 3 * windings->stator_resistance * m.stator_square(), "J", heat));
-    if (!run.last || !(windings->rated_current > 0)) continue;
-    const CycleRecord& cycle = cycle_that_heats(run, i);
-    const double square = run.currents->stator_square(m, cycle.begin, cycle.end);
+    const CycleRecord* cycle = cycle_that_heats(run, i);
+    if (!cycle || !(windings->rated_current > 0)) continue;
+    const double square = run.currents->stator_square(m, cycle->begin, cycle->end);
     out.push_back(figure("current_use", motor,
-                         root_mean_square(square, cycle.end - cycle.begin) / windings->rated_current, "", 1));
-    out.back().at = cycle.end;
+                         root_mean_square(square, cycle->end - cycle->begin) / windings->rated_current, "", 1));
+    out.back().at = cycle->end;
   }
 }
 
@@ -128,10 +131,11 @@ void add_start_heat(const MotorRun& run, const MotorTorque& motor, std::size_t i
 
 void add_thermal_use(const MotorRun& run, const MotorTorque& motor, std::size_t i, double rated,
                      std::vector<Figure>& out) {
-  const CycleRecord& cycle = cycle_that_heats(run, i);
-  const double rms = root_mean_square(cycle.of_motors[2 * i + 1], cycle.end - cycle.begin);
+  const CycleRecord* cycle = cycle_that_heats(run, i);
+  if (!cycle) return;
+  const double rms = root_mean_square(cycle->of_motors[2 * i + 1], cycle->end - cycle->begin);
   out.push_back(figure("thermal_use", motor, rms / rated, "", 1));
-  out.back().at = cycle.end;
+  out.back().at = cycle->end;
 }
 
 }  // namespace
@@ -176,15 +180,14 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
     }
     add_currents(run, motor, i, figures);
     const std::optional<double> rated = rated_torque(m, motor);
-    if (!run.last && run.steady && m.cycle == 0 && m.commands.empty() && rated && *rated > 0)
-      add_steady_use(run, motor, *rated, figures);
+    if (!run.last && run.steady && m.cycle == 0 && rated && *rated > 0) add_steady_use(run, motor, *rated, figures);
+    if (rated && *rated > 0 && m.cycle > 0) add_thermal_use(run, motor, i, *rated, figures);
     if (!run.last) continue;
     const double time = run.last->end - run.last->begin;
     const double of_cycle = driving_work(m, motor.component, run.last->work);
     figures.push_back(
         figure("cycle_motor_power", motor, of_cycle / time, "W", std::abs(motor.rated_torque * motor.rated_speed)));
     figures.back().at = run.last->end;
-    if (rated && *rated > 0) add_thermal_use(run, motor, i, *rated, figures);
   }
   return figures;
 }

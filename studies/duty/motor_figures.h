@@ -7,8 +7,9 @@
 //     heat of slip  ω_s ∫ M dt − ∫ M ω dt               of the rotor of an induction motor at the mains (theory 4)
 //                   3/2 R_r ∫ |i_r|² dt                 the same, of the two-axis model; of its stator with R_s, i_s
 //     start heat    heat of slip − P_s (t_off − t_up)   P_s: of the last whole cycle; t_up, t_off: steady from and to
-//     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats; without a
-//                                                       cycle of the steady torque
+//     thermal use   √( ∫ M² dt / T ) / M_n              over the last whole cycle of a motion that repeats; where commands
+//                                                       change it, over the heaviest that comes again; without a cycle of
+//                                                       the steady torque
 // All of them are integrated along with the motion: ∫ M dt and ∫ M² dt are quadratures of the audit.
 #pragma once
 
@@ -35,7 +36,7 @@ struct MotorRun {
   const std::vector<double>& work;
   double duration = 0, energy_scale = 0;
   const CycleRecord* last = nullptr;
-  std::span<const CycleRecord> cycles = {};  // all of them
+  std::vector<const CycleRecord*> repeating = {};  // all that come again like the two before them
   const MotorCurrents* currents = nullptr;
   double end = 0;       // of the run [s]
   bool steady = false;  // the motion is steady to the end

@@ -126,8 +126,8 @@ Series ray(const ModesStudy& m, double order, double top, std::string name, Role
 std::string words_of(const ModesStudy& m, const CriticalSpeed& c) {
   const Mode* mode = mode_of(m, c.mode);
   return fmt::format(
-      "{}{}\norder {:g}{}\nmode {}{}\n{} in {}\n{:.3g} % of what it may bear", m.speed_unit.text(c.severest(), 4),
-      c.peak ? fmt::format(", meets the mode at {}", m.speed_unit.text(c.speed, 4)) : "", c.order,
+      "{}{}\norder {:g}{}\nmode {}{}\n{} in {}\n{:.3g} % of what it may bear", m.speed_unit.text(c.speed, 4),
+      c.peak ? fmt::format(", swings most at {}", m.speed_unit.text(*c.peak, 4)) : "", c.order,
       source_of(m, c.harmonic).empty() ? "" : " of " + source_of(m, c.harmonic), c.mode,
       mode ? ": " + name_of(m, *mode) : "", torque_text(c.amplitude), readable(m.joint_names[c.joint]), 100 * c.share);
 }
@@ -140,8 +140,8 @@ Series circles(const ModesStudy& m, const std::vector<std::size_t>& orders) {
   for (const CriticalSpeed& c : m.critical) {
     if (std::find(orders.begin(), orders.end(), c.harmonic) == orders.end()) continue;
     if (!(c.share > least_circle * most) && !std::isinf(c.share)) continue;
-    s.x.push_back(m.speed_unit.of(c.severest()));
-    s.y.push_back(hertz(c.order * c.severest()));
+    s.x.push_back(m.speed_unit.of(c.speed));
+    s.y.push_back(hertz(c.order * c.speed));
     s.sizes.push_back(std::isinf(c.share) ? 3 : std::isinf(most) ? 1 : 0.7 + 2.3 * std::sqrt(c.share / most));
     s.labels.push_back(words_of(m, c));
   }

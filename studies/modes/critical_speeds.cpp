@@ -7,12 +7,13 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/numerics/index.h"
+#include "engine/numerics/deadline.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double least_strength = 1e-6;  // of the strongest order
+constexpr double hardly_swings = 0.5;    // ζ
 constexpr int looks_at_a_peak = 2;       // each takes some two digits
 
 constexpr Eigen::Index most_coordinates = 160;
@@ -24,16 +25,10 @@ std::size_t nearest_of(const std::vector<SpeedResponse>& sweep, double speed) {
   return static_cast<std::size_t>(std::min_element(sweep.begin(), sweep.end(), less) - sweep.begin());
 }
 
-// That bears most of this order, reduced to the link.
-std::size_t joint_of(const Model& model, const SpeedResponse& response, std::size_t harmonic) {
-  std::size_t joint = 0;
-  double most = -1;
-  for (std::size_t j = 0; j < response.orders.size(); ++j) {
-    const double scale = model.scale_ratio[at(model.network.joints[at(model.elastic[j].joint)].a)];
-    const double reduced = scale * std::abs(response.orders[j][harmonic]);
-    if (reduced > most * (1 + 1e-9)) most = reduced, joint = j;
-  }
-  return joint;
+// That the mode twists most.
+std::size_t joint_of(const Mode& mode) {
+  const std::vector<double>& share = mode.shares.joint;
+  return static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
 }
 
 // A curve's point: 1/|τ_r|², which is all but a parabola of the speed about a resonance.
@@ -53,15 +48,15 @@ class OrderCurve {
  public:
   OrderCurve(const CriticalSpeed& c, const std::vector<SpeedResponse>& sweep) : c_(c), sweep_(sweep) {}
 
-  // The response at the greatest amplitude that is climbed to from the critical speed; none where the climb ends at the
-  // range's end, or leaves the resonance.
+  // The response at the greatest amplitude that is climbed to from the critical speed over speeds that are kept; none
+  // where the climb ends at the last of them, or leaves the resonance by more than `width`.
   std::optional<SpeedResponse> peak(std::size_t from, double width,
                                     const std::function<SpeedResponse(double speed)>& at) const {
     std::size_t i = from;
     if (value(sweep_[i]) == 0) return sweep_[i];  // without damping it grows beyond bounds
-    while (i > 0 && value(sweep_[i - 1]) < value(sweep_[i])) --i;
-    while (i + 1 < sweep_.size() && value(sweep_[i + 1]) < value(sweep_[i])) ++i;
+    while (const int way = way_up(i)) i = way < 0 ? i - 1 : i + 1;
     if (i == 0 || i + 1 == sweep_.size() || std::abs(sweep_[i].speed - c_.speed) > width) return {};
+    if (!sweep_[i - 1].kept || !sweep_[i].kept || !sweep_[i + 1].kept) return {};
     Point low = point(sweep_[i - 1]), middle = point(sweep_[i]), high = point(sweep_[i + 1]);
     SpeedResponse most = sweep_[i];
     for (int look = 0; look < looks_at_a_peak; ++look) {
@@ -80,6 +75,13 @@ class OrderCurve {
   }
 
  private:
+  // To the neighbour with the larger amplitude, where either has a larger one: −1, 1; 0: this is the top.
+  int way_up(std::size_t i) const {
+    const double here = value(sweep_[i]), below = i > 0 ? value(sweep_[i - 1]) : HUGE_VAL,
+                 above = i + 1 < sweep_.size() ? value(sweep_[i + 1]) : HUGE_VAL;
+    if (!(std::min(below, above) < here)) return 0;
+    return below < above ? -1 : 1;
+  }
   double value(const SpeedResponse& s) const {
     const double amplitude = std::abs(s.orders[c_.joint][c_.harmonic]);
     return std::isfinite(amplitude) ? 1 / (amplitude * amplitude) : 0;
@@ -92,10 +94,6 @@ class OrderCurve {
 
 }  // namespace
 
-double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
-  return drive.own_states() > 0 ? mode.natural() : mode.omega;
-}
-
 void find_critical_speeds(ModesStudy& found) {
   const Excitations& x = found.excitations;
   if (x.by_order.empty() || found.joint_names.empty()) return;
@@ -107,7 +105,7 @@ void find_critical_speeds(ModesStudy& found) {
   for (const Mode& mode : found.modes)
     for (std::size_t r = 1; r <= x.harmonics; ++r) {
       if (!x.is_looked_at(r)) continue;
-      const double speed = frequency_of_resonance(found.drive, mode) / x.order(r);
+      const double speed = mode.natural() / x.order(r);
       if (speed < found.slowest || speed > found.fastest || strength(r, speed) < least_strength * strongest) continue;
       found.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
     }
@@ -115,16 +113,18 @@ void find_critical_speeds(ModesStudy& found) {
             [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.speed < b.speed; });
 }
 
-void measure_critical_speeds(const Model& model, const std::function<SpeedResponse(double speed)>& at,
-                             ModesStudy& found) {
+void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at, ModesStudy& found) {
   if (found.sweep.empty()) return;
   std::vector<SpeedResponse> peaks;
   for (CriticalSpeed& c : found.critical) {
+    Deadline::check();
+    const Mode& mode = found.modes[static_cast<std::size_t>(c.mode) - 1];
     const std::size_t nearest = nearest_of(found.sweep, c.speed);
-    c.joint = joint_of(model, found.sweep[nearest], c.harmonic);
-    const double ratio = found.modes[static_cast<std::size_t>(c.mode) - 1].ratio;
-    const double width = std::clamp(3 * ratio, 0.02, 0.5) * c.speed;
-    std::optional<SpeedResponse> peak = OrderCurve(c, found.sweep).peak(nearest, width, at);
+    c.joint = joint_of(mode);
+    std::optional<SpeedResponse> peak;
+    // A force's swing is largest at √(1 − 2ζ²) of |λ|, and what a joint passes on at less below it.
+    const double width = (2 * mode.ratio * mode.ratio + 0.02) * c.speed;
+    if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(nearest, width, at);
     const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
     if (peak) c.peak = peak->speed;
     c.amplitude = std::abs(there.orders[c.joint][c.harmonic]);
@@ -148,7 +148,11 @@ bool grows(const LinearDrive& drive) {
 
 void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response) {
   if (!found.keeps_its_speed) return;
-  response.kept = response.speed_swing < std::abs(response.speed) && !grows(drive);
+  double swing = response.speed_swing;
+  if (swing >= std::abs(response.speed))
+    if (const std::optional<LinearDrive> rigid = as_if_rigid(drive))
+      swing = std::min(swing, respond(*rigid, found.excitations).speed_swing);
+  response.kept = swing < std::abs(response.speed) && !grows(drive);
 }
 
 std::vector<SpeedStretch> stretches(const std::vector<SpeedResponse>& sweep) {

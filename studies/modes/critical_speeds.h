@@ -8,24 +8,21 @@
 
 namespace kurbel {
 
-// At which an order meets a mode [rad/s]: undamped, as is usual; with states of elements, which stiffen or soften the
-// drive, |λ| of the damped swing.
-double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
-
-// Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
+// Fills `critical`: where an order that has any strength meets a mode within the range, r Ω = |λ|, by speed.
 void find_critical_speeds(ModesStudy& found);
 
-// The amplitudes of `critical` by the sweep, which has points at and beside every one of them unless it was thinned; the
-// peaks are located further by `at`, which responds at any speed, to some 1e-3 of the resonance's width, and become
-// points of the sweep.
-void measure_critical_speeds(const Model& model, const std::function<SpeedResponse(double speed)>& at,
-                             ModesStudy& found);
+// The amplitudes of `critical`, in the joint that their mode twists most, by the sweep, which has points at and beside
+// every one of them unless it was thinned. The peaks are located further by `at`, which responds at any speed, to some 1e-3
+// of the resonance's width, and become points of the sweep. No peak is told of a mode that hardly swings (ζ ≥ 0.5), nor
+// where speeds that are not kept lie before it, nor farther off than damping takes a peak from r Ω = |λ|.
+void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at, ModesStudy& found);
 
 // Whether small motions about a mean speed that is held grow (Re λ > 0): beyond its breakdown an induction motor pulls
 // the less the slower it turns. Only of drives that a dense solver takes (160 coordinates); of larger ones never.
 bool grows(const LinearDrive& drive);
 
-// A speed is kept where nothing grows and the link's speed swings by less than itself; what the linear response says of
+// A speed is kept where nothing grows and the link's speed would swing by less than itself if all were rigid, for what
+// swings much by resonance alone is barred, not left out; what the linear response says of
 // any other is of no motion that lasts. Where the operating point is none that is kept, nothing is told of the others.
 void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
 

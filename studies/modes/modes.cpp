@@ -272,6 +272,9 @@ class Study {
     return linearise(model_, point);
   }
 
+  // Of a zone: undamped, as its formula is; with states of elements, which stiffen or soften the drive, |λ|.
+  double of_resonance(const Mode& mode) const { return found_.drive.own_states() > 0 ? mode.natural() : mode.omega; }
+
   void find_zones() {
     const auto& elements = model_->network.elements;
     if (std::none_of(elements.begin(), elements.end(),
@@ -282,7 +285,7 @@ class Study {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * frequency_of_resonance(found_.drive, mode) / found_.excitations.order(r);
+        zone.centre = 2 * of_resonance(mode) / found_.excitations.order(r);
         zone.variation = variation[r];
         zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
         if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
@@ -314,7 +317,8 @@ class Study {
     speeds.push_back(std::abs(found_.drive.at.speed));
     std::sort(speeds.begin(), speeds.end());
     std::erase_if(speeds, [&](double w) { return w < found_.slowest || w > found_.fastest; });
-    speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
+    const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };  // but for rounding
+    speeds.erase(std::unique(speeds.begin(), speeds.end(), same), speeds.end());
     const std::size_t solves = speeds.size() * found_.excitations.harmonics * at(static_cast<int>(found_.drive.size()));
     if (solves > 20 * most_solves) {
       const std::size_t keep = std::max<std::size_t>(20, speeds.size() * 20 * most_solves / solves);
@@ -339,7 +343,7 @@ class Study {
       if (stopped()) {
         found_.complete = false;
         found_.diagnosis = "interrupted within the sweep over the speeds";
-        return;
+        return found_.critical.clear();  // their amplitudes are not known
       }
       Deadline::check();
       if (speeds[i] == 0) continue;
@@ -347,9 +351,8 @@ class Study {
       options_.watch.at("forced response", 0.2 + 0.6 * fraction);
       found_.sweep.push_back(respond_at(speeds[i]));
     }
-    sweep_as_if_rigid();
-    measure_critical_speeds(
-        *model_, [this](double speed) { return respond_at(speed); }, found_);
+    if (!options_.response_alone) sweep_as_if_rigid();
+    measure_critical_speeds([this](double speed) { return respond_at(speed); }, found_);
     leave_out_what_is_not_kept(found_);
   }
 

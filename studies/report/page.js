@@ -26,7 +26,7 @@
   const extent = values => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
   // "0.002", "3·10⁻⁷" to a few digits.
   function withPower(v, digits) {
-    const n = Math.floor(Math.log10(Math.abs(v)) + 1e-9), lead = +(v / 10 ** n).toPrecision(digits);
+    const [head, power] = v.toExponential(digits - 1).split('e'), n = +power, lead = +head;
     return n === 0 ? `${lead}` : n === 1 && lead === 1 ? '10' : `${lead === 1 ? '' : lead + '·'}10<sup>${n}</sup>`.replace(/-/g, '−');
   }
   const letters = text => text.replace(/<.*?>/g, '').length;
@@ -222,9 +222,7 @@
       if (margin > 0) return {range: [low - margin, high + margin]};
     }
     if (plot.x.log || plot.bars || isLocus(plot) || plot.series.some(s => s.points)) return {};
-    // A turn that was recorded from 0.9° to 360.8° is one from 0° to 360°.
-    const whole = v => plot.x.unit === '°' && Math.abs(v - 45 * Math.round(v / 45)) < 3 ? 45 * Math.round(v / 45) : v;
-    const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []).map(whole);
+    const ends = plot.series.flatMap(s => s.x.length ? [s.x[0], s.x[s.x.length - 1]] : []);
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
   }
   // Ticks of a logarithmic axis say their whole value, "2·10⁻³" and not "2", and are as close as their words allow:
@@ -238,9 +236,9 @@
     for (const values of choices.map(seen)) {
       const ticktext = values.map(v => values.some(needsPower) ? withPower(v, 6) : `${+v.toPrecision(6)}`);
       const apart = Math.min(...values.slice(1).map((v, i) => Math.log10(v / values[i]))) / (high - low);
-      if (values.length && values.length < 13 && apart >= roomFor(Math.max(...ticktext.map(letters)))) return {tickmode: 'array', tickvals: values, ticktext};
+      if (values.length && values.length < 13 && new Set(ticktext).size === values.length && apart >= roomFor(Math.max(...ticktext.map(letters)))) return {tickmode: 'array', tickvals: values, ticktext};
     }
-    return {};
+    return {tickmode: 'auto'};
   }
   function roundSteps(low, high, parts) {
     const rough = (high - low) / parts, power = 10 ** Math.floor(Math.log10(rough));
@@ -454,7 +452,9 @@
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
     const element = make('table', '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
-    const kind = column => column < table.textColumns ? 'text' : '';
+    // Sentences are read from the left, wherever they stand.
+    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30));
+    const kind = column => inWords[column] ? 'text' : '';
     // Long names break behind their dots and underscores.
     const write = (text, place, breaks) => text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));

@@ -174,13 +174,18 @@ class Figures {
   // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
   bool comes_again(const CycleRecord& last) const {
     constexpr double alike = 1e-3;  // of the mid speed
-    const auto& cycles = run_.cycles.cycles();
-    const auto here = std::find_if(cycles.begin(), cycles.end(), [&](const CycleRecord& c) { return &c == &last; });
-    if (here - cycles.begin() < 2) return false;
+    const CycleRecord* here = &last;
+    if (here - run_.cycles.cycles().data() < 2) return false;
     return std::all_of(here - 2, here, [&](const CycleRecord& c) {
       return std::max(std::abs(c.omega_max - last.omega_max), std::abs(c.omega_min - last.omega_min)) <=
              alike * std::abs(last.mid_speed());
     });
+  }
+  std::vector<const CycleRecord*> all_that_come_again() const {
+    std::vector<const CycleRecord*> list;
+    for (const CycleRecord& c : run_.cycles.cycles())
+      if (comes_again(c)) list.push_back(&c);
+    return list;
   }
   // Of the last complete cycle of steady motion, or the last one before run-down.
   void collect_cycles() {
@@ -283,7 +288,7 @@ class Figures {
                      .duration = run_.outcome.t - begin,
                      .energy_scale = energy_scale(),
                      .last = repeating_,
-                     .cycles = run_.cycles.cycles(),
+                     .repeating = model_.commands.empty() ? std::vector<const CycleRecord*>{} : all_that_come_again(),
                      .currents = run_.currents.get(),
                      .end = run_.outcome.t,
                      .steady = run_.periods.steady && !run_.periods.run_down_begin,

@@ -98,10 +98,11 @@ std::string figures_in_words(const Result& r) {
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)
     if (f.name == Name::own("thermal_use", f.of).text && f.value <= 1)  // more is told before
-      more(fmt::format("\"{}\" is used to {:.0f} % thermally (RMS over rated torque{})", f.of, 100 * f.value,
-                       r.model && !r.model->commands.empty() && f.at
-                           ? fmt::format(", in its heaviest cycle, up to {:.4g} s", *f.at)
-                           : ""));
+      more(fmt::format(
+          "\"{}\" is used to {:.0f} % thermally (RMS over rated torque{})", f.of, 100 * f.value,
+          r.model && !r.model->commands.empty() && f.at
+              ? fmt::format(", {} {:.4g} s", r.model->cycle > 0 ? "in its heaviest cycle, up to" : "at", *f.at)
+              : ""));
   if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy changes its form");
   return text;
 }

@@ -30,7 +30,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double timed_for = 0.05;  // all timings of a run together [s]
+constexpr double timed_for = 0.1;  // all timings of a run together [s]
 // Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
 constexpr int energy_checks = 60;
 // Below this a tolerance asks for more than double precision has.
@@ -188,7 +188,7 @@ class Simulation {
   void time_again() {
     double &least = fine_->outcome.statistics.cpu_seconds, spent = least;
     const auto told = std::tuple(result_.runs, result_.cpu_total, result_.flow_calls);
-    for (int i = 0; i < 8 && spent < timed_for && !interrupted(); ++i) {
+    for (int i = 0; i < 8 && (i < 2 ? least < 0.3 : spent < timed_for) && !interrupted(); ++i) {
       const RunOutcome again = std::move(one_run(tolerance_)->outcome);
       if (again.complete) spent += again.statistics.cpu_seconds, least = std::min(least, again.statistics.cpu_seconds);
     }

@@ -33,7 +33,7 @@ Result simulate(std::shared_ptr<const Model> model, const std::string& label, co
 std::vector<Figure> figure_list(const Model& model);
 
 // Processor times nearer to each other than this factor are not told apart: that of one run differs so much between runs.
-inline constexpr double alike_in_time = 1.15;
+inline constexpr double alike_in_time = 1.25;
 
 // Local tolerances are this much tighter in the run that confirms.
 inline constexpr double tolerance_step = 30;

@@ -127,6 +127,7 @@ class Search {
     out_.uncertain = !regime.stable;
     out_.point = std::move(regime.point);
     map_ = regime.map;
+    polished_ = regime.polished, still_changes_ = regime.still_changes;
   }
 
   // --- a mid speed is demanded: the drive's torque is one more unknown ---
@@ -295,7 +296,7 @@ class Search {
     if (!any_limits(joints)) return;
     Regime kept;
     kept.kind = Regime::Kind::cycle;
-    kept.polished = true;
+    kept.polished = polished_, kept.still_changes = still_changes_;
     kept.map = map_;
     kept.point = out_.point;
     out_.loads = steady_loads(kept, out_.model, joints);
@@ -352,6 +353,8 @@ class Search {
   const SteadyOptions& options_;
   Network network_;
   std::shared_ptr<ReturnMap> map_;
+  bool polished_ = true;  // Regime's, of what the scene's own start leads to
+  double still_changes_ = 0;
   SteadyCycle out_;
   int added_node_ = 0;
   std::string added_to_;

@@ -35,19 +35,22 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   }
 }
 
-// What joints bear in the steady motion, by DIN 740-2 and the makers' stresses; the start is judged by `modes` and `run`.
+// What joints bear in the steady motion, by DIN 740-2 and the makers' stresses, as `modes` judges it: in place of what is
+// judged by peaks alone. The start is judged by `modes` and `run`.
 void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   if (!c.loads.found) return;
   RunUp none;
   none.words = "kurbel modes judges the start";
+  const std::vector<LimitedJoint> joints = limited_joints(*c.model);
   const auto head = [](const Verdict& v) { return v.requirement.substr(0, v.requirement.find(':')); };
-  for (Verdict& v : verdicts)
-    if (v.requirement == requirement::maximum && v.note.empty()) v.note = "in steady motion; " + none.words;
-  for (Verdict& v : judge(limited_joints(*c.model), c.loads, none, {}, c.model->scene.speed_unit)) {
-    const bool known = std::any_of(verdicts.begin(), verdicts.end(), [&](const Verdict& other) {
-      return other.component == v.component && head(other) == head(v);
+  for (Verdict& v : judge(joints, c.loads, none, {}, c.model->scene.speed_unit)) {
+    const auto joint =
+        std::find_if(joints.begin(), joints.end(), [&v](const LimitedJoint& j) { return j.name == v.component; });
+    std::erase_if(verdicts, [&](const Verdict& other) {
+      const bool same = other.component == v.component || other.component == joint->component;
+      return same && head(other) == head(v);
     });
-    if (!known) verdicts.push_back(std::move(v));
+    verdicts.push_back(std::move(v));
   }
 }
 

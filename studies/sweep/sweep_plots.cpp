@@ -63,6 +63,25 @@ void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pai
   plot.series = {std::move(cloud), std::move(mean)};
 }
 
+// Whether two figures move together so closely that a second picture would be the first again.
+bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
+  constexpr double within = 1e-2;
+  if (s.identity.figures[one].unit != s.identity.figures[other].unit) return false;
+  return std::all_of(s.rows.begin(), s.rows.end(), [&](const SweepRow& row) {
+    const double a = value_in(row, one), b = value_in(row, other);
+    return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > within * std::max(std::abs(a), std::abs(b)));
+  });
+}
+
+// "The same within 1 %: peak_spring_torque.shaft.": what is not drawn for that.
+std::string told_with(const SweepStudyResult& s, std::size_t figure) {
+  std::string names;
+  for (std::size_t other = 0; other < s.identity.figures.size(); ++other)
+    if (other != figure && alike(s, figure, other))
+      names += (names.empty() ? "" : ", ") + s.identity.figures[other].name;
+  return names.empty() ? "" : "The same within 1 %: " + names + ".";
+}
+
 Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t parameter) {
   const SweptFigure& f = s.identity.figures[figure];
   const SweptParameter& p = s.identity.parameters[parameter];
@@ -86,7 +105,8 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
                              .x = {points.front().second, points.back().second},
                              .y = {unit.factor * l.value, unit.factor * l.value},
                              .dashed = true});
-  if (s.tally.rows > most_points) plot.note = fmt::format("{} of {} rows are drawn.", points.size(), s.tally.rows);
+  if (s.tally.rows > most_points) plot.note = fmt::format("{} of {} rows are drawn. ", points.size(), s.tally.rows);
+  plot.note += told_with(s, figure);
   return plot;
 }
 
@@ -177,16 +197,6 @@ std::vector<const SweepRow*> some_rows(const SweepStudyResult& s, std::size_t mo
   std::vector<const SweepRow*> rows;
   for (const std::size_t i : drawn_by_chance(s.rows.size(), most)) rows.push_back(&s.rows[i]);
   return rows;
-}
-
-// Whether two figures move together so closely that a second picture would be the first again.
-bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
-  constexpr double within = 1e-2;
-  if (s.identity.figures[one].unit != s.identity.figures[other].unit) return false;
-  return std::all_of(s.rows.begin(), s.rows.end(), [&](const SweepRow& row) {
-    const double a = value_in(row, one), b = value_in(row, other);
-    return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > within * std::max(std::abs(a), std::abs(b)));
-  });
 }
 
 std::vector<std::size_t> figures_drawn(const SweepStudyResult& s) {

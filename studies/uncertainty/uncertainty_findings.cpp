@@ -139,6 +139,9 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
     for (std::size_t k = 0; k < f.shares.size() && k < 4; ++k)
       bar("tolerance of " + s.parameters[f.shares[k].parameter].given().path, Role::sky,
           percent * f.shares[k].deviation);
+    for (const FigureUncertainty& other : s.figures)
+      if (&other != &f && alike(f, other))
+        plot.note += (plot.note.empty() ? "The same within 1 %: " : ", ") + other.figure.name;
     for (const Bias& b : f.biases) bar("bias, off: " + b.effect, Role::vermillion, percent * b.shift);
     plots.push_back(std::move(plot));
   }

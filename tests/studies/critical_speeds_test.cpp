@@ -80,6 +80,40 @@ TEST(CriticalSpeeds, SwingMostWhereTheClosedFormDoes) {
   }
 }
 
+// A stiff shaft of small torque before a soft one with a large damping: told is what the soft one does, which the mode
+// twists, and not the slope of the other; its peak is that of the closed form.
+TEST(CriticalSpeeds, AreTheSwingOfTheJointThatTheModeTwists) {
+  const ModesStudy study = study_over(R"~(
+line    = ["motor", "stiff", "wheel", "soft", "fan"]
+motor   = { kind = "dc shunt motor", stall_torque = "1e-6 N*m", no_load_speed = "100 rad/s", inertia = "40 kg*m2" }
+stiff   = { kind = "shaft", stiffness = "1e10 N*m/rad", damping = "1 N*m*s/rad" }
+wheel   = { kind = "torque source", inertia = "20 kg*m2", table = { over = "angle", formula = "A*cos(angle)", with = { A = "40 N*m" }, period = "6.283185307179586 rad" } }
+soft    = { kind = "shaft", stiffness = "4000 N*m/rad", damping = "12 N*m*s/rad" }
+fan     = { kind = "load", inertia = "0.8 kg*m2", torque = "0 N*m" }
+effects = { elasticity = true }
+run     = { start = { speed = "70 rad/s" } }
+)~",
+                                      40, 110);
+  ASSERT_FALSE(study.critical.empty());
+  const CriticalSpeed& c = study.critical.front();
+  EXPECT_EQ(study.joint_names[c.joint], "soft");
+  const double reduced = 1 / (1 / 60.0 + 1 / 0.8), omega = std::sqrt(4000 / reduced), zeta = 12 / (2 * omega * reduced);
+  const double r2 = (std::sqrt(1 + 8 * zeta * zeta) - 1) / (4 * zeta * zeta), damper = 4 * zeta * zeta * r2;
+  ASSERT_TRUE(c.peak);
+  EXPECT_NEAR(*c.peak, omega * std::sqrt(r2), 2e-3 * omega * zeta);
+  const double most = 40 * 0.8 / 60.8 * std::sqrt((1 + damper) / ((1 - r2) * (1 - r2) + damper));
+  EXPECT_NEAR(c.amplitude, most, 1e-3 * most);
+}
+
+// Without damping the swing at a resonance knows no bound: that bars it, and is no reason to leave it out.
+TEST(CriticalSpeeds, WithoutDampingAreBarred) {
+  const ModesStudy study = study_over(swinging(0), 30, 150);
+  ASSERT_EQ(study.critical.size(), 1U);
+  EXPECT_NEAR(study.critical.front().severest(), 100, 1e-3);
+  EXPECT_TRUE(std::any_of(study.barred.begin(), study.barred.end(),
+                          [](const BarredRange& b) { return b.from < 100 && 100 < b.to; }));
+}
+
 // Where the range ends below the peak, or begins above it, there is none to tell.
 TEST(CriticalSpeeds, HaveNoPeakBeyondTheRange) {
   const ModesStudy study = study_over(swinging(15), 98, 140);
