@@ -105,7 +105,7 @@ std::string modes_above(const ModesStudy& m, double top) {
   std::string text;
   std::size_t number = 0;
   for (const Mode& mode : m.modes) {
-    const double f = hertz(mode.natural());
+    const double f = hertz(frequency_of_resonance(m.drive, mode));
     if (f <= top) continue;
     if (++number <= most_told) text += fmt::format("{}mode {} at {:.4g} Hz", number == 1 ? "" : ", ", mode.number, f);
   }
@@ -260,7 +260,7 @@ Plot campbell_plot(const ModesStudy& m) {
   }
   std::size_t named = 0;
   for (const Mode& mode : m.modes) {
-    const double f = hertz(mode.natural());
+    const double f = hertz(frequency_of_resonance(m.drive, mode));
     if (f > top || named >= modes_named) continue;
     plot.series.push_back({.name = fmt::format("mode {}: {}", mode.number, name_of(m, mode)),
                            .role = further_role(named++),

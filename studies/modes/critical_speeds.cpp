@@ -48,14 +48,14 @@ class OrderCurve {
  public:
   OrderCurve(const CriticalSpeed& c, const std::vector<SpeedResponse>& sweep) : c_(c), sweep_(sweep) {}
 
-  // The response at the greatest amplitude that is climbed to from the critical speed over speeds that are kept; none
-  // where the climb ends at the last of them, or leaves the resonance by more than `width`.
-  std::optional<SpeedResponse> peak(std::size_t from, double width,
+  // The response at the greatest amplitude that is climbed to from a resonance over speeds that are kept; none where the
+  // climb ends at the last of them, or leaves the resonance by more than `width`.
+  std::optional<SpeedResponse> peak(double resonance, double width,
                                     const std::function<SpeedResponse(double speed)>& at) const {
-    std::size_t i = from;
+    std::size_t i = nearest_of(sweep_, resonance);
     if (value(sweep_[i]) == 0) return sweep_[i];  // without damping it grows beyond bounds
     while (const int way = way_up(i)) i = way < 0 ? i - 1 : i + 1;
-    if (i == 0 || i + 1 == sweep_.size() || std::abs(sweep_[i].speed - c_.speed) > width) return {};
+    if (i == 0 || i + 1 == sweep_.size() || std::abs(sweep_[i].speed - resonance) > width) return {};
     if (!sweep_[i - 1].kept || !sweep_[i].kept || !sweep_[i + 1].kept) return {};
     Point low = point(sweep_[i - 1]), middle = point(sweep_[i]), high = point(sweep_[i + 1]);
     SpeedResponse most = sweep_[i];
@@ -94,6 +94,10 @@ class OrderCurve {
 
 }  // namespace
 
+double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
+  return drive.own_states() > 0 ? mode.natural() : mode.omega;
+}
+
 void find_critical_speeds(ModesStudy& found) {
   const Excitations& x = found.excitations;
   if (x.by_order.empty() || found.joint_names.empty()) return;
@@ -105,7 +109,7 @@ void find_critical_speeds(ModesStudy& found) {
   for (const Mode& mode : found.modes)
     for (std::size_t r = 1; r <= x.harmonics; ++r) {
       if (!x.is_looked_at(r)) continue;
-      const double speed = mode.natural() / x.order(r);
+      const double speed = frequency_of_resonance(found.drive, mode) / x.order(r);
       if (speed < found.slowest || speed > found.fastest || strength(r, speed) < least_strength * strongest) continue;
       found.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
     }
@@ -123,8 +127,8 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
     c.joint = joint_of(mode);
     std::optional<SpeedResponse> peak;
     // A force's swing is largest at √(1 − 2ζ²) of |λ|, and what a joint passes on at less below it.
-    const double width = (2 * mode.ratio * mode.ratio + 0.02) * c.speed;
-    if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(nearest, width, at);
+    const double damped = mode.natural() / c.order, width = (2 * mode.ratio * mode.ratio + 0.02) * damped;
+    if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(damped, width, at);
     const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
     if (peak) c.peak = peak->speed;
     c.amplitude = std::abs(there.orders[c.joint][c.harmonic]);

@@ -8,7 +8,11 @@
 
 namespace kurbel {
 
-// Fills `critical`: where an order that has any strength meets a mode within the range, r Ω = |λ|, by speed.
+// At which an order meets a mode, r Ω = ω_n [rad/s]: undamped, as is usual; with states of elements, which stiffen or
+// soften the drive, |λ| of the damped swing.
+double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
+
+// Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
 void find_critical_speeds(ModesStudy& found);
 
 // The amplitudes of `critical`, in the joint that their mode twists most, by the sweep, which has points at and beside

@@ -272,9 +272,6 @@ class Study {
     return linearise(model_, point);
   }
 
-  // Of a zone: undamped, as its formula is; with states of elements, which stiffen or soften the drive, |λ|.
-  double of_resonance(const Mode& mode) const { return found_.drive.own_states() > 0 ? mode.natural() : mode.omega; }
-
   void find_zones() {
     const auto& elements = model_->network.elements;
     if (std::none_of(elements.begin(), elements.end(),
@@ -285,7 +282,7 @@ class Study {
       const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
       for (std::size_t r = 1; r < variation.size(); ++r) {
         ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * of_resonance(mode) / found_.excitations.order(r);
+        zone.centre = 2 * frequency_of_resonance(found_.drive, mode) / found_.excitations.order(r);
         zone.variation = variation[r];
         zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
         if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
@@ -310,9 +307,11 @@ class Study {
     for (int i = 0; i <= sweep_points; ++i)
       speeds.push_back(std::min(found_.slowest + (found_.fastest - found_.slowest) * i / sweep_points, found_.fastest));
     for (const CriticalSpeed& c : found_.critical) {
-      const double zeta = std::clamp(found_.modes[at(c.mode - 1)].ratio, 1e-4, 0.2);
+      const Mode& mode = found_.modes[at(c.mode - 1)];
+      const double zeta = std::clamp(mode.ratio, 1e-4, 0.2), damped = mode.natural() / c.order;
       for (const double factor : {1 - 2 * zeta, 1 - zeta, 1 - 0.4 * zeta, 1.0, 1 + 0.4 * zeta, 1 + zeta, 1 + 2 * zeta})
-        speeds.push_back(c.speed * factor);
+        speeds.push_back(damped * factor);
+      speeds.push_back(c.speed);
     }
     speeds.push_back(std::abs(found_.drive.at.speed));
     std::sort(speeds.begin(), speeds.end());

@@ -1,7 +1,7 @@
 // modes.h — the drive in the frequency domain: modes, critical speeds, forced response, limits, a torque's spectrum.
 //
 // The machine is linearised at its regime (engine/linear), with everything that the scene's effects do.
-//   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = |λ| (Campbell)
+//   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
 // A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
 // first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
 #pragma once

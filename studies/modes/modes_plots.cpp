@@ -80,6 +80,7 @@ Plot shape_plot(const ModesStudy& m) {
       s.y.push_back(ratio != 0 ? shape[i] / ratio : shape[i]);
       if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
     }
+    if (largest == 0) continue;  // only what no spring holds moves in it
     for (double& y : s.y) y /= largest;
     plot.series.push_back(std::move(s));
   }

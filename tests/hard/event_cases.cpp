@@ -123,6 +123,7 @@ HardCase edges(int events) {
 }
 HardCase a_hundred_thousand_edges() {
   HardCase c = edges(100000);
+  c.heavy = true;
   const auto shortened = std::make_shared<const HardCase>(edges(2000));
   for (const std::string& method : all_methods())
     if (method != "auto" && method != "work" && method != "dop853" && method != "multibody")

@@ -45,6 +45,7 @@ struct ShuntDrive {
 HardCase circuit(double electrical, double until) {
   const ShuntDrive drive{.damping = 0.01, .electrical = electrical};
   HardCase c = drive.run(until);
+  c.heavy = until > 1e8 * electrical;
   // Stability holds explicit steps to some 6 L/R.
   const auto shortened = std::make_shared<const HardCase>(drive.run(2000 * electrical));
   if (until > 2e4 * electrical)

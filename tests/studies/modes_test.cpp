@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
 #include "studies/modes/modes_findings.h"
+#include "studies/modes/modes_plots.h"
 #include "studies/report/render.h"
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
@@ -431,6 +433,24 @@ TEST(ModesStudy, EngineReportsCrankshaftModesOrdersAndCriticalSpeeds) {
   const auto json = nlohmann::json::parse(output_of(m).json);
   EXPECT_EQ(json["modes"].size(), 6u);
   EXPECT_NEAR(json["modes"][0]["frequency"].get<double>() * 2 * pi, m.modes[0].omega, 1e-12 * m.modes[0].omega);
+}
+
+// A viscous damper's ring swims: a line through it would show a node that is none.
+TEST(ModesStudy, ARingThatNoSpringHoldsStandsInNoShape) {
+  const Scene scene = test::scene_file("docs/tasks/genset.toml");
+  const ModesStudy m = find_modes(scene, scene.effects, {.misfires = false});
+  const auto ring = std::find(m.shaft_names.begin(), m.shaft_names.end(), "damper.ring") - m.shaft_names.begin();
+  ASSERT_LT(ring, static_cast<std::ptrdiff_t>(m.shaft_names.size()));
+  const Plot shapes = modes::mode_plots(m).front();
+  ASSERT_EQ(shapes.series.size(), m.modes.size());
+  for (const Series& s : shapes.series) {
+    EXPECT_EQ(s.x.size(), m.shaft_names.size() - 1);
+    EXPECT_EQ(std::count(s.x.begin(), s.x.end(), static_cast<double>(ring + 1)), 0);
+    EXPECT_NEAR(std::abs(*std::max_element(s.y.begin(), s.y.end(),
+                                           [](double a, double b) { return std::abs(a) < std::abs(b); })),
+                1, 1e-12);
+  }
+  EXPECT_NE(shapes.note.find("No spring holds damper.ring"), std::string::npos) << shapes.note;
 }
 
 TEST(ModesStudy, PressGivesAReportWithASimulatedTorque) {
