@@ -994,9 +994,9 @@
     const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
     draw('text', {x: 10, y: 19, dy: '.85em', class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
-    if (g.name) draw('text', {x: 22 + bar * scale, y: 14, dy: '.35em', class: 'soft'}, svg, g.name);
+    if (g.name) draw('text', {x: 10, y: 19, dy: '2em', class: 'soft'}, svg, g.name);
 
-    if (bent) draw('text', {x: 10, y: 38, dy: '.85em', class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    if (bent) draw('text', {x: 10, y: 19, dy: g.name ? '3.15em' : '2em', class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
     // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
     const gaps = g.gaps.map((gap, k) => {
       const x = W - 76 - 150 * k, y = 42, wide = 12, R = 36;
