@@ -16,11 +16,6 @@ constexpr std::size_t orders_drawn = 2, orders_told = 6, shafts_drawn = 12;
 
 std::string stress_text(double stress) { return fmt::format("{:.4g} MPa", stress / megapascal); }
 
-std::string use_text(const StressPeak& p) {
-  if (!std::isfinite(p.allowed)) return "—";
-  return fmt::format("{:.0f} %{}", 100 * p.use(), p.use() > 1 ? " EXCEEDED" : "");
-}
-
 // "38.2 MPa at 92 rpm, 87 % of what is allowed there in continuous running"
 std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
   std::string text = fmt::format("{} at {}", stress_text(p.stress), unit.text(p.speed, 4));
@@ -37,6 +32,13 @@ std::optional<double> use_in_passing(const ShaftStresses& s, const StressPeak& p
                                   [&](const BarredRange& b) { return b.from <= p.speed && p.speed <= b.to; });
   if (p.use() <= 1 || !barred || !joint.limits.shaft.is_of_propulsion() || joint.speed_ratio(p.speed) > 0.8) return {};
   return p.stress / joint.transient(p.speed);
+}
+
+// "136 %, barred": more than is allowed for long, in a range that may be passed.
+std::string use_text(const ShaftStresses& s, const StressPeak& p) {
+  if (!std::isfinite(p.allowed)) return "—";
+  const bool barred = use_in_passing(s, p).value_or(HUGE_VAL) <= 1;
+  return fmt::format("{:.0f} %{}", 100 * p.use(), barred ? ", barred" : p.use() > 1 ? " EXCEEDED" : "");
 }
 
 std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
@@ -64,8 +66,9 @@ const StressPeak* worst_of_all(const std::vector<StressPeak>& peaks, const std::
   return worst;
 }
 
-Rows peak_table(const char* key, const char* title, const char* heading, std::vector<StressPeak> peaks,
-                const SpeedUnit& unit) {
+Rows peak_table(const ShaftStresses& s, const char* key, const char* title, const char* heading,
+                std::vector<StressPeak> peaks) {
+  const SpeedUnit& unit = s.unit;
   const ReadAs stress{.factor = 1 / megapascal, .digits = 4}, speed{.factor = unit.of(1), .digits = 5};
   return table_of(key, title, std::move(peaks))
       .headed(heading)
@@ -78,7 +81,7 @@ Rows peak_table(const char* key, const char* title, const char* heading, std::ve
       .column("stress", "largest amplitude [MPa]", &StressPeak::stress, stress)
       .column("speed", fmt::format("at [{}]", unit.name), &StressPeak::speed, speed)
       .column("allowed", "allowed there [MPa]", &StressPeak::allowed, stress)
-      .only_for_people("use", use_text);
+      .only_for_people("use", [&s](const StressPeak& p) { return use_text(s, p); });
 }
 
 // From one speed of the sweep to the next.
@@ -173,15 +176,15 @@ Rows stress_table(const ShaftStresses& s) {
     orders = peaks[i].order == 0 ? 0 : orders + 1;
     if (orders <= orders_told) told.push_back(i);
   }
-  Rows table = peak_table("shaft_stress", "Vibratory stress of shafts over the speeds",
-                          "vibratory stress of shafts over the speeds", std::move(peaks), s.unit);
+  Rows table = peak_table(s, "shaft_stress", "Vibratory stress of shafts over the speeds",
+                          "vibratory stress of shafts over the speeds", std::move(peaks));
   table.for_people = std::move(told);
   return table;
 }
 
 Rows misfire_table(const ShaftStresses& s) {
-  return peak_table("misfires", "Vibratory stress of shafts as one cylinder misfires",
-                    "the same as one cylinder misfires", misfire_peaks(s), s.unit);
+  return peak_table(s, "misfires", "Vibratory stress of shafts as one cylinder misfires",
+                    "the same as one cylinder misfires", misfire_peaks(s));
 }
 
 std::vector<Plot> stress_plots(const ShaftStresses& s) {

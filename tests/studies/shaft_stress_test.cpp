@@ -198,6 +198,9 @@ TEST(ShaftStress, VerdictsOfUrM68ByHand) {
   EXPECT_NEAR(passing.value, stress_at(8, 80), 1e-3 * passing.value);
   EXPECT_NEAR(passing.limit, 1.7 * continuous_at(0.5) / std::sqrt(0.55), 2e-3 * passing.limit);
   EXPECT_EQ(passing.state(), Compliance::holds);
+  EXPECT_EQ(stress_excess(m.stresses), 0) << "what is barred and may be passed is no excess";
+  const auto uses = stress_table(m.stresses).texts();
+  EXPECT_TRUE(std::any_of(uses.begin(), uses.end(), [](const auto& row) { return row.back().ends_with("%, barred"); }));
   const Verdict& upper = verdict_on(m.verdicts, "UR M68, all of");
   EXPECT_LT(upper.value, stress_at(8, 0.8 * 160));
   EXPECT_GT(upper.value, 0.95 * stress_at(8, 0.8 * 160));
