@@ -117,8 +117,7 @@ std::vector<Definition> entries_of_own() {
               "the efficiency of one gear or mechanism", "η = −A_useful/A_driving"),
       of_run("current_use", "use of a motor's rated current", "", "MOTOR",
              "RMS current of a line over the cycle that the thermal use is of, over that at the rated slip: of the "
-             "two-axis "
-             "model",
+             "two-axis model",
              "the thermal use, which is by its torque; iron and friction are in neither",
              "√( (1/T) ∫ ½ |i_s|² dt )/I_n"),
       of_run("motor_stator_heat", "heat of a motor's stator winding", "J", "MOTOR",

@@ -99,7 +99,7 @@ double top_of(const ModesStudy& m) {
   return 1.15 * top;
 }
 
-// "Above the diagram, where no order of weight meets it: mode 2, 481.8 Hz.": what is not drawn is said.
+// "Above the diagram, where no order of weight meets a mode: mode 2 at 481.8 Hz.": what is not drawn is said.
 std::string modes_above(const ModesStudy& m, double top) {
   constexpr std::size_t most_told = 4;
   std::string text;

@@ -25,9 +25,9 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
 // the less the slower it turns. Only of drives that a dense solver takes (160 coordinates); of larger ones never.
 bool grows(const LinearDrive& drive);
 
-// A speed is kept where nothing grows and the link's speed would swing by less than itself if all were rigid, for what
-// swings much by resonance alone is barred, not left out; what the linear response says of
-// any other is of no motion that lasts. Where the operating point is none that is kept, nothing is told of the others.
+// A speed is kept where nothing grows and the link's speed would swing by less than itself if all were rigid: what swings
+// much by resonance alone is barred, not left out. What the linear response says of any other speed is of no motion that
+// lasts. Where the operating point is none that is kept, nothing is told of the others.
 void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
 
 // Takes the critical speeds away that are not kept, and notes what is left out.

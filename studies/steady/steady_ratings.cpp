@@ -47,7 +47,8 @@ void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
     const auto joint =
         std::find_if(joints.begin(), joints.end(), [&v](const LimitedJoint& j) { return j.name == v.component; });
     std::erase_if(verdicts, [&](const Verdict& other) {
-      const bool same = other.component == v.component || other.component == joint->component;
+      const bool same = other.component == v.component ||
+                        (joint != joints.end() && other.component == joint->component);  // of its segments together
       return same && head(other) == head(v);
     });
     verdicts.push_back(std::move(v));
