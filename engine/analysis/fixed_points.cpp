@@ -1,10 +1,9 @@
 // fixed_points.cpp — fixed points of the return map by Newton's method, and their Floquet multipliers.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "engine/analysis/return_map.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
 
@@ -21,7 +20,7 @@ double condition_of_largest(const Eigen::MatrixXd& derivative) {
   const auto [values, vectors] = eigenpairs(derivative);
   Eigen::Index largest = 0;
   values.cwiseAbs().maxCoeff(&largest);
-  const Eigen::VectorXcd left = vectors.fullPivLu().inverse().row(largest).transpose();
+  const Eigen::VectorXcd left = ComplexLu(vectors).inverse().row(largest).transpose();
   const double condition = left.lpNorm<1>() * vectors.col(largest).lpNorm<1>();
   return std::isfinite(condition) ? condition : 1 / floor_of_rounds;
 }

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
 namespace {
@@ -38,7 +39,7 @@ class Newton {
     norm_ = residual_.cwiseAbs().maxCoeff();
     if (with_derivative) {
       at_ = x;
-      solver_.compute(derivative);
+      solver_ = Lu(derivative);
     }
     return true;
   }
@@ -119,7 +120,7 @@ class Newton {
 
   const NewtonSystem& system_;
   Eigen::VectorXd x_, at_, residual_, last_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> solver_;
+  Lu solver_;
   NewtonOutcome out_;
   double enough_, norm_ = 0;
   int run_on_ = 0;

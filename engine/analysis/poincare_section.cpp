@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
@@ -41,10 +41,7 @@ std::vector<Index> independent_rows(const Eigen::MatrixXd& rows) {
 // A basis of the motions that the rows allow; columns.
 Eigen::MatrixXd motions(const Eigen::MatrixXd& rows, Index shafts) {
   if (rows.rows() == 0) return Eigen::MatrixXd::Identity(shafts, shafts);
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(rows);
-  lu.setThreshold(independent);
-  if (lu.dimensionOfKernel() == 0) return Eigen::MatrixXd(shafts, 0);
-  return lu.kernel();
+  return FullLu(rows, independent).kernel();
 }
 
 // The common period of all that reads an angle, as an angle of its own shaft; 0: nothing reads it.
@@ -150,7 +147,7 @@ class PoincareSection::Maker {
   }
 
   void add_angles(const Eigen::MatrixXd& allowed) {
-    const Eigen::MatrixXd by_motion = angles_and_twists() * allowed;
+    const Eigen::MatrixXd by_motion = product(angles_and_twists(), allowed);
     const auto read = read_rows();
     Eigen::MatrixXd rows(row(read.size()), allowed.cols());
     for (std::size_t i = 0; i < read.size(); ++i) rows.row(row(i)) = by_motion.row(row(read[i].first));
@@ -159,9 +156,10 @@ class PoincareSection::Maker {
     Eigen::MatrixXd picked(row(chosen.size()), rows.cols());
     for (std::size_t i = 0; i < chosen.size(); ++i) picked.row(row(i)) = rows.row(chosen[i]);
     const Eigen::MatrixXd inverse =  // the least motion that moves one of them alone
-        picked.transpose() *
-        (picked * picked.transpose()).fullPivLu().solve(Eigen::MatrixXd::Identity(picked.rows(), picked.rows()));
-    const Eigen::MatrixXd moved = by_motion * inverse;
+        transposed_product(
+            picked,
+            FullLu(product_transposed(picked, picked)).solve(Eigen::MatrixXd::Identity(picked.rows(), picked.rows())));
+    const Eigen::MatrixXd moved = product(by_motion, inverse);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       Coordinate coordinate = read[static_cast<std::size_t>(chosen[i])].second;
       Eigen::VectorXd direction = Eigen::VectorXd::Zero(section_.directions_.rows());
@@ -176,7 +174,7 @@ class PoincareSection::Maker {
     if (chosen.empty()) return;
     Eigen::MatrixXd picked(row(chosen.size()), rows.cols());
     for (std::size_t i = 0; i < chosen.size(); ++i) picked.row(row(i)) = rows.row(chosen[i]);
-    const Eigen::MatrixXd moved = allowed * picked.fullPivLu().inverse();
+    const Eigen::MatrixXd moved = product(allowed, FullLu(picked).inverse());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const auto shaft = static_cast<std::size_t>(chosen[i]);
       const double scale = m_.shafts[shaft].speed_scale;

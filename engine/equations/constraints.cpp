@@ -35,15 +35,71 @@ std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t
 
 }  // namespace
 
-Constraints::Constraints(std::size_t free_shafts) : free_(free_shafts) { list_shafts(); }
+class Constraints::System {
+ public:
+  explicit System(std::size_t free_shafts) : free_(free_shafts) { list_shafts(); }
+  void set(const std::vector<ConstraintRow>& rows);
+  bool empty() const { return rows_.empty(); }
+  bool repeats() const { return !repeating_.empty(); }
+  void solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
+             std::span<double> multiplier);
+  const std::optional<Trouble>& trouble() const { return trouble_; }
+  void project(std::span<const double> inertia, std::span<double> speed);
+  std::vector<double> mobility(std::span<const double> inertia, std::span<const int> shafts);
+  double mobility(std::span<const double> inertia, std::span<const ShaftGain> motion,
+                  std::span<const ShaftGain> torque);
 
-void Constraints::set(const std::vector<ConstraintRow>& rows) {
+ private:
+  using Matrix = RowMatrix;
+
+  void list_shafts();
+  void factorise(std::span<const double> inertia);
+  Eigen::VectorXd shaft_weights() const;
+  void choose_leaders();
+  void find_torque_space();
+  bool reduce(const Matrix& left, const std::vector<std::size_t>& unit, Matrix& inverse) const;
+  void respond_to_repeating();
+  void share();
+  void accelerate(const double* torque, const double* shift, double* alpha, double* lambda);
+  bool is_kept(std::span<const double> alpha, std::span<const double> multiplier);
+  void look_for_trouble(std::span<const double> alpha, std::span<const double> multiplier);
+  bool is_lossy() const;
+  std::size_t lossiest() const;
+
+  std::size_t free_;
+  std::vector<ConstraintRow> rows_;
+  std::vector<int> tied_, given_, loose_;  // free shafts in rows, prescribed ones in rows, the other free ones
+  std::vector<int> place_;                 // of every shaft in its list
+  Matrix motion_, torque_;                 // G over the tied, then the given shafts; −T over the tied ones; by rows
+  std::vector<double> lossy_, strength_;   // per row: how far T is from −Gᵀ; capacity as a torque on its shafts
+
+  // By the magnitudes of the inertias. Places among the tied shafts:
+  std::vector<int> magnitude_;                  // of each inertia, in steps of 2⁸
+  std::vector<std::size_t> basic_, repeating_;  // rows that say something new, and the others
+  std::vector<std::size_t> follow_, lead_;      // shafts, in the rows' motion
+  std::vector<std::size_t> bear_, free_of_;     // equations of motion that give λ, and the others: Yᵀ's unit part
+  Matrix allowed_, torque_free_;                // Z, Y: by tied shafts
+  Matrix by_given_;                             // what accelerations of the given shafts add to α
+  Matrix follow_inverse_, bear_inverse_;  // G⁻¹ and (−T)⁻¹ of basic rows and those shafts: by shafts, basic rows
+
+  // By the inertias:
+  std::vector<double> inertia_;  // of the tied shafts; empty: unknown
+  Matrix reduced_inverse_;       // (Yᵀ I Z)⁻¹
+  bool locked_ = false;          // there is none
+  // λ of the repeating rows from that of the basic ones without them; what their λ = 1 then does to basic λ and to α.
+  Matrix shares_, share_multiplier_, share_alpha_;
+
+  std::optional<Trouble> trouble_;
+  std::vector<double> tied_torque_, alpha_, lambda_, shift_, right_, rest_, size_;  // working arrays
+};
+
+void Constraints::System::set(const std::vector<ConstraintRow>& rows) {
   if (rows == rows_) return;
   rows_ = rows;
   list_shafts();
 }
 
-void Constraints::list_shafts() {
+void Constraints::System::list_shafts() {
   int count = static_cast<int>(free_);
   for (const ConstraintRow& row : rows_)
     for (const auto* side : {&row.motion, &row.torque})
@@ -82,7 +138,7 @@ void Constraints::list_shafts() {
   if (tied_.empty() && !rows_.empty()) choose_leaders();  // nothing to lead: the rows can only be checked
 }
 
-void Constraints::factorise(std::span<const double> inertia) {
+void Constraints::System::factorise(std::span<const double> inertia) {
   const std::size_t n = tied_.size();
   bool same = inertia_.size() == n;
   for (std::size_t s = 0; same && s < n; ++s) same = inertia_[s] == inertia[at(tied_[s])];
@@ -100,14 +156,14 @@ void Constraints::factorise(std::span<const double> inertia) {
   if (!repeating_.empty() && !locked_ && is_lossy()) respond_to_repeating();
 }
 
-Eigen::VectorXd Constraints::shaft_weights() const {
+Eigen::VectorXd Constraints::System::shaft_weights() const {
   Eigen::VectorXd weight(ix(tied_.size()));
   for (std::size_t s = 0; s < tied_.size(); ++s) weight[ix(s)] = root_inverse(magnitude_[s]);
   return weight;
 }
 
 // Which shafts lead and which follow, and the rows that say something new: of repeating ones those that can carry most.
-void Constraints::choose_leaders() {
+void Constraints::System::choose_leaders() {
   const std::size_t n = tied_.size(), m = rows_.size();
   std::vector<std::size_t> strongest_first(m);
   std::iota(strongest_first.begin(), strongest_first.end(), std::size_t{0});
@@ -140,7 +196,7 @@ void Constraints::choose_leaders() {
 }
 
 // Which equations of motion give λ, and the combinations of all that are free of it.
-void Constraints::find_torque_space() {
+void Constraints::System::find_torque_space() {
   const std::size_t n = tied_.size(), r = basic_.size();
   if (!is_lossy()) {
     bear_ = follow_, free_of_ = lead_;
@@ -167,7 +223,7 @@ void Constraints::find_torque_space() {
 
 // (leftᵀ I Z)⁻¹. For the inversion rows and columns are brought to like size by the inertias of their shafts. With
 // losses terms may cancel.
-bool Constraints::reduce(const Matrix& left, const std::vector<std::size_t>& unit, Matrix& inverse) const {
+bool Constraints::System::reduce(const Matrix& left, const std::vector<std::size_t>& unit, Matrix& inverse) const {
   const Eigen::Index k = allowed_.cols();
   inverse.setZero(k, k);
   for (std::size_t s = 0; s < tied_.size(); ++s) {
@@ -196,7 +252,7 @@ bool Constraints::reduce(const Matrix& left, const std::vector<std::size_t>& uni
 }
 
 // With losses a repeating row's torque is not what basic rows can take without an acceleration.
-void Constraints::respond_to_repeating() {
+void Constraints::System::respond_to_repeating() {
   const std::size_t n = tied_.size(), r = basic_.size();
   const std::vector<double> no_shift(n, 0.0);
   std::vector<double> unit(n), alpha(n), lambda(r);
@@ -217,7 +273,7 @@ void Constraints::respond_to_repeating() {
 
 // What is free in λ where rows repeat: z, the λ of the repeating rows. λ = λ₀ + R z has the least Σ λ²/capacity where
 // (C⁻¹ + Rᵀ C_b⁻¹ R) z = −Rᵀ C_b⁻¹ λ₀. Repeating rows are the weakest, so that this is well determined.
-void Constraints::share() {
+void Constraints::System::share() {
   const auto r = ix(basic_.size()), q = ix(repeating_.size());
   const auto root = [&](std::size_t row) { return std::sqrt(rows_[row].capacity); };
   Matrix scaled = share_multiplier_;  // C_b^-½ R C^½
@@ -232,13 +288,13 @@ void Constraints::share() {
       shares_(k, b) *= root(repeating_[static_cast<std::size_t>(k)]) / root(basic_[static_cast<std::size_t>(b)]);
 }
 
-bool Constraints::is_lossy() const {
+bool Constraints::System::is_lossy() const {
   return std::any_of(lossy_.begin(), lossy_.end(), [](double part) { return part != 0; });
 }
 
 // α of the tied shafts and λ of the basic rows, the others' λ being 0. `shift` is what the given accelerations add to
 // α.
-void Constraints::accelerate(const double* torque, const double* shift, double* alpha, double* lambda) {
+void Constraints::System::accelerate(const double* torque, const double* shift, double* alpha, double* lambda) {
   const std::size_t n = tied_.size(), k = lead_.size(), r = basic_.size();
   for (std::size_t j = 0; j < k; ++j) right_[j] = 0;
   for (std::size_t s = 0; s < n; ++s) {
@@ -262,8 +318,8 @@ void Constraints::accelerate(const double* torque, const double* shift, double* 
   }
 }
 
-void Constraints::solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
-                        std::span<double> multiplier) {
+void Constraints::System::solve(std::span<const double> inertia, std::span<const double> torque,
+                                std::span<double> alpha, std::span<double> multiplier) {
   trouble_.reset();
   for (const int s : loose_) alpha[at(s)] = torque[at(s)] / inertia[at(s)];
   if (rows_.empty()) return;
@@ -298,7 +354,7 @@ void Constraints::solve(std::span<const double> inertia, std::span<const double>
 }
 
 // I α = M + T λ and G α = 0, each to a small part of its terms.
-bool Constraints::is_kept(std::span<const double> alpha, std::span<const double> multiplier) {
+bool Constraints::System::is_kept(std::span<const double> alpha, std::span<const double> multiplier) {
   bool kept = true;
   for (std::size_t s = 0; s < tied_.size(); ++s) {
     const double own = inertia_[s] * alpha_[s];
@@ -323,7 +379,7 @@ bool Constraints::is_kept(std::span<const double> alpha, std::span<const double>
 }
 
 // A residue that is large beside its own terms may yet be round-off of what went into them: measured by that.
-void Constraints::look_for_trouble(std::span<const double> alpha, std::span<const double> multiplier) {
+void Constraints::System::look_for_trouble(std::span<const double> alpha, std::span<const double> multiplier) {
   const std::size_t n = tied_.size(), r = basic_.size(), k = lead_.size();
   Eigen::VectorXd reach(ix(n)), torque(ix(n)), lambda(ix(rows_.size()));
   for (std::size_t s = 0; s < n; ++s) {
@@ -356,11 +412,11 @@ void Constraints::look_for_trouble(std::span<const double> alpha, std::span<cons
     if (std::abs(rest_[s]) > is_lost * size_[s]) trouble_ = {Trouble::Cause::lost, lossiest()};
 }
 
-std::size_t Constraints::lossiest() const {
+std::size_t Constraints::System::lossiest() const {
   return static_cast<std::size_t>(std::max_element(lossy_.begin(), lossy_.end()) - lossy_.begin());
 }
 
-void Constraints::project(std::span<const double> inertia, std::span<double> speed) {
+void Constraints::System::project(std::span<const double> inertia, std::span<double> speed) {
   if (rows_.empty()) return;
   factorise(inertia);
   const std::size_t r = basic_.size();
@@ -386,9 +442,9 @@ void Constraints::project(std::span<const double> inertia, std::span<double> spe
   }
 }
 
-Eigen::MatrixXd Constraints::mobility(std::span<const double> inertia, std::span<const int> shafts) {
+std::vector<double> Constraints::System::mobility(std::span<const double> inertia, std::span<const int> shafts) {
   const std::size_t n = tied_.size();
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(ix(shafts.size()), ix(shafts.size()));
+  std::vector<double> result(shafts.size() * shafts.size(), 0.0);
   if (!rows_.empty()) factorise(inertia);
   Matrix tied = Matrix::Zero(ix(n), ix(n));
   if (!rows_.empty() && !locked_) {
@@ -408,23 +464,24 @@ Eigen::MatrixXd Constraints::mobility(std::span<const double> inertia, std::span
   };
   for (std::size_t i = 0; i < shafts.size(); ++i) {
     if (!is_tied(shafts[i])) {
-      result(ix(i), ix(i)) = 1 / inertia[at(shafts[i])];
+      result[i * shafts.size() + i] = 1 / inertia[at(shafts[i])];
       continue;
     }
     for (std::size_t j = 0; j < shafts.size(); ++j)
-      if (is_tied(shafts[j])) result(ix(i), ix(j)) = tied(place_[at(shafts[i])], place_[at(shafts[j])]);
+      if (is_tied(shafts[j])) result[i * shafts.size() + j] = tied(place_[at(shafts[i])], place_[at(shafts[j])]);
   }
   return result;
 }
 
-double Constraints::mobility(std::span<const double> inertia, std::span<const ShaftGain> motion,
-                             std::span<const ShaftGain> torque) {
+double Constraints::System::mobility(std::span<const double> inertia, std::span<const ShaftGain> motion,
+                                     std::span<const ShaftGain> torque) {
   std::vector<int> shafts;
   for (const auto side : {motion, torque})
     for (const ShaftGain& g : side)
       if (at(g.shaft) < free_ && std::find(shafts.begin(), shafts.end(), g.shaft) == shafts.end())
         shafts.push_back(g.shaft);
-  const Eigen::MatrixXd w = mobility(inertia, shafts);
+  const std::vector<double> w = mobility(inertia, shafts);
+  const Eigen::Map<const RowMatrix> by_torque(w.data(), ix(shafts.size()), ix(shafts.size()));
   const auto over = [&](std::span<const ShaftGain> side) {
     Eigen::VectorXd gain = Eigen::VectorXd::Zero(ix(shafts.size()));
     for (const ShaftGain& g : side)
@@ -432,7 +489,35 @@ double Constraints::mobility(std::span<const double> inertia, std::span<const Sh
         if (shafts[i] == g.shaft) gain[ix(i)] += g.gain;
     return gain;
   };
-  return over(motion).dot(w * over(torque));
+  return over(motion).dot(by_torque * over(torque));
+}
+
+Constraints::Constraints(std::size_t free_shafts) : system_(std::make_unique<System>(free_shafts)) {}
+Constraints::Constraints(const Constraints& other) : system_(std::make_unique<System>(*other.system_)) {}
+Constraints& Constraints::operator=(const Constraints& other) {
+  *system_ = *other.system_;
+  return *this;
+}
+Constraints::Constraints(Constraints&&) noexcept = default;
+Constraints& Constraints::operator=(Constraints&&) noexcept = default;
+Constraints::~Constraints() = default;
+void Constraints::set(const std::vector<ConstraintRow>& rows) { system_->set(rows); }
+bool Constraints::empty() const { return system_->empty(); }
+bool Constraints::repeats() const { return system_->repeats(); }
+void Constraints::solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
+                        std::span<double> multiplier) {
+  system_->solve(inertia, torque, alpha, multiplier);
+}
+const std::optional<Constraints::Trouble>& Constraints::trouble() const { return system_->trouble(); }
+void Constraints::project(std::span<const double> inertia, std::span<double> speed) {
+  system_->project(inertia, speed);
+}
+std::vector<double> Constraints::mobility(std::span<const double> inertia, std::span<const int> shafts) {
+  return system_->mobility(inertia, shafts);
+}
+double Constraints::mobility(std::span<const double> inertia, std::span<const ShaftGain> motion,
+                             std::span<const ShaftGain> torque) {
+  return system_->mobility(inertia, motion, torque);
 }
 
 }  // namespace kurbel

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine/numerics/index.h"
@@ -205,15 +206,15 @@ void Ties::publish_relation(std::size_t r, const Instant& now, Sums& sums) {
 void Ties::mix_rows(const Instant& now, std::span<const double> inertia, std::span<double> values) {
   add_regularised_slopes(now, values);
   for (const JacobianLayout::Coupled& group : model_.jacobian.coupled) {
-    const Eigen::MatrixXd w = constraints_.mobility(inertia, group.shafts);
-    const auto n = static_cast<Eigen::Index>(group.shafts.size());
-    Eigen::VectorXd row(n);
+    const std::vector<double> w = constraints_.mobility(inertia, group.shafts);
+    const std::size_t n = group.shafts.size();
+    std::vector<double> row(n);
     for (std::size_t column = 0; column < group.columns.size(); ++column) {
       const std::size_t* position = group.position.data() + column * group.shafts.size();
-      for (Eigen::Index i = 0; i < n; ++i) row[i] = values[position[i]];
-      const Eigen::VectorXd mixed = w * row;
-      for (Eigen::Index i = 0; i < n; ++i)
-        values[position[i]] = still_[at(group.shafts[static_cast<std::size_t>(i)])] ? 0 : mixed[i];
+      for (std::size_t i = 0; i < n; ++i) row[i] = values[position[i]];
+      for (std::size_t i = 0; i < n; ++i)
+        values[position[i]] =
+            still_[at(group.shafts[i])] ? 0 : std::inner_product(row.begin(), row.end(), w.data() + i * n, 0.0);
     }
     // Shafts held by themselves, without a tie to others.
     if (tied_) continue;

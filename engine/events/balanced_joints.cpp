@@ -5,8 +5,9 @@
 #include <stdexcept>
 
 #include "engine/events/start.h"
-#include "engine/numerics/load_paths.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/load_paths.h"
 
 namespace kurbel {
 
@@ -59,7 +60,7 @@ void close_loops(const Model& m, const LoadLoops& loops, const std::vector<doubl
             if (other == k) slope(i, j) += part * compliance * share;
       }
     }
-    const Eigen::VectorXd change = slope.fullPivLu().solve(off);
+    const Eigen::VectorXd change = FullLu(slope).solve(off).col(0);
     double size = 0, largest = 0;
     for (Eigen::Index i = 0; i < n; ++i)
       for (const auto& [k, part] : loops.loops()[static_cast<std::size_t>(i)]) {

@@ -1,9 +1,6 @@
 // coordinates.cpp — the null space of the ties, group by group of the shafts that they join.
 #include "engine/linear/coordinates.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -71,17 +68,15 @@ class Maker {
         const auto place = std::find(shafts.begin(), shafts.end(), entry.shaft);
         if (place != shafts.end()) g(static_cast<Index>(r), place - shafts.begin()) += entry.gain;
       }
-    const Eigen::JacobiSVD<MatrixXd> svd(g, Eigen::ComputeFullV);
+    const Svd svd = full_v_svd(g);
     Index rank = 0;
-    while (rank < svd.singularValues().size() &&
-           svd.singularValues()[rank] > says_nothing_new * svd.singularValues()[0])
-      ++rank;
+    while (rank < svd.values.size() && svd.values[rank] > says_nothing_new * svd.values[0]) ++rank;
     if (rank == n) return;  // tied to what stands
-    const MatrixXd basis = svd.matrixV().rightCols(n - rank);
+    const MatrixXd basis = svd.v.rightCols(n - rank);
     Eigen::VectorXd inertia(n);
     for (Index i = 0; i < n; ++i) inertia[i] = inertia_[shafts[at(static_cast<int>(i))]];
-    const Eigen::LLT<MatrixXd> mass(basis.transpose() * inertia.asDiagonal() * basis);
-    const MatrixXd motion = mass.matrixL().solve(basis.transpose()).transpose();
+    const Cholesky mass = cholesky(transposed_product(basis, inertia.asDiagonal() * basis));
+    const MatrixXd motion = solve_lower(mass.lower, basis.transpose()).transpose();
     for (Index k = 0; k < motion.cols(); ++k) add_column(shafts, motion.col(k));
   }
   void add_column(const std::vector<int>& shafts, Eigen::VectorXd motion) {
@@ -182,9 +177,7 @@ MatrixXd motions_without_twist(const SparseMatrix& twists) {
     pairs = pairs && entries <= 2;
   }
   if (pairs) return Walk(twists).motions();
-  const Eigen::FullPivLU<MatrixXd> lu{MatrixXd(twists)};
-  if (lu.dimensionOfKernel() == 0) return MatrixXd(twists.cols(), 0);
-  MatrixXd kernel = lu.kernel();
+  MatrixXd kernel = FullLu(MatrixXd(twists)).kernel();
   for (Index k = 0; k < kernel.cols(); ++k) {
     Index largest = 0;
     kernel.col(k).cwiseAbs().maxCoeff(&largest);

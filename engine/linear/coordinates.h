@@ -6,16 +6,13 @@
 // inertia does not couple them. Shafts that stand, and those whose speed is prescribed, are in none.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <span>
 #include <vector>
 
 #include "engine/equations/ties.h"
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 struct Coordinates {
   SparseMatrix motion;     // Z: shafts × coordinates; rows of prescribed shafts are empty

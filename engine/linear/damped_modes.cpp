@@ -1,13 +1,11 @@
 // damped_modes.cpp — eigenvalues of the damped drive: dense; large drives by Newton from the undamped modes.
-#include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "engine/linear/eigen_modes.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -59,7 +57,7 @@ FirstOrder by_angles(const LinearDrive& drive) {
       -(scale.asDiagonal() * MatrixXd(drive.stiffness + drive.other_stiffness) * scale.asDiagonal());
   if (z > 0)
     f.a.block(2 * n, 0, z, n) = drive.own_scale.cwiseInverse().asDiagonal() *
-                                MatrixXd(drive.own_by_twist * SparseMatrix(drive.twists) + drive.own_by_angle) *
+                                MatrixXd(product(drive.own_by_twist, drive.twists) + drive.own_by_angle) *
                                 scale.asDiagonal();
   return f;
 }
@@ -94,13 +92,13 @@ void sort_modes(std::vector<DampedMode>& modes) {
 
 // Of each eigenvalue: its condition number times the backward error of its pair and of the solver.
 VectorXd eigenvalue_errors(const MatrixXd& a, const Eigenpairs& pairs) {
-  const Eigen::MatrixXcd left = pairs.vectors.partialPivLu().inverse();  // rows
+  const Eigen::MatrixXcd left = ComplexLu(pairs.vectors).inverse();  // rows
   const double backward = 4 * std::numeric_limits<double>::epsilon() *
                           std::sqrt(a.cwiseAbs().rowwise().sum().maxCoeff() * a.cwiseAbs().colwise().sum().maxCoeff());
   VectorXd error(a.rows());
   for (Index i = 0; i < a.rows(); ++i) {
     const Eigen::VectorXcd v = pairs.vectors.col(i);
-    const double residual = (a * v - pairs.values[i] * v).norm() / v.norm();
+    const double residual = (complex_image(a, v) - pairs.values[i] * v).norm() / v.norm();
     const double condition = left.row(i).norm() * v.norm();
     error[i] = std::isfinite(condition) ? condition * (residual + backward) : std::sqrt(backward * a.norm());
   }
@@ -144,7 +142,7 @@ class DampedNewton {
     add(drive.other_stiffness, 0, 0, 1, stiffness);
     if (states_ > 0) {
       add(drive.torque_by_own, 0, n_, -1, stiffness);
-      add(drive.own_by_twist * SparseMatrix(drive.twists), n_, 0, -1, stiffness);
+      add(product(drive.own_by_twist, drive.twists), n_, 0, -1, stiffness);
       add(drive.own_by_angle, n_, 0, -1, stiffness);
       add(drive.own_by_speed, n_, 0, -1, damping);
       add(drive.own_by_own, n_, n_, -1, stiffness);
@@ -159,10 +157,7 @@ class DampedNewton {
     x.head(n_) = v;
     for (int iteration = 0; iteration < 30; ++iteration) {
       const Sparse q = lambda * lambda * mass_ + lambda * damping_ + stiffness_;
-      if (!analysed_) solver_.analyzePattern(q);
-      analysed_ = true;
-      solver_.factorize(q);
-      if (solver_.info() != Eigen::Success) return true;  // λ is an eigenvalue to the last bit
+      if (!solver_.factorise(q)) return true;  // λ is an eigenvalue to the last bit
       const Eigen::VectorXcd w = solver_.solve((2.0 * lambda * mass_ + damping_) * x);
       if (!w.allFinite()) return false;
       const Complex before = lambda;
@@ -177,7 +172,7 @@ class DampedNewton {
   }
 
  private:
-  using Sparse = Eigen::SparseMatrix<Complex>;
+  using Sparse = ComplexSparseMatrix;
 
   static void add(const SparseMatrix& m, Index row, Index column, double factor,
                   std::vector<Eigen::Triplet<Complex>>& to) {
@@ -202,8 +197,7 @@ class DampedNewton {
   const LinearDrive& drive_;
   Index n_, states_;
   Sparse mass_, damping_, stiffness_;
-  Eigen::SparseLU<Sparse> solver_;
-  bool analysed_ = false;
+  ComplexSparseLu solver_;
 };
 
 std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedModes& undamped) {

@@ -1,16 +1,13 @@
 // eigen_modes.cpp — undamped: dense for small drives; for large ones a block Krylov space of (K + s M)⁻¹ M, checked by counting.
 #include "engine/linear/eigen_modes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -55,13 +52,11 @@ SparseMatrix shifted(const SparseMatrix& a, double shift) {
 
 // Negative pivots of A − σ.
 int count_below(const SparseMatrix& a, double sigma) {
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
-  const SparseMatrix first = shifted(a, -sigma);
-  ldlt.analyzePattern(first);
+  SparseLdlt ldlt;
   for (int attempt = 0; attempt < 8; ++attempt) {  // a pivot of exactly zero: σ is a little moved
-    ldlt.factorize(attempt == 0 ? first : shifted(a, -sigma * (1 + attempt * 1e-13)));
-    if (ldlt.info() == Eigen::Success && ldlt.vectorD().allFinite())
-      return static_cast<int>((ldlt.vectorD().array() < 0).count());
+    if (!ldlt.factorise(shifted(a, -sigma * (1 + attempt * 1e-13)))) continue;
+    const VectorXd pivots = ldlt.pivots();
+    if (pivots.allFinite()) return static_cast<int>((pivots.array() < 0).count());
   }
   throw std::runtime_error("the modes below a frequency could not be counted: the stiffness matrix has no finite LDLᵀ");
 }
@@ -83,8 +78,7 @@ MatrixXd rigid_motions(const LinearDrive& drive) {
   bool apart = true;  // parts of the drive that do not touch
   for (Index i = 0; apart && i < motions.rows(); ++i) apart = (motions.row(i).array() != 0).count() <= 1;
   if (apart) return motions;
-  const Eigen::HouseholderQR<MatrixXd> qr(motions);
-  return qr.householderQ() * MatrixXd::Identity(motions.rows(), motions.cols());
+  return orthonormalised(motions);
 }
 
 VectorXd stiffnesses(const LinearDrive& drive) {
@@ -145,11 +139,9 @@ UndampedModes dense_modes(const LinearDrive& drive, const SparseMatrix& a, const
   // Rigid motions are known exactly; the rest is found in the space across them.
   const Index n = a.rows(), r = rigid.cols();
   MatrixXd across = MatrixXd::Identity(n, n);
-  if (r > 0) across = MatrixXd(Eigen::HouseholderQR<MatrixXd>(rigid).householderQ()).rightCols(n - r);
+  if (r > 0) across = full_basis(rigid).rightCols(n - r);
   if (n == r) return collect(drive, a, rigid, MatrixXd(n, 0));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(across.transpose() * (a * across));
-  if (solver.info() != Eigen::Success) throw std::runtime_error("the dense eigenvalue solver did not converge");
-  return collect(drive, a, rigid, across * solver.eigenvectors());
+  return collect(drive, a, rigid, product(across, symmetric_eigen(transposed_product(across, a * across)).vectors));
 }
 
 // Block Krylov space of (A + s)⁻¹ with full orthogonalisation, Rayleigh–Ritz on it; random vectors are added where the
@@ -159,8 +151,7 @@ class KrylovSearch {
   KrylovSearch(const LinearDrive& drive, const SparseMatrix& a, MatrixXd rigid)
       : drive_(drive), a_(a), rigid_(std::move(rigid)), n_(a.rows()), v_(n_, 0), image_(n_, 0) {
     const double shift = rigid_.cols() > 0 ? shift_of_free * largest_row_sum(a) : 0;
-    solver_.compute(shifted(a, shift));
-    if (solver_.info() != Eigen::Success)
+    if (!solver_.factorise(shifted(a, shift)))
       throw std::runtime_error("the stiffness matrix of the drive could not be factorised");
   }
 
@@ -195,19 +186,22 @@ class KrylovSearch {
     return orthogonal(MatrixXd::NullaryExpr(n_, columns, [&]() { return normal(random_); }));
   }
 
+  // What lies along the basis.
+  static void take_out(const MatrixView& basis, MatrixXd& x) { x -= product(basis, transposed_product(basis, x)); }
+
   // Twice is enough (Kahan, Parlett): orthogonal to the rigid motions and to the basis, then within itself.
   MatrixXd orthogonal(MatrixXd x) const {
     x.colwise().normalize();
     for (int pass = 0; pass < 2; ++pass) {
-      x -= rigid_ * (rigid_.transpose() * x);
-      x -= v_.leftCols(basis_) * (v_.leftCols(basis_).transpose() * x);
+      take_out(rigid_, x);
+      take_out(v_.leftCols(basis_), x);
     }
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(x);
+    const PivotedQr qr = pivoted_qr(x);
     Index rank = 0;
-    while (rank < x.cols() && std::abs(qr.matrixR()(rank, rank)) > 1e-10) ++rank;
-    MatrixXd q = qr.householderQ() * MatrixXd::Identity(n_, rank);
-    q -= rigid_ * (rigid_.transpose() * q);
-    q -= v_.leftCols(basis_) * (v_.leftCols(basis_).transpose() * q);
+    while (rank < x.cols() && std::abs(qr.diagonal[rank]) > 1e-10) ++rank;
+    MatrixXd q = qr.q.leftCols(rank);
+    take_out(rigid_, q);
+    take_out(v_.leftCols(basis_), q);
     q.colwise().normalize();
     return q.leftCols(std::min(rank, n_ - rigid_.cols() - basis_));
   }
@@ -222,18 +216,18 @@ class KrylovSearch {
     }
     v_.middleCols(basis_, m) = x;
     last_image_ = solver_.solve(x);
-    last_image_ -= rigid_ * (rigid_.transpose() * last_image_);
+    take_out(rigid_, last_image_);
     image_.middleCols(basis_, m) = last_image_;
-    h_.block(0, basis_, basis_ + m, m) = v_.leftCols(basis_ + m).transpose() * last_image_;
+    h_.block(0, basis_, basis_ + m, m) = transposed_product(v_.leftCols(basis_ + m), last_image_);
     h_.block(basis_, 0, m, basis_) = h_.block(0, basis_, basis_, m).transpose();
     basis_ += m;
   }
 
   void ritz() {
     const MatrixXd h = h_.topLeftCorner(basis_, basis_);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (h + h.transpose()));
-    theta_ = solver.eigenvalues().reverse();
-    weights_ = solver.eigenvectors().rowwise().reverse();
+    const SymmetricEigen found = symmetric_eigen(0.5 * (h + h.transpose()));
+    theta_ = found.values.reverse();
+    weights_ = found.vectors.rowwise().reverse();
   }
 
   bool has_converged(Index count) {
@@ -241,8 +235,8 @@ class KrylovSearch {
     // The slowest one first: most checks end there.
     const auto residual = [&](Index first, Index columns) {
       const MatrixXd w = weights_.middleCols(first, columns);
-      const MatrixXd r =
-          image_.leftCols(basis_) * w - (v_.leftCols(basis_) * w) * theta_.segment(first, columns).asDiagonal();
+      const MatrixXd r = product(image_.leftCols(basis_), w) -
+                         product(v_.leftCols(basis_), w) * theta_.segment(first, columns).asDiagonal();
       return (r.colwise().norm().transpose().array() / theta_.segment(first, columns).array()).maxCoeff();
     };
     return residual(count - 1, 1) < converged && residual(0, count) < converged &&
@@ -252,7 +246,7 @@ class KrylovSearch {
   // Modes that the count finds up to the last wanted one and the search did not; where more of the last frequency may
   // follow, up to just below it.
   int miss(Index count) {
-    vectors_ = v_.leftCols(basis_) * weights_.leftCols(std::min(count + 1, basis_));
+    vectors_ = product(v_.leftCols(basis_), weights_.leftCols(std::min(count + 1, basis_)));
     const auto lambda = [&](Index i) {
       return vectors_.col(i).dot(a_ * vectors_.col(i)) / vectors_.col(i).squaredNorm();
     };
@@ -267,7 +261,7 @@ class KrylovSearch {
   const SparseMatrix& a_;
   MatrixXd rigid_;
   Index n_ = 0, basis_ = 0;
-  Eigen::SimplicialLDLT<SparseMatrix> solver_;
+  SparseLdlt solver_;
   MatrixXd v_, image_, h_, last_image_, weights_, vectors_;
   VectorXd theta_;
   std::mt19937_64 random_{20240607};

@@ -1,11 +1,10 @@
 // mean_balance.cpp — averages along the base motion: derivatives, and twists and own states with which the means balance.
-#include <Eigen/Dense>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "engine/linear/base_motion.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -30,10 +29,9 @@ SparseMatrix matrix(Index rows, Index columns, const Triplets& entries) {
 // Of a square system of many unknowns by LU; small or odd ones by an orthogonal decomposition, which leaves alone what no
 // equation fixes. Empty: there is no solution.
 VectorXd solved(const SparseMatrix& a, const VectorXd& right) {
-  if (a.cols() <= dense_below || a.rows() != a.cols())
-    return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(Eigen::MatrixXd(a)).solve(right);
-  Eigen::SparseLU<SparseMatrix> lu(a);
-  if (lu.info() != Eigen::Success) return {};
+  if (a.cols() <= dense_below || a.rows() != a.cols()) return shortest_solution(Eigen::MatrixXd(a), right);
+  SparseLu lu;
+  if (!lu.factorise(a)) return {};
   VectorXd x = lu.solve(right);
   return x.allFinite() ? x : VectorXd();
 }
@@ -152,8 +150,7 @@ class BaseMotion::Balance {
     const Index count = springs + free_.cols() - n_;
     loops_ = Eigen::MatrixXd(0, springs);
     if (count <= 0) return;
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(spring_twists_.transpose()));
-    loops_ = lu.kernel().transpose();
+    loops_ = FullLu(Eigen::MatrixXd(spring_twists_.transpose())).kernel().transpose();
   }
   // Rows below the balance of the coordinates: twists of loops, or torques over the springs' stiffness.
   void add_loops(int row, const VectorXd& factor, Triplets& to) const {

@@ -5,7 +5,7 @@
 // what was added and taken away in their own place: less than 1e-12 of that is round-off, and becomes zero.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 

@@ -1,13 +1,14 @@
 // periodic_schur.cpp — periodic QR: one factor Hessenberg, the others triangular, rotations chased round all of them.
 #include "engine/matrices/periodic_schur.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
 namespace {
@@ -131,15 +132,14 @@ class Iteration {
     }
   }
 
-  // All factors but the first, by Householder's reflections.
+  // All factors but the first, by Householder's reflections; all is real so far.
   void triangularise() {
     for (std::size_t k = 1; k < count_; ++k) {
-      const Eigen::HouseholderQR<MatrixXcd> qr(a_[k]);
-      const MatrixXcd q = qr.householderQ();
-      a_[k] = qr.matrixQR().triangularView<Eigen::Upper>();
+      const Qr factors = qr(a_[k].real());
+      a_[k] = factors.r.cast<Complex>();
       const std::size_t next = (k + 1) % count_;
-      a_[next] = a_[next] * q;
-      q_[next] = q_[next] * q;
+      a_[next] = product(a_[next].real(), factors.q).cast<Complex>();
+      q_[next] = product(q_[next].real(), factors.q).cast<Complex>();
     }
   }
   void make_hessenberg() {
@@ -302,7 +302,8 @@ PeriodicSchur::PeriodicSchur(const std::vector<Eigen::MatrixXd>& factors) {
   backward_error_ = eps * static_cast<double>(n);
   for (std::size_t k = 0; k < factors.size(); ++k) {
     triangular_[k] = MatrixXcd(triangular_[k].triangularView<Eigen::Upper>());
-    const MatrixXcd again = unitary_[(k + 1) % count()] * triangular_[k] * unitary_[k].adjoint();
+    const MatrixXcd again =
+        complex_product_adjoint(complex_product(unitary_[(k + 1) % count()], triangular_[k]), unitary_[k]);
     backward_error_ = std::max(backward_error_, (again - factors[k] / scale[k]).norm());
   }
   for (Index i = 0; i < n; ++i) {

@@ -1,10 +1,10 @@
 // loops.cpp — closed loops of shafts: the motion that they allow, and ratios that clash.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/index.h"
@@ -88,13 +88,11 @@ std::vector<double> allowed_motion(const Compilation& c, const Network& net, con
     add({{r.node[0], r.gain[0]}, {r.node[1], r.gain[1]}, {r.node[2], r.gain[2]}});
   Eigen::MatrixXd all(static_cast<Eigen::Index>(rows.size()), parts.groups);
   for (std::size_t k = 0; k < rows.size(); ++k) all.row(static_cast<Eigen::Index>(k)) = rows[k];
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(all);
-  lu.setThreshold(fits);
-  if (lu.dimensionOfKernel() == 0) refuse_clash(c, net, guess);
+  const Eigen::MatrixXd kernel = FullLu(all, fits).kernel();
+  if (kernel.cols() == 0) refuse_clash(c, net, guess);
   Eigen::VectorXd wanted(parts.groups);
   for (std::size_t n = net.nodes.size(); n-- > 0;) wanted[parts.group[n]] = guess[n] / parts.gain[n];
-  const Eigen::MatrixXd kernel = lu.kernel();
-  const Eigen::VectorXd motion = kernel * kernel.colPivHouseholderQr().solve(wanted);
+  const Eigen::VectorXd motion = kernel * least_squares(kernel, wanted);
   std::vector<double> speed(net.nodes.size());
   for (std::size_t n = 0; n < speed.size(); ++n) speed[n] = parts.gain[n] * motion[parts.group[n]];
   return speed;

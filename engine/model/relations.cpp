@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include "engine/matrices/elimination.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -63,7 +63,7 @@ bool relations_are_independent(const Network& network, const std::vector<int>& g
       rows(static_cast<Eigen::Index>(r), group[at(relation.node[at(k)])]) +=
           relation.gain[at(k)] * gain[at(relation.node[at(k)])];
   }
-  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rows).rank() == rows.rows();
+  return rank_by_columns(rows) == rows.rows();
 }
 
 std::vector<GearTorque> simplify_relations(Network& network, const Effects& effects, const std::vector<char>& stands) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -67,9 +69,10 @@ LoadLoops::LoadLoops(const LoadPaths& paths, const std::vector<LoadStep>& steps,
       for (const auto& [k, part] : loops_[static_cast<std::size_t>(j)]) flexibility(i, j) += row[at(k)] * part;
     for (const auto& [k, part] : loops_[static_cast<std::size_t>(i)]) row[at(k)] = 0;
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(flexibility);
-  if (lu.isInvertible()) {
-    inverse_ = lu.inverse();
+  const FullLu lu(flexibility);
+  if (lu.invertible()) {
+    const Eigen::MatrixXd inverse = lu.inverse();
+    inverse_.assign(inverse.data(), inverse.data() + inverse.size());
     rename(names);
     return;
   }
@@ -96,15 +99,16 @@ void LoadLoops::lock_in(const std::vector<double>& twist) {
 }
 
 void LoadLoops::share(double* torque) const {
-  const auto n = static_cast<Eigen::Index>(loops_.size());
-  Eigen::VectorXd twist = Eigen::VectorXd::Zero(n);  // by which the loops would gape
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!gape_.empty()) twist[i] = -gape_[static_cast<std::size_t>(i)];
-    for (const auto& [k, part] : loops_[static_cast<std::size_t>(i)]) twist[i] += part * compliance_[at(k)] * torque[k];
+  const std::size_t n = loops_.size();
+  std::vector<double> twist(n, 0.0);  // by which the loops would gape
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!gape_.empty()) twist[i] = -gape_[i];
+    for (const auto& [k, part] : loops_[i]) twist[i] += part * compliance_[at(k)] * torque[k];
   }
-  const Eigen::VectorXd added = inverse_ * twist;
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (const auto& [k, part] : loops_[static_cast<std::size_t>(i)]) torque[k] -= part * added[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    const double added = std::inner_product(twist.begin(), twist.end(), inverse_.data() + i * n, 0.0);
+    for (const auto& [k, part] : loops_[i]) torque[k] -= part * added;
+  }
 }
 
 }  // namespace kurbel

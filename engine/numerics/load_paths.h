@@ -9,7 +9,6 @@
 // which is what elastic links come to the stiffer they are. A loop without any stiffness leaves its share open.
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -78,7 +77,7 @@ class LoadLoops {
   std::vector<std::vector<std::pair<int, double>>> loops_;
   std::vector<double> compliance_;  // per link
   std::vector<double> gape_;        // per loop [rad]; none: closed
-  Eigen::MatrixXd inverse_;         // (Lᵀ C L)⁻¹
+  std::vector<double> inverse_;     // (Lᵀ C L)⁻¹, symmetric
   int undetermined_ = -1;
 };
 

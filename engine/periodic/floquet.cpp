@@ -1,13 +1,13 @@
 // floquet.cpp — the round interval by interval, the eigenvalues of what they make together, and the modes' phases.
 #include "engine/periodic/floquet.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "engine/analysis/sensitivities.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/matrices/periodic_schur.h"
 #include "engine/numerics/angles.h"
 
@@ -51,12 +51,12 @@ MatrixXd filled(const MatrixXd& m, Index rows, Index columns) {
 // What integration cannot tell from nothing is nothing.
 void wipe_out(MatrixXd& factor, double least, Round& round) {
   if (factor.size() == 0) return;
-  const Eigen::JacobiSVD<MatrixXd> svd(factor, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd values = svd.singularValues();
+  const Svd svd = thin_svd(factor);
+  Eigen::VectorXd values = svd.values;
   Index rank = values.size();
   for (; rank > 1 && values[rank - 1] <= least * values[0]; values[--rank] = 0)
     round.wiped_out = std::max(round.wiped_out, values[rank - 1] / values[0]);
-  if (rank < values.size()) factor = svd.matrixU() * values.asDiagonal() * svd.matrixV().transpose();
+  if (rank < values.size()) factor = product_transposed(svd.u * values.asDiagonal(), svd.v);
   round.rank = std::min(round.rank, rank);
 }
 

@@ -1,11 +1,10 @@
 // mean_system.cpp — quadrature of the Jacobian over the steps of a run; eigenvectors and what they see of a motion.
 #include "engine/periodic/mean_system.h"
 
-#include <Eigen/QR>
 #include <array>
 #include <cmath>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
 namespace {
@@ -68,7 +67,7 @@ ModeFilter::ModeFilter(const std::vector<MeanMode>& modes, const Eigen::VectorXd
     const double over = nothing_else ? whole : without_angles;
     shapes.col(j) = over > 0 ? Eigen::VectorXcd(shape / over) : shape;
   }
-  by_motion_ = seen.asDiagonal() * shapes.completeOrthogonalDecomposition().pseudoInverse();
+  by_motion_ = seen.asDiagonal() * pseudo_inverse(shapes);
 }
 
 double ModeFilter::length(const Eigen::VectorXcd& scaled) const { return scaled.tail(scaled.size() - angles_).norm(); }

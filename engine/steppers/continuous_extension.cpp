@@ -1,9 +1,9 @@
 // continuous_extension.cpp — the bootstrapped stages of a dense output and its coefficients, by linear algebra.
 #include "engine/steppers/continuous_extension.h"
 
-#include <Eigen/Dense>
-
 #include <cmath>
+
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
 namespace {
@@ -78,7 +78,7 @@ class Extension {
       for (Eigen::Index j = 0; j < n; ++j) functions(i, j) = own_function(static_cast<std::size_t>(j), x).slope;
       wanted.row(i) = slope_of(first + static_cast<std::size_t>(i)) - cubic_slope(x);
     }
-    const Eigen::MatrixXd own = functions.partialPivLu().solve(wanted);
+    const Eigen::MatrixXd own = Lu(functions).solve_all(wanted);
     table_.dense.clear();
     for (Eigen::Index j = 0; j < n; ++j) table_.dense.push_back(gathered(own.row(j)));
   }

@@ -1,18 +1,18 @@
 // forced_response.cpp — one complex solve an order; the sum synthesised over the cycle and its peak located.
 #include "studies/response/forced_response.h"
 
-#include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "engine/matrices/linear_algebra.h"
+
 namespace kurbel {
 namespace {
 
 using Eigen::Index;
-using ComplexSparse = Eigen::SparseMatrix<Complex>;
+using ComplexSparse = ComplexSparseMatrix;
 
 constexpr Index small_drive = 24;  // coordinates: dense
 
@@ -52,19 +52,15 @@ double polished(const std::vector<Complex>& x, double begin, double step) {
 struct FrequencyResponse::Solver {
   ComplexSparse stiffness, damping, mass;
   Eigen::MatrixXcd dense_stiffness, dense_damping, dense_mass;
-  Eigen::SparseLU<ComplexSparse> lu;
-  bool analysed = false;
+  ComplexSparseLu lu;
 
   Eigen::VectorXcd solve(double omega, const Eigen::VectorXcd& right) {
     const Complex iw(0, omega);
     if (right.size() <= small_drive)
-      return (dense_stiffness + iw * dense_damping - omega * omega * dense_mass).partialPivLu().solve(right);
+      return ComplexLu(dense_stiffness + iw * dense_damping - omega * omega * dense_mass).solve(right);
     ComplexSparse a = stiffness + iw * damping - omega * omega * mass;
     a.makeCompressed();
-    if (!analysed) lu.analyzePattern(a);
-    analysed = true;
-    lu.factorize(a);
-    if (lu.info() != Eigen::Success) return Eigen::VectorXcd::Constant(right.size(), Complex(HUGE_VAL, 0));
+    if (!lu.factorise(a)) return Eigen::VectorXcd::Constant(right.size(), Complex(HUGE_VAL, 0));
     return lu.solve(right);
   }
 };
@@ -84,7 +80,7 @@ FrequencyResponse::FrequencyResponse(const LinearDrive& drive) : drive_(drive), 
   add(drive.damping, 0, 0, 1, c);
   if (z > 0) {
     add(drive.torque_by_own, 0, n, -1, k);
-    add(drive.own_by_twist * SparseMatrix(drive.twists), n, 0, -1, k);
+    add(product(drive.own_by_twist, drive.twists), n, 0, -1, k);
     add(drive.own_by_angle, n, 0, -1, k);
     add(drive.own_by_own, n, n, -1, k);
     add(drive.own_by_speed, n, 0, -1, c);

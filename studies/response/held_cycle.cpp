@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -132,7 +131,7 @@ class LinearMotion {
   // stays.
   void turn_angles(const VectorXd& apart, std::vector<double>& y, const std::vector<double>* known) const {
     const MatrixXd twists = MatrixXd(base_.twists());
-    VectorXd turn = twists.completeOrthogonalDecomposition().solve(apart);
+    VectorXd turn = shortest_solution(twists, apart);
     const VectorXd whole = base_.rates();
     const auto turned = [&](const TrackedAngle& a, const VectorXd& by) {
       return a.gain * (base_.coordinates().motion * by)[a.shaft];
@@ -251,7 +250,7 @@ class CycleSearch {
   }
 
   VectorXd first_acceleration() const {
-    VectorXd a = free_.colPivHouseholderQr().solve(base_.acceleration());
+    VectorXd a = least_squares(free_, base_.acceleration());
     for (Index f = 0; f < a.size(); ++f) a[f] /= unit_[at(f)];
     return a;
   }
@@ -379,7 +378,7 @@ class CycleSearch {
     out_.uncertain = image_.grazed || !derivative_.topLeftCorner(n, n).allFinite();
     if (out_.uncertain) return;
     const auto [values, right] = eigenpairs(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
-    const Eigen::MatrixXcd left = right.fullPivLu().inverse();
+    const Eigen::MatrixXcd left = ComplexLu(right).inverse();
     out_.uncertain = !left.allFinite();
     if (out_.uncertain) return;
     const VectorXd share = (left * derivative_.topRightCorner(n, k))

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "tests/agreement/passings.h"
 #include "tests/agreement/settled_run.h"
 

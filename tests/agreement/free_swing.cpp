@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <unsupported/Eigen/FFT>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/run/run.h"

@@ -177,7 +177,7 @@ Errors errors_of(const Tree& tree) {
   std::vector<double> alpha_size(n), lambda_size(tree.rows.size());
   std::vector<int> shafts(n);
   for (std::size_t s = 0; s < n; ++s) shafts[s] = static_cast<int>(s);
-  const Eigen::MatrixXd w = constraints.mobility(tree.inertia, shafts);
+  const std::vector<double> w = constraints.mobility(tree.inertia, shafts);
   Errors worst;
   const auto root = [&](std::size_t s) { return std::sqrt(tree.inertia[s]); };
   const auto add = [&](const std::vector<Quad>& part, double times, double scale) {
@@ -197,7 +197,7 @@ Errors errors_of(const Tree& tree) {
       if (size * root(i) * root(s) > none)
         worst.mobility =
             std::max(worst.mobility,
-                     magnitude(response[i] - w(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s))) / size);
+                     magnitude(response[i] - w[i * n + s]) / size);
     }
   }
   add(bordered(tree, nothing, tree.given), 1, 1e100);

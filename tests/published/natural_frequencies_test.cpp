@@ -2,7 +2,7 @@
 // published frequencies. A gear ratio is positive: each shaft counts its angle in its own direction of drive.
 #include <fmt/format.h>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 

@@ -11,7 +11,7 @@
 
 #include "engine/events/equations.h"
 #include "engine/linear/eigen_modes.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 
 namespace kurbel::test {
 

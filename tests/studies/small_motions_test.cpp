@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "engine/linear/coordinates.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 

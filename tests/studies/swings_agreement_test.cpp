@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "drivetrain/kinds.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "mechanisms/kinds/kinds.h"
 #include "tests/agreement/agreement.h"
 #include "tests/agreement/forced_swing.h"

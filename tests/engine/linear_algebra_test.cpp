@@ -1,5 +1,5 @@
-// eigenpairs_test.cpp — full real matrices whose eigenvalues are known; what cannot be found is refused.
-#include "engine/matrices/eigenpairs.h"
+// linear_algebra_test.cpp — full real matrices whose eigenvalues are known; what cannot be found is refused.
+#include "engine/matrices/linear_algebra.h"
 
 #include <gtest/gtest.h>
 
