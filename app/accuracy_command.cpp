@@ -61,7 +61,7 @@ int accuracy(const AccuracyArguments& arguments) {
   return code;
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--within", arguments->within, "the cheapest setting with at most this error, e.g. 0.1%");
@@ -72,7 +72,7 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--tolerances", arguments->tolerances, "only these, e.g. 1e-4 1e-8 (default: 1e-3 … 1e-12)");
   command.add_flag("--no-multibody", arguments->no_multibody, "leave Simbody's closed loop out, which takes longest");
   command.add_option("--time", arguments->time, "processor time that the study may take, about (default: 60 s)");
-  command.callback([&code, arguments] { code = accuracy(*arguments); });
+  command.action([&code, arguments] { code = accuracy(*arguments); });
 }
 
 const Verb verb{{.place = 110,

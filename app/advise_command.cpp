@@ -44,7 +44,7 @@ int run_advise(const AdviseArguments& arguments) {
   return present(output_of(advice), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<AdviseArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--within", arguments->within, "deviation allowed from the fullest model (default: 1 %)");
@@ -52,7 +52,7 @@ void set_up(CLI::App& command, int& code) {
                      "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)");
   command.add_option("--write", arguments->write, "writes the scene with the effects advised");
   command.add_flag("--no-held-out", arguments->no_held_out, "skips the check at other loads and speeds");
-  command.callback([&code, arguments] { code = run_advise(*arguments); });
+  command.action([&code, arguments] { code = run_advise(*arguments); });
 }
 
 const Verb verb{{.place = 100,

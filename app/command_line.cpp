@@ -73,8 +73,8 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set) {
-  command.add_option("scene", scene, "scene file (TOML)")->required();
+void add_scene(Command& command, std::string& scene, bool& allow_files, std::vector<std::string>& set) {
+  command.add_option("scene", scene, "scene file (TOML)").required();
   command.add_flag("--allow-files", allow_files,
                    "let the scene read data files outside of its own folder (default: only there and below)");
   command
@@ -82,8 +82,7 @@ void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::ve
                   "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
                   "\"run.start.speed=58 rpm\", \"gearbox.stages[2].ratio=3.5\"; without a value: the key's default; "
                   "repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .repeatable();
 }
 
 namespace {
@@ -121,8 +120,8 @@ std::string format_fault(const std::string& list) {
 
 }  // namespace
 
-void add_study_options(CLI::App& command, StudyOptions& options) {
-  options.study = command.get_name();
+void add_study_options(Command& command, StudyOptions& options) {
+  options.study = command.name();
   add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
                      "folder for report.html, summary.json and tables, replaced as a whole (default: "
@@ -132,20 +131,19 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
       .add_option("--format", options.format,
                   "files of the tables, joined by commas: csv, mat (Modelica's layout of results), xlsx (one workbook, "
                   "with figures and events); default: csv")
-      ->check(format_fault);
+      .check(format_fault);
   command.add_flag("--no-files", options.no_files, "print only");
   command.add_flag("--open", options.open, "open the report in a browser");
   command.add_flag("--plots", options.plots,
                    "write the plots for gnuplot too, and as SVG and PNG where it is installed");
-  command.add_option("--brand", options.brand, "logo above the report, an SVG file")->check(svg_fault);
+  command.add_option("--brand", options.brand, "logo above the report, an SVG file").check(svg_fault);
   command.add_option("--author", options.author, "name above the report");
   command.add_flag("--json", options.json, "print the summary as JSON");
   command.add_flag("--quiet", options.quiet, "print only the conclusion in one line, and no progress");
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
 }
 
-void add_measured_options(CLI::App& command, MeasurementRequest& request) {
-  const auto each_by_itself = CLI::MultiOptionPolicy::TakeAll;
+void add_measured_options(Command& command, MeasurementRequest& request) {
   command.add_option(
       "--measured", request.file,
       "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is left "
@@ -155,8 +153,7 @@ void add_measured_options(CLI::App& command, MeasurementRequest& request) {
           "--map", request.maps,
           "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit where the "
           "heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the time; repeatable")
-      ->expected(1)
-      ->multi_option_policy(each_by_itself);
+      .repeatable();
   command.add_option("--shift", request.shift,
                      "added to the record's times, e.g. \"0.2 s\"; fit: found by least squares (default: none)");
   command
@@ -164,8 +161,7 @@ void add_measured_options(CLI::App& command, MeasurementRequest& request) {
           "--offset", request.offsets,
           "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as the mean "
           "(default: none); repeatable")
-      ->expected(1)
-      ->multi_option_policy(each_by_itself);
+      .repeatable();
 }
 
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {}
@@ -230,11 +226,9 @@ Watch watch_of(const StudyOptions& options, Progress& progress) {
           .log = make_log(options.verbose)};
 }
 
-void add_former_name(CLI::App& command, const std::string& name, std::string& value) {
-  command.add_option(name, value)->group("");
+void add_former_name(Command& command, const std::string& name, std::string& value) {
+  command.add_option(name, value).hidden();
 }
-
-bool is_former_name(const CLI::Option& option) { return option.get_group().empty(); }
 
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress) {
   SimulateOptions simulation;
@@ -295,7 +289,7 @@ int present(const StudyOutput& study, const StudyOptions& options, bool all) {
   return stopped ? exit_interrupted : exit_run_failed;
 }
 
-void add_sheet_options(CLI::App& command, SheetOptions& options) {
+void add_sheet_options(Command& command, SheetOptions& options) {
   command.add_flag("--sheet", options.wanted,
                    "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
                    "scales, to be printed");

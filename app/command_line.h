@@ -1,7 +1,6 @@
 // command_line.h — what the commands share: their options, progress, where results go and how they are shown.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/command.h"
 #include "engine/analysis/moment.h"
 #include "engine/scene/scene.h"
 #include "studies/run/simulate.h"
@@ -43,10 +43,10 @@ struct StudyOptions {
 };
 // --out, or results/SCENE/STUDY: no study writes over another's results.
 std::filesystem::path results_of(const StudyOptions& options);
-void add_scene(CLI::App& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
-void add_study_options(CLI::App& command, StudyOptions& options);
+void add_scene(Command& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
+void add_study_options(Command& command, StudyOptions& options);
 // --measured and what belongs to it: a test's record beside the simulation.
-void add_measured_options(CLI::App& command, MeasurementRequest& request);
+void add_measured_options(Command& command, MeasurementRequest& request);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {
@@ -73,8 +73,7 @@ void check_folder(const StudyOptions& options);
 Watch watch_of(const StudyOptions& options, Progress& progress);
 
 // The name that an option once had: taken still, and told nowhere.
-void add_former_name(CLI::App& command, const std::string& name, std::string& value);
-bool is_former_name(const CLI::Option& option);
+void add_former_name(Command& command, const std::string& name, std::string& value);
 
 // Options of a simulation within a study: the same, and traces for the report.
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
@@ -93,7 +92,7 @@ struct SheetOptions {
   bool wanted = false;
   std::string paper;  // "A4", "A3"; empty: A4
 };
-void add_sheet_options(CLI::App& command, SheetOptions& options);
+void add_sheet_options(Command& command, SheetOptions& options);
 // Throws std::invalid_argument for a paper that there is not, and where files are asked for and forbidden.
 Paper paper_of(const SheetOptions& options, const StudyOptions& study);
 

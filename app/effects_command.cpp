@@ -34,11 +34,11 @@ int study(const StudyOptions& arguments) {
   return present(output_of(found), arguments);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<StudyOptions>();
   add_study_options(command, *arguments);
-  command.get_option("scene")->required(false);
-  command.callback([&code, arguments] { code = study(*arguments); });
+  command.option("scene").required(false);
+  command.action([&code, arguments] { code = study(*arguments); });
 }
 
 const Verb verb{{.place = 90,

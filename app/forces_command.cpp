@@ -49,7 +49,7 @@ int forces(const ForcesArguments& arguments) {
   return present(output_of(find_forces(scene, options)), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<ForcesArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");
@@ -63,7 +63,7 @@ void set_up(CLI::App& command, int& code) {
                      "friction in the joints where they have any)");
   command.add_flag("--no-run", arguments->no_run, "prescribed motion only: do not simulate the machine");
   add_sheet_options(command, arguments->sheet);
-  command.callback([&code, arguments] { code = forces(*arguments); });
+  command.action([&code, arguments] { code = forces(*arguments); });
 }
 
 const Verb verb{

@@ -100,25 +100,23 @@ int gears(GearsArguments a) {
   return present(alone(a, speed), a.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto a = std::make_shared<GearsArguments>();
   add_study_options(command, a->study);
-  command.get_option("scene")->required(false);
+  command.option("scene").required(false);
   command.add_option("--pair", a->pair, "one stage, e.g. gearbox.stage1 (default: all whose module is given)");
   command.add_option("--speed", a->speed, "of the first wheel, e.g. \"1500 rpm\": sliding speeds, mesh frequency");
   command
       .add_option("--teeth", a->teeth, "a pair alone: teeth of both wheels, driving one first; an internal wheel < 0")
-      ->expected(2);
+      .values(2);
   command.add_option("--module", a->module, "normal module, e.g. \"4 mm\"");
-  command.add_option("--shift", a->shift, "profile shifts x1 x2 (default: 0, or by the centre distance)")
-      ->expected(1, 2);
+  command.add_option("--shift", a->shift, "profile shifts x1 x2 (default: 0, or by the centre distance)").values(1, 2);
   command.add_option("--helix", a->helix, "helix angle, e.g. \"12 deg\"");
   command.add_option("--centre-distance", a->centre_distance, "e.g. \"230 mm\" (default: by the shifts)");
   command.add_option("--width", a->width, "face width, e.g. \"40 mm\": overlap, inertias, stiffness");
   command.add_option("--backlash", a->backlash, "allowance along the normal, e.g. \"0.1 mm\"");
-  command.add_option("--bore", a->bore, "bores of both wheels (of an internal one: outer diameter)")->expected(2);
-  command.add_option("--tip-diameter", a->tip_diameter, "tip diameters, where they differ from the rack's")
-      ->expected(2);
+  command.add_option("--bore", a->bore, "bores of both wheels (of an internal one: outer diameter)").values(2);
+  command.add_option("--tip-diameter", a->tip_diameter, "tip diameters, where they differ from the rack's").values(2);
   command.add_option("--pressure-angle", a->pressure_angle, "of the basic rack (default: 20 deg)");
   command.add_option("--addendum", a->rack.addendum, "of the basic rack, in modules (default: 1)");
   command.add_option("--clearance", a->rack.clearance, "of the basic rack, in modules (default: 0.25)");
@@ -126,7 +124,7 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--shaft-angle", a->shaft_angle, "of a bevel pair, e.g. \"90 deg\"");
   command.add_option("--worm-diameter", a->worm_diameter, "of a worm pair: --teeth STARTS TEETH, --module axial");
   command.add_option("--friction", a->friction, "coefficient of friction of a worm pair (default: 0)");
-  command.callback([&code, a] { code = gears(*a); });
+  command.action([&code, a] { code = gears(*a); });
 }
 
 const Verb verb{{.place = 60,

@@ -52,7 +52,7 @@ int modes(const ModesArguments& arguments) {
   return present(output_of(found), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<ModesArguments>();
   add_study_options(command, arguments->study);
   command.add_option(
@@ -68,7 +68,7 @@ void set_up(CLI::App& command, int& code) {
                      "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"");
   command
       .add_option("--range", arguments->range, "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
-      ->expected(2);
+      .values(2);
   command.add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
   command.add_option(
       "--barred", arguments->barred,
@@ -78,12 +78,12 @@ void set_up(CLI::App& command, int& code) {
                      "speeds of the range, where most is borne, at which the nonlinear cycle is held against the "
                      "response (default: 2; 0: none)");
   command.add_option("--spot", arguments->spots, "another such speed, e.g. \"250 rpm\"; may be given again")
-      ->allow_extra_args(false);
+      .one_value_each_time();
   command.add_flag("--no-misfires", arguments->no_misfires,
                    "where stresses of shafts are judged: leaves out the same as one cylinder after the other misfires");
   command.add_option("--torque", arguments->torque,
                      "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow");
-  command.callback([&code, arguments] { code = modes(*arguments); });
+  command.action([&code, arguments] { code = modes(*arguments); });
 }
 
 const Verb verb{

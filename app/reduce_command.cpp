@@ -48,7 +48,7 @@ int reduce_scene(ReduceArguments arguments) {
   return present(output_of(reduce(scene, arguments.options)), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<ReduceArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");
@@ -69,7 +69,7 @@ void set_up(CLI::App& command, int& code) {
                      "of the sheet's flywheel: demanded δ, e.g. 1/80 (default: what the machine has with its own)");
   command.add_option("--flywheel", arguments->request.flywheel,
                      "of the sheet: component to size (default: the scene's flywheel, else one on the crank)");
-  command.callback([&code, arguments] { code = reduce_scene(*arguments); });
+  command.action([&code, arguments] { code = reduce_scene(*arguments); });
 }
 
 const Verb verb{{.place = 30,

@@ -33,7 +33,7 @@ struct RunArguments {
   MeasurementRequest measured;
 };
 
-void add_run_options(CLI::App& command, RunArguments& arguments) {
+void add_run_options(Command& command, RunArguments& arguments) {
   add_study_options(command, arguments.study);
   command.add_option("--effects", arguments.effects,
                      "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
@@ -174,7 +174,7 @@ int compare(const RunArguments& arguments) {
   return present(output_of(with_trials(std::move(c), options)), arguments.study);
 }
 
-void set_up_run(CLI::App& command, int& code) {
+void set_up_run(Command& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
   command.add_flag("--all", arguments->all,
@@ -189,16 +189,16 @@ void set_up_run(CLI::App& command, int& code) {
   add_measured_options(command, arguments->measured);
   command.add_option("--from-state", arguments->from_state,
                      "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
-  command.callback([&code, arguments] { code = run(*arguments); });
+  command.action([&code, arguments] { code = run(*arguments); });
 }
 
-void set_up_compare(CLI::App& command, int& code) {
+void set_up_compare(Command& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
   command.add_option("--against", arguments->against,
                      "effects of the first model; none for the bare machine (default: those of the second without "
                      "elasticity)");
-  command.callback([&code, arguments] { code = compare(*arguments); });
+  command.action([&code, arguments] { code = compare(*arguments); });
 }
 
 const Verb run_verb{

@@ -128,13 +128,13 @@ struct SceneArguments {
   std::vector<std::string> set;
 };
 template <int (*action)(const std::string&, bool, const std::vector<std::string>&)>
-void set_up_with_scene(CLI::App& command, int& code) {
+void set_up_with_scene(Command& command, int& code) {
   const auto scene = std::make_shared<SceneArguments>();
   add_scene(command, scene->file, scene->allow_files, scene->set);
-  command.callback([&code, scene] { code = action(scene->file, scene->allow_files, scene->set); });
+  command.action([&code, scene] { code = action(scene->file, scene->allow_files, scene->set); });
 }
 
-void set_up_new(CLI::App& command, int& code) {
+void set_up_new(Command& command, int& code) {
   struct Wanted {
     std::string kind, file;
     bool list = false;
@@ -143,7 +143,7 @@ void set_up_new(CLI::App& command, int& code) {
   command.add_option("kind", wanted->kind, names_of_templates());
   command.add_option("file", wanted->file, "file to write (default: KIND.toml); one that exists is never overwritten");
   command.add_flag("--list", wanted->list, "only the names of the kinds, a line each");
-  command.callback([&code, wanted] {
+  command.action([&code, wanted] {
     code = exit_done;
     if (!wanted->list)
       code = new_scene(wanted->kind, wanted->file);
@@ -152,22 +152,22 @@ void set_up_new(CLI::App& command, int& code) {
   });
 }
 
-void set_up_keys(CLI::App& command, int& code) {
+void set_up_keys(Command& command, int& code) {
   const auto wanted = std::make_shared<std::pair<std::string, bool>>("", false);
   command.add_option("kind", wanted->first, "e.g. coupling, \"induction motor\", run (default: all)");
   command.add_flag("--list", wanted->second, "only the names of the kinds, a line each");
-  command.callback([&code, wanted] { code = print_keys(wanted->first, wanted->second); });
+  command.action([&code, wanted] { code = print_keys(wanted->first, wanted->second); });
 }
 
-void set_up_schema(CLI::App& command, int& code) {
-  command.callback([&code] {
+void set_up_schema(Command& command, int& code) {
+  command.action([&code] {
     say(scene_schema());
     code = exit_done;
   });
 }
 
 // What completion, manual page and docs/commands.md are made of.
-void set_up_commands(CLI::App& command, int& code) {
+void set_up_commands(Command& command, int& code) {
   struct Wanted {
     std::string name;
     bool manual = false, markdown = false;
@@ -176,7 +176,7 @@ void set_up_commands(CLI::App& command, int& code) {
   command.add_option("command", wanted->name, "its options, a line each (default: the commands, a line each)");
   command.add_flag("--manual", wanted->manual, "all commands with their options, for the manual page (roff)");
   command.add_flag("--markdown", wanted->markdown, "all commands as a table (Markdown)");
-  command.callback([&code, wanted] {
+  command.action([&code, wanted] {
     say(wanted->manual         ? verbs_as_manual()
         : wanted->markdown     ? verbs_as_markdown()
         : wanted->name.empty() ? names_of_verbs()

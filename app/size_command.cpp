@@ -40,7 +40,7 @@ int size_scene(SizeArguments arguments) {
   return present(output_of(size_flywheel(scene, o)), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<SizeArguments>();
   SizeOptions& o = arguments->options;
   add_study_options(command, arguments->study);
@@ -65,9 +65,9 @@ void set_up(CLI::App& command, int& code) {
   command.add_option("--diameter", arguments->diameter, "outer diameter (default: by proportion)");
   command.add_option("--rim-speed", arguments->rim_speed, "limit, e.g. \"30 m/s\" (default: the material's)");
   command.add_option("--sheet", arguments->sheet, "length of the diagrams for their scales, e.g. \"240 mm\"");
-  command.add_flag_callback(
+  command.add_flag(
       "--no-simulation", [&o] { o.simulate = false; }, "do not look for the regime of the sized machine");
-  command.callback([&code, arguments] { code = size_scene(*arguments); });
+  command.action([&code, arguments] { code = size_scene(*arguments); });
 }
 
 const Verb verb{{.place = 40,

@@ -71,7 +71,7 @@ int steady(const SteadyArguments& arguments) {
   return present(rendered(std::move(findings)), arguments.study);
 }
 
-void set_up(CLI::App& command, int& code) {
+void set_up(Command& command, int& code) {
   const auto arguments = std::make_shared<SteadyArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--effects", arguments->effects,
@@ -87,7 +87,7 @@ void set_up(CLI::App& command, int& code) {
   add_measured_options(command, arguments->measured);
   command.add_flag("--no-start", arguments->no_start,
                    "skip the start from rest and the gearbox ratio that starts fastest");
-  command.callback([&code, arguments] { code = steady(*arguments); });
+  command.action([&code, arguments] { code = steady(*arguments); });
 }
 
 const Verb verb{{.place = 80,

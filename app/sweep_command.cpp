@@ -22,11 +22,15 @@
 namespace kurbel::app {
 namespace {
 
+constexpr int most_threads = 1024;
+
 // Why a text is no number of threads; an empty one is told of every option.
 std::string thread_count(const std::string& text) {
   if (text.empty()) return "";
-  std::string given = text;
-  return CLI::Range(1, 1024)(given);
+  int count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  const bool is_count = error == std::errc() && end == text.data() + text.size() && count >= 1 && count <= most_threads;
+  return is_count ? "" : fmt::format("Value {} not in range [1 - {}]", text, most_threads);
 }
 
 constexpr std::size_t most_variant_bytes = 64'000'000;
@@ -163,16 +167,14 @@ int sweep(const SweepArguments& a) {
   return present(output_of(study), a.study);
 }
 
-void set_up_sweep(CLI::App& command, int& code) {
+void set_up_sweep(Command& command, int& code) {
   const auto a = std::make_shared<SweepArguments>();
   add_study_options(command, a->study);
-  const auto many = CLI::MultiOptionPolicy::TakeAll;
   command
       .add_option("--vary", a->vary,
                   "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
                   "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable")
-      ->expected(1)
-      ->multi_option_policy(many);
+      .repeatable();
   command.add_option("--variants", a->variants,
                      "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a "
                      "variant");
@@ -183,10 +185,9 @@ void set_up_sweep(CLI::App& command, int& code) {
       .add_option(
           "--figures", a->figures,
           "names joined by commas, or a quantity for all that have it: delta,peak_torque.main_coupling (default: all)")
-      ->delimiter(',');
+      .split_at(',');
   command.add_option("--limit", a->limits, "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable")
-      ->expected(1)
-      ->multi_option_policy(many);
+      .repeatable();
   command.add_option("--of", a->of, "run (default), steady, modes or size");
   command.add_option("--delta", a->delta, "demanded δ, of --of size");
   command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
@@ -195,12 +196,12 @@ void set_up_sweep(CLI::App& command, int& code) {
           "--into", a->into,
           "the database (SQLite) that is filled, or gone on with, on a disk of this machine; what is committed (four "
           "times a second) survives a kill and, where the disk flushes when told to, a power cut")
-      ->required();
-  command.add_option("--jobs", a->jobs, "threads (default: one for each core)")->check(thread_count);
+      .required();
+  command.add_option("--jobs", a->jobs, "threads (default: one for each core)").check(thread_count);
   command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");
   command.add_option("--seed", a->seed, "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)");
   command.add_option("--xlsx", a->xlsx, "writes the variants as a spread sheet, too");
-  command.callback([&code, a] { code = sweep(*a); });
+  command.action([&code, a] { code = sweep(*a); });
 }
 
 struct MergeArguments {
@@ -218,11 +219,11 @@ int merge(const MergeArguments& a) {
   return exit_done;
 }
 
-void set_up_merge(CLI::App& command, int& code) {
+void set_up_merge(Command& command, int& code) {
   const auto a = std::make_shared<MergeArguments>();
-  command.add_option("files", a->files, "databases of the shards")->required();
-  command.add_option("--into", a->into, "the database that is made")->required();
-  command.callback([&code, a] { code = merge(*a); });
+  command.add_option("files", a->files, "databases of the shards").required();
+  command.add_option("--into", a->into, "the database that is made").required();
+  command.action([&code, a] { code = merge(*a); });
 }
 
 const Verb sweep_verb{
@@ -262,26 +263,25 @@ int uncertainty(UncertaintyArguments a) {
   return present(output_of(study_uncertainty(question, a.options)), a.study);
 }
 
-void set_up_uncertainty(CLI::App& command, int& code) {
+void set_up_uncertainty(Command& command, int& code) {
   const auto a = std::make_shared<UncertaintyArguments>();
   a->options.jobs = 0;
   add_study_options(command, a->study);
   command
       .add_option("--figures", a->options.figures,
                   "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)")
-      ->delimiter(',');
+      .split_at(',');
   command.add_option("--limit", a->options.limits, "\"delta.press <= 0.05\": how surely it holds; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .repeatable();
   command.add_option("--of", a->of, "run (default), steady, modes or size");
   command.add_option("--samples", a->options.samples, "machines drawn from the tolerances (default: 500)");
   command.add_option("--seed", a->options.seed, "of what is drawn (default: 1)");
-  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)")->check(thread_count);
+  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)").check(thread_count);
   command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: none is undecided then");
-  command.add_flag_callback(
+  command.add_flag(
       "--no-trials", [a] { a->options.biases = false; },
       "skip the runs that try, one by one, the effects that are off");
-  command.callback([&code, a] { code = uncertainty(*a); });
+  command.action([&code, a] { code = uncertainty(*a); });
 }
 
 const Verb uncertainty_verb{
@@ -320,19 +320,18 @@ int difference(const DifferenceArguments& a) {
   return present(output_of(difference_between(questions[0], questions[1], a.of)), a.study);
 }
 
-void set_up_difference(CLI::App& command, int& code) {
+void set_up_difference(Command& command, int& code) {
   const auto a = std::make_shared<DifferenceArguments>();
   add_study_options(command, a->study);
-  command.add_option("other", a->other, "scene file of the other machine")->required();
+  command.add_option("other", a->other, "scene file of the other machine").required();
   command
       .add_option("--other-set", a->other_set,
                   "COMPONENT.KEY=VALUE in the other machine alone; --set holds for both; repeatable")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .repeatable();
   command.add_option("--of", a->of, "run (default), steady, modes or size");
   command.add_option("--delta", a->delta, "demanded δ, of --of size");
   command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: any change counts then");
-  command.callback([&code, a] { code = difference(*a); });
+  command.action([&code, a] { code = difference(*a); });
 }
 
 const Verb difference_verb{

@@ -19,22 +19,20 @@ std::vector<VerbText>& registered() {
   return list;
 }
 
-// A command as it is set up, alone.
-struct SetUp {
-  CLI::App program;
-  CLI::App* command;
-  int code = 0;
-  explicit SetUp(const VerbText& verb) : command(program.add_subcommand(verb.name, verb.help)) {
-    verb.set_up(*command, code);
-  }
-};
+std::vector<OptionText> declared_by(const VerbText& verb) {
+  return options_of(
+      [&verb](Command& command) {
+        int code = 0;
+        verb.set_up(command, code);
+      },
+      verb.name);
+}
 
 std::set<std::string> shared_options() {
-  CLI::App program;
   StudyOptions options;
-  add_study_options(program, options);
   std::set<std::string> names;
-  for (const CLI::Option* option : program.get_options()) names.insert(option->get_name());
+  for (const OptionText& option : options_of([&](Command& command) { add_study_options(command, options); }, "study"))
+    names.insert(option.name);
   return names;
 }
 
@@ -82,11 +80,10 @@ std::string verbs_as_manual() {
       text += fmt::format(".TP\n.B kurbel {} {}\n{}.\n", verb.name, roff(more.substr(0, bar)),
                           roff(capitalised(more.substr(bar + 3))));
     }
-    const SetUp made(verb);
-    for (const CLI::Option* option : made.command->get_options()) {
-      if (option->get_name() == "--help" || (verb.of_scene && shared.count(option->get_name()))) continue;
-      if (option->get_positional() || is_former_name(*option)) continue;
-      text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name()), roff(option->get_description()));
+    for (const OptionText& option : declared_by(verb)) {
+      if (option.name == "--help" || (verb.of_scene && shared.count(option.name))) continue;
+      if (option.by_place || option.hidden) continue;
+      text += fmt::format(".TP\n.B {}\n{}\n", roff(option.name), roff(option.help));
     }
   }
   return text;
@@ -116,11 +113,10 @@ std::string options_of_verb(const std::string& name) {
   for (const VerbText& verb : verbs()) {
     names.push_back(verb.name);
     if (verb.name != name) continue;
-    const SetUp made(verb);
     std::string text;
-    for (const CLI::Option* option : made.command->get_options())
-      if (!is_former_name(*option))
-        for (const std::string& word : option->get_lnames()) text += "--" + word + "\n";
+    for (const OptionText& option : declared_by(verb))
+      if (!option.hidden)
+        for (const std::string& word : option.long_names) text += "--" + word + "\n";
     return text;
   }
   throw std::invalid_argument(fmt::format("no command \"{}\"; allowed: {}", name, listed(names)));

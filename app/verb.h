@@ -3,12 +3,13 @@
 //
 //     const Verb modes{{.place = 70, .name = "modes", .arguments = "scene.toml",
 //                       .help = "natural frequencies, …", .does = "natural frequencies, shapes, damping; …",
-//                       .set_up = [](CLI::App& command, int& code) { … }}};
+//                       .set_up = [](Command& command, int& code) { … }}};
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "app/command.h"
 
 namespace kurbel::app {
 
@@ -19,7 +20,7 @@ struct VerbText {
   std::string help;         // a line, in kurbel --help
   std::string does;         // for the manual page and docs/commands.md: Markdown without links
   // Adds options; the action leaves its exit code in `code`.
-  void (*set_up)(CLI::App& command, int& code) = nullptr;
+  void (*set_up)(Command& command, int& code) = nullptr;
   bool of_scene = true;             // has the options that every study has; else all of its options are its own
   std::vector<std::string> more{};  // further examples: "scene.toml --explain", with what they do behind " | "
 };

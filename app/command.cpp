@@ -1,0 +1,164 @@
+// command.cpp — the parser of the command line, CLI11, and what is said of a mistyped one.
+#include "app/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "app/terminal.h"
+#include "engine/scene/keys.h"
+#include "engine/scene/units.h"
+
+namespace kurbel::app {
+
+Option& Option::required(bool is) {
+  option_->required(is);
+  return *this;
+}
+Option& Option::values(int least, int most) {
+  option_->expected(least, most);
+  return *this;
+}
+Option& Option::repeatable() {
+  option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+Option& Option::one_value_each_time() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+Option& Option::split_at(char delimiter) {
+  option_->delimiter(delimiter);
+  return *this;
+}
+Option& Option::hidden() {
+  option_->group("");
+  return *this;
+}
+Option& Option::check(std::function<std::string(const std::string&)> fault) {
+  option_->check(CLI::Validator([fault = std::move(fault)](std::string& value) { return fault(value); }, ""));
+  return *this;
+}
+
+std::string Command::name() const { return app_.get_name(); }
+Option Command::add_option(const std::string& name, std::string& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, double& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, int& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::size_t& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::optional<double>& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::vector<double>& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_option(const std::string& name, std::vector<int>& value, const std::string& help) {
+  return Option(app_.add_option(name, value, help));
+}
+Option Command::add_flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(app_.add_flag(name, value, help));
+}
+Option Command::add_flag(const std::string& name, std::function<void()> act, const std::string& help) {
+  return Option(app_.add_flag_callback(name, std::move(act), help));
+}
+Option Command::option(const std::string& name) { return Option(app_.get_option(name)); }
+void Command::action(std::function<void()> act) { app_.callback(std::move(act)); }
+
+std::vector<OptionText> options_of(const std::function<void(Command&)>& set_up, const std::string& name) {
+  CLI::App program;
+  Command command(*program.add_subcommand(name));
+  set_up(command);
+  std::vector<OptionText> texts;
+  for (const CLI::Option* option : program.get_subcommand(name)->get_options())
+    texts.push_back({option->get_name(), option->get_description(), option->get_lnames(), option->get_positional(),
+                     option->get_group().empty()});
+  return texts;
+}
+
+namespace {
+
+// " — did you mean "--quiet"?" for the first option that the command does not know.
+std::string option_meant(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
+    const auto near = nearest(word, names);
+    return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+  }
+  return "";
+}
+
+// CLI11 says little about a mistyped command.
+void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    const auto near = nearest(argv[1], names);
+    complain(fmt::format("kurbel: unknown command \"{}\"{}; allowed: {}. See kurbel --help\n", argv[1],
+                         near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+  } else if (argc == 1) {
+    complain(fmt::format("kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n",
+                         listed(names)));
+  } else {
+    std::string meant;
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && argv[1][0] != '-')
+      meant = option_meant(*app.get_subcommand(argv[1]), argc, argv);
+    complain(fmt::format("kurbel: {}{} See kurbel{} --help\n", error.what(), meant.empty() ? "." : meant,
+                         argv[1][0] == '-' ? "" : fmt::format(" {}", argv[1])));
+  }
+}
+
+// An option without its value is a mistake, as where a script's variable is empty.
+void refuse_empty_values(CLI::App& app) {
+  const CLI::Validator not_empty(
+      [](std::string& value) { return value.empty() ? std::string("must not be empty") : std::string(); }, "");
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() > 0) option->check(not_empty);
+}
+
+}  // namespace
+
+bool parse(int argc, char** argv, const std::string& about, const std::string& version,
+           const std::vector<Subcommand>& commands) {
+  CLI::App app{about};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version);
+  for (const Subcommand& each : commands) {
+    Command command(*app.add_subcommand(each.name, each.help));
+    each.set_up(command);
+  }
+  refuse_empty_values(app);
+  try {
+    app.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& success) {
+    std::ostringstream help;
+    app.exit(success, help, help);
+    say(help.str());
+    return true;
+  } catch (const CLI::ParseError& error) {
+    refuse(app, error, argc, argv);
+    return false;
+  }
+}
+
+}  // namespace kurbel::app
