@@ -5,6 +5,7 @@ that of CMakeLists.txt.
 """
 
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -18,8 +19,12 @@ here = os.path.dirname(os.path.abspath(__file__))
 class Build(build_py):
     def run(self):
         build = os.environ.get("KURBEL_BUILD", os.path.join(here, "build", "release"))
-        if not os.path.exists(os.path.join(build, "build.ninja")):
+        ninja = os.path.join(build, "build.ninja")
+        if not os.path.exists(ninja):
             subprocess.check_call(["cmake", "-S", here, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"])
+        elif "kurbel_python" not in pathlib.Path(ninja).read_text(encoding="utf-8"):
+            # Configured before there was pybind11, as for the program alone.
+            subprocess.check_call(["cmake", build])
         subprocess.check_call(["cmake", "--build", build, "--target", "kurbel_python"])
         shutil.copytree(os.path.join(build, "python", "kurbel"), os.path.join(self.build_lib, "kurbel"),
                         dirs_exist_ok=True)

@@ -1,33 +1,20 @@
-# What is installed: the program, the archive, <kurbel/…>, and how others find them. No path of this machine is written
-# down: what the archive is linked with is found again where it is used.
+# How parts are installed, and what Debian's packages say of themselves. Each part is installed by the folder that makes it:
+# program by app, dev by library, python by python.
 include(GNUInstallDirs)
-include(CMakePackageConfigHelpers)
 
-install(TARGETS kurbel_app RUNTIME COMPONENT program)
-install(TARGETS kurbel ARCHIVE COMPONENT dev)
-install(DIRECTORY library/kurbel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev FILES_MATCHING PATTERN "*.h")
-install(FILES engine/numerics/dual.h mechanisms/loops/taylor.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kurbel
-  COMPONENT dev)
-install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kurbel COMPONENT program)
-install(FILES docs/kurbel.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-install(FILES scripts/kurbel.bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kurbel
-  COMPONENT program)
-install(FILES THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-# As Debian has it: each package with its own.
-install(FILES library/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/kurbel COMPONENT program)
-install(FILES library/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkurbel-dev COMPONENT dev)
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkurbel-dev COMPONENT dev)
-
-set(KURBEL_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/kurbel)
-configure_package_config_file(library/kurbelConfig.cmake.in ${PROJECT_BINARY_DIR}/kurbelConfig.cmake
-  INSTALL_DESTINATION ${KURBEL_CMAKE_DIR} PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/kurbelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/kurbelConfig.cmake ${PROJECT_BINARY_DIR}/kurbelConfigVersion.cmake
-  DESTINATION ${KURBEL_CMAKE_DIR} COMPONENT dev)
-
-file(RELATIVE_PATH KURBEL_PC_TO_PREFIX /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
-configure_file(library/kurbel.pc.in ${PROJECT_BINARY_DIR}/kurbel.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/kurbel.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+# The first install rule of a folder, whose other rules are then those of a part that is built. One that is not is left out,
+# and is an error where it was asked for (--component, a package).
+function(install_what_is_built target component)
+  install(CODE "
+  if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
+    set(WHY \"$<TARGET_FILE_NAME:${target}> is not built (cmake --build ${PROJECT_BINARY_DIR} --target ${target})\")
+    if(CMAKE_INSTALL_COMPONENT)
+      message(FATAL_ERROR \"\${WHY}\")
+    endif()
+    message(STATUS \"Left out: component ${component}, as \${WHY}\")
+    return()
+  endif()" COMPONENT ${component})
+endfunction()
 
 # Debian packages: kurbel, libkurbel-dev, python3-kurbel (scripts/deb).
 set(CPACK_GENERATOR DEB)

@@ -4,6 +4,8 @@ add_test(NAME Installed.Install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BIN
 set_tests_properties(Installed.Install PROPERTIES FIXTURES_SETUP installed)
 add_test(NAME Installed.Program COMMAND ${PROJECT_SOURCE_DIR}/tests/installed/program ${PREFIX})
 set_tests_properties(Installed.Program PROPERTIES FIXTURES_REQUIRED installed TIMEOUT 600)
+add_test(NAME Installed.ProgramAlone COMMAND ${PROJECT_SOURCE_DIR}/tests/installed/program_alone ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+set_tests_properties(Installed.ProgramAlone PROPERTIES TIMEOUT 300)
 # The ways in, by the lines of README.md. Debian's packages are tried by scripts/deb before they are installed.
 function(add_way_in name way)
   add_test(NAME Installed.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/installed/readme ${way} ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
