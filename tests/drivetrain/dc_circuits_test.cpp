@@ -7,7 +7,7 @@
 #include <complex>
 #include <random>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 #include "tests/support/validation.h"

@@ -7,7 +7,7 @@
 
 #include "drivetrain/couplings/progressive_coupling.h"
 #include "drivetrain/couplings/rubber_coupling.h"
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "engine/matrices/eigenpairs.h"
+#include "engine/matrices/linear_algebra.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
