@@ -1,0 +1,350 @@
+"""Compares what two programs answered: values within their stated errors, words, exit codes.
+
+A cell is what one command said of one scene: {"exit", "summary", "csv": {name: text}, "stdout", "stderr"}.
+"""
+import csv
+import io
+import json
+import math
+import re
+from dataclasses import dataclass, field
+
+# Last bits. Another compiler, another CPU (libm takes other paths with and without FMA) round elsewhere, by some 1e-16 each
+# time; an integration of 1e4 … 1e5 steps carries up to some 1e-11 of that on. What is meant to change changes by more.
+LAST_BITS = 1e-9
+# Of what is of that order beside larger values of the same name: components of a shape that are zero but for rounding.
+NOTHING = 1e-12
+# Estimates of errors are good to a factor; one that grew beyond it hides changes of its value.
+ESTIMATE = 2
+
+# Depends on the processor's speed, on the place of files, on the version.
+LEFT_OUT = {"version", "scene", "other_scene", "database", "machine", "fingerprint", "processor_seconds", "cpu_seconds",
+            "cpu_seconds_all_runs", "seconds", "repetitions", "time_ratio"}
+# Work of the numerics: told apart, and no result.
+EFFORT = {"statistics"}
+# Differences that the numerics leave where there should be none: judged as estimates.
+RESIDUALS = re.compile(r"residual|closure$|closure_error$|drift$|^relative$|^measured$|agreement|bodies_against_reduced")
+NAMES = ("name", "figure", "effects", "effect", "component", "joint", "shaft", "label", "parameter", "path", "model",
+         "method", "gearbox", "what", "limit", "finding", "point")
+NUMBER = re.compile(r"[-+−]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?")
+TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of processor time"),
+         (re.compile(r"costs (?:about the same time|[\d.e+-]+ × the time)"), "costs T × the time"),
+         (re.compile(r"costs most, [\d.e+-]+ × the time"), "costs most, T × the time"),
+         (re.compile(r"takes [\d.]+ of the time"), "takes T of the time"),
+         (re.compile(r", [\d.e+-]+ (?:s|ms|µs)(?=$|\n)"), ", T"),
+         (re.compile(r"kurbel \d+\.\d+\.\d+\S*"), "kurbel VERSION")]
+
+
+@dataclass
+class Leaf:
+    value: object
+    error: float | None = None  # stated; None: none
+    kind: str = "value"         # value, estimate, effort, words
+    scale: float = 0            # largest value of that name in the same cell
+
+
+@dataclass
+class Difference:
+    path: str
+    a: Leaf | None
+    b: Leaf | None
+    times: float = math.inf  # of what is allowed
+
+    def __str__(self):
+        text = f"{self.path}: {told(self.a)} → {told(self.b)}"
+        return text + (f"  ({self.times:.2g} × what the errors allow)" if math.isfinite(self.times) else "")
+
+
+@dataclass
+class Outcome:
+    values: int = 0
+    within: list = field(default_factory=list)     # not to the bit, but within stated errors
+    different: list = field(default_factory=list)
+    words: list = field(default_factory=list)      # (where, before, after)
+    effort: list = field(default_factory=list)
+    rounded: int = 0                               # words that differ in the last digit of a number alone
+
+    def verdict(self):
+        if self.different or self.words:
+            return "different"
+        return "within" if self.within or self.rounded else "identical"
+
+
+def told(leaf):
+    if leaf is None:
+        return "missing"
+    text = f"{leaf.value:.12g}" if isinstance(leaf.value, float) else json.dumps(leaf.value, ensure_ascii=False)
+    return text + (f" ± {leaf.error:.2g}" if leaf.error is not None else "")
+
+
+# --- leaves of a summary ---
+
+def is_number(x):
+    return isinstance(x, (int, float)) and not isinstance(x, bool)
+
+
+def stated_error(record, key):
+    """The error that a record states of one of its numbers, by the names that docs/summary.schema.json has."""
+    of_all = record.get("error")
+    if key + "_error" in record:
+        return record[key + "_error"]
+    if key in ("least_speed", "greatest_speed"):
+        return record.get("speed_extremes_error")
+    if key in ("least_share", "greatest_share"):
+        return record.get("share_extremes_error")
+    if key in ("work_in", "work_useful", "work_harmful"):
+        return record.get("works_error")
+    if not is_number(of_all):
+        return None
+    if key == "omega" and "frequency" in record:
+        return 2 * math.pi * of_all
+    if key == "phase":
+        return min(math.pi, of_all / abs(record["amplitude"])) if record.get("amplitude") else math.pi
+    if key == "amplitude":
+        return of_all if "phase" in record else None
+    if "t" in record:  # an event: of its time
+        return of_all if key == "t" else None
+    if key in ("value", "work", "relative", "change", "shift", "deviation", "real", "imaginary", "magnitude", "frequency",
+               "natural_frequency", "time", "order"):
+        return of_all
+    return None
+
+
+def kind_of(key, above, error):
+    if above == "effort" or key in EFFORT:
+        return "effort"
+    residual = error is None and RESIDUALS.search(key)
+    return "estimate" if above == "estimate" or residual or key in ("error", "errors") or key.endswith("_error") else "value"
+
+
+def labels(items):
+    """What the items of a list are called by: their names where they have any, else their numbers."""
+    seen = {}
+    for number, item in enumerate(items):
+        name = next((item[k] for k in NAMES if isinstance(item.get(k), str)), None) if isinstance(item, dict) else None
+        if name is None:
+            yield str(number)
+            continue
+        seen[name] = seen.get(name, 0) + 1
+        yield name if seen[name] == 1 else f"{name}#{seen[name]}"
+
+
+def leaves(node, left_out=LEFT_OUT):
+    found = {}
+
+    def walk(node, path, kind, error):
+        if isinstance(node, dict):
+            for key, value in node.items():
+                if key not in left_out:
+                    stated = stated_error(node, key)
+                    walk(value, f"{path}.{key}" if path else key, kind_of(key, kind, stated), stated)
+        elif isinstance(node, list):
+            errors = error if isinstance(error, list) and len(error) == len(node) else [error] * len(node)
+            for label, item, one in zip(labels(node), node, errors):
+                walk(item, f"{path}[{label}]", kind, one)
+        else:
+            known = float(error) if is_number(error) and kind == "value" and is_number(node) else None
+            found[path] = Leaf(node, known, "words" if isinstance(node, str) and kind != "effort" else kind)
+
+    walk(node, "", "value", None)
+    scales = {}
+    for path, leaf in found.items():
+        if is_number(leaf.value):
+            pattern = re.sub(r"\[[^]]*\]", "[]", path)
+            scales[pattern] = max(scales.get(pattern, 0), abs(leaf.value))
+    for path, leaf in found.items():
+        leaf.scale = scales.get(re.sub(r"\[[^]]*\]", "[]", path), 0)
+    return found
+
+
+# --- judgement of one pair ---
+
+def same(x, y):
+    if isinstance(x, float) and isinstance(y, float) and math.isnan(x) and math.isnan(y):
+        return True
+    return type(x) is type(y) and x == y or is_number(x) and is_number(y) and x == y
+
+
+def share_of_allowed(a, b, accuracy, owner_scale):
+    """|a − b| over what both sides' errors allow; up to 1: within."""
+    if not (is_number(a.value) and is_number(b.value)) or not (math.isfinite(a.value) and math.isfinite(b.value)):
+        return math.inf
+    apart, larger, scale = abs(a.value - b.value), max(abs(a.value), abs(b.value)), max(a.scale, b.scale)
+    if a.kind == "estimate":
+        if apart <= max(LAST_BITS * owner_scale, NOTHING * scale):
+            return 0
+        least = min(abs(a.value), abs(b.value))
+        return larger / least / ESTIMATE if least > 0 and a.value * b.value > 0 else apart / (LAST_BITS * owner_scale or 1e-300)
+    stated = [leaf.error for leaf in (a, b) if leaf.error is not None]
+    if stated:
+        allowed = sum(stated) + NOTHING * larger
+    else:
+        allowed = max(LAST_BITS * larger, NOTHING * scale, accuracy * scale)
+    return apart / allowed if allowed > 0 else math.inf
+
+
+def numbers_agree(a, b):
+    """Texts that are the same but for numbers that differ by one in the last digit written, or within their ±."""
+    if NUMBER.sub("#", a) != NUMBER.sub("#", b):
+        return False
+    def last_digit(text):
+        head, _, power = text.partition("e")
+        return 10.0 ** (int(power or 0) - len(head.partition(".")[2]))
+    found_a, found_b = list(NUMBER.finditer(a)), list(NUMBER.finditer(b))
+    for i, (x, y) in enumerate(zip(found_a, found_b)):
+        if x.group() == y.group():
+            continue
+        p, q = (float(m.group().replace("−", "-")) for m in (x, y))
+        allowed = max(last_digit(x.group()), last_digit(y.group()))
+        if re.fullmatch(r" ?± ?", a[x.end():found_a[i + 1].start()] if i + 1 < len(found_a) else ""):
+            allowed += float(found_a[i + 1].group()) + float(found_b[i + 1].group())
+        elif re.search(r"± ?$", a[:x.start()]):
+            allowed += max(abs(p), abs(q)) / ESTIMATE
+        if abs(p - q) > 1.0001 * allowed:
+            return False
+    return True
+
+
+def masked(text):
+    for pattern, put in TIMES:
+        text = pattern.sub(put, text)
+    return re.sub(r"[ \t]+", " ", text)
+
+
+def compare_words(outcome, where, a, b):
+    a, b = masked(a), masked(b)
+    if a == b:
+        return
+    if numbers_agree(a, b):
+        outcome.rounded += 1
+        return
+    lines_a, lines_b = a.splitlines(), b.splitlines()
+    if len(lines_a) == len(lines_b) > 1:
+        for x, y in zip(lines_a, lines_b):
+            if x != y and not numbers_agree(x, y):
+                outcome.words.append((where, x, y))
+    else:
+        only_a, only_b = [x for x in lines_a if x not in lines_b], [y for y in lines_b if y not in lines_a]
+        outcome.words.append((where, "\n".join(only_a[:6]), "\n".join(only_b[:6])))
+
+
+# --- a cell ---
+
+def stated_accuracy(summary):
+    """What the runs of a summary state of all figures, of their scale; 0: nothing."""
+    places = [summary, *(summary.get("models") or {}).values()] if isinstance(summary.get("models"), dict) else [summary]
+    stated = [(p.get("accuracy") or {}).get("measured") for p in places if isinstance(p.get("accuracy"), dict)]
+    return max((x for x in stated if is_number(x)), default=0)
+
+
+def without(path):
+    return path.rpartition(".")[0]
+
+
+def compare_leaves(outcome, a, b, accuracy, prefix=""):
+    scale_of_record = {}
+    for found in (a, b):
+        for path, leaf in found.items():
+            if is_number(leaf.value) and leaf.kind == "value":
+                scale_of_record[without(path)] = max(scale_of_record.get(without(path), 0), abs(leaf.value))
+    for path in [*a, *(p for p in b if p not in a)]:
+        x, y = a.get(path), b.get(path)
+        if x and y and x.kind == y.kind == "words":
+            compare_words(outcome, prefix + path, x.value, y.value)
+            continue
+        outcome.values += 1
+        if x and y and same(x.value, y.value):
+            continue
+        if (x or y).kind == "effort":
+            outcome.effort.append(Difference(prefix + path, x, y))
+            continue
+        times = share_of_allowed(x, y, accuracy, scale_of_record.get(without(path), 0)) if x and y else math.inf
+        (outcome.within if times <= 1 else outcome.different).append(Difference(prefix + path, x, y, times))
+
+
+def columns_of(text):
+    rows = [row for row in csv.reader(io.StringIO(text)) if row and not row[0].startswith("# ")]
+    if not rows:
+        return {}
+    return {f"{name}#{k}" if rows[0].index(name) != k else name: [row[k] if k < len(row) else "" for row in rows[1:]]
+            for k, name in enumerate(rows[0])}
+
+
+def as_numbers(cells):
+    try:
+        return [float(c) if c else None for c in cells]
+    except ValueError:
+        return None
+
+
+def compare_tables(outcome, name, a, b, accuracy):
+    """Column by column: by its errors where it has a column of them, else by the accuracy of the run and its scale."""
+    if a == b:
+        outcome.values += a.count(",")
+        return
+    a, b = columns_of(a), columns_of(b)
+    for column in [*a, *(c for c in b if c not in a)]:
+        x, y, where = a.get(column), b.get(column), f"{name}:{column}"
+        if any(c in column for c in ("seconds", "processor time", "time ×")) or column in LEFT_OUT:
+            continue
+        outcome.values += len(x or y)
+        if x == y:
+            continue
+        if x is None or y is None or len(x) != len(y):
+            outcome.different.append(Difference(where, x and Leaf(f"{len(x)} rows"), y and Leaf(f"{len(y)} rows")))
+            continue
+        p, q = as_numbers(x), as_numbers(y)
+        if p is None or q is None:
+            compare_words(outcome, where, "\n".join(x), "\n".join(y))
+            continue
+        compare_columns(outcome, where, (p, q), [error_column(t, column) for t in (a, b)], accuracy)
+
+
+def error_column(table, column):
+    named = next((table[n] for n in (f"error of {column}", column.split(" [")[0] + "_error") if n in table), None)
+    return as_numbers(named) if named else None
+
+
+def compare_columns(outcome, where, values, errors, accuracy):
+    scale = max((abs(v) for side in values for v in side if v is not None and math.isfinite(v)), default=0)
+    kind = "estimate" if where.partition(":")[2].startswith("error of ") else "value"
+    worst, beyond, moved = None, 0, False
+    for row, pair in enumerate(zip(*values)):
+        if same(*pair):
+            continue
+        moved = True
+        x, y = (Leaf(v, e[row] if e else None, kind, scale) for v, e in zip(pair, errors))
+        times = share_of_allowed(x, y, accuracy, scale)
+        beyond += times > 1
+        if worst is None or times > worst.times:
+            worst = Difference(f"{where} row {row + 1}", x, y, times)
+    if moved:
+        if beyond:
+            worst.path += f", {beyond} of {len(values[0])} rows beyond"
+        (outcome.different if beyond else outcome.within).append(worst)
+
+
+def compare_cells(a, b, left_out=frozenset(), tables=True):
+    """`left_out`: further names that a command's cells are compared without."""
+    outcome = Outcome()
+    if a["exit"] != b["exit"]:
+        outcome.different.append(Difference("exit code", Leaf(a["exit"]), Leaf(b["exit"])))
+    outcome.values += 1
+    summary_a, summary_b = a.get("summary") or {}, b.get("summary") or {}
+    accuracy = max(stated_accuracy(summary_a), stated_accuracy(summary_b))
+    leave = LEFT_OUT | left_out
+    compare_leaves(outcome, leaves(summary_a, leave), leaves(summary_b, leave), accuracy)
+    if tables:
+        tables_a, tables_b = a.get("csv", {}), b.get("csv", {})
+        for name in sorted(set(tables_a) | set(tables_b)):
+            if name in leave:
+                continue
+            if name in tables_a and name in tables_b:
+                compare_tables(outcome, name, tables_a[name], tables_b[name], accuracy)
+            else:
+                outcome.different.append(Difference(name, name in tables_a and Leaf("written") or None,
+                                                    name in tables_b and Leaf("written") or None))
+    for stream in ("stdout", "stderr"):
+        if stream not in leave and stream in a and stream in b:
+            compare_words(outcome, stream, a[stream], b[stream])
+    return outcome
