@@ -7,7 +7,7 @@ import io
 import json
 import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 # Last bits. Another compiler, another CPU (libm takes other paths with and without FMA) round elsewhere, by some 1e-16 each
 # time; an integration of 1e4 … 1e5 steps carries up to some 1e-11 of that on. What is meant to change changes by more.
@@ -26,6 +26,7 @@ EFFORT = {"statistics"}
 RESIDUALS = re.compile(r"residual|closure$|closure_error$|drift$|^relative$|^measured$|agreement|bodies_against_reduced")
 NAMES = ("name", "figure", "effects", "effect", "component", "joint", "shaft", "label", "parameter", "path", "model",
          "method", "gearbox", "what", "limit", "finding", "point")
+NO_BRACKETS = str.maketrans("[]", "()")
 NUMBER = re.compile(r"[-+−]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?")
 TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of processor time"),
          (re.compile(r"costs (?:about the same time|[\d.e+-]+ × the time)"), "costs T × the time"),
@@ -49,10 +50,20 @@ class Difference:
     a: Leaf | None
     b: Leaf | None
     times: float = math.inf  # of what is allowed
+    places: int = 1          # that are like it, of which it is the furthest
 
     def __str__(self):
         text = f"{self.path}: {told(self.a)} → {told(self.b)}"
-        return text + (f"  ({self.times:.2g} × what the errors allow)" if math.isfinite(self.times) else "")
+        text += f"  ({self.times:.2g} × what the errors allow)" if math.isfinite(self.times) else ""
+        return text + (f", furthest of {self.places} of its kind" if self.places > 1 else "")
+
+
+def gathered(differences):
+    """The furthest of each kind of place, furthest kinds first."""
+    kinds = {}
+    for d in sorted(differences, key=lambda d: -d.times):
+        kinds.setdefault(pattern(d.path), []).append(d)
+    return [replace(places[0], places=len(places)) for places in kinds.values()]
 
 
 @dataclass
@@ -147,13 +158,21 @@ def leaves(node, left_out=LEFT_OUT):
             found[path] = Leaf(node, known, "words" if isinstance(node, str) and kind != "effort" else kind)
 
     walk(node, "", "value", None)
+    return with_scales(found)
+
+
+def pattern(path):
+    """Without the numbers and names of items: what stands at like places."""
+    return re.sub(r"\[[^]]*\]", "[]", path)
+
+
+def with_scales(found):
     scales = {}
     for path, leaf in found.items():
-        if is_number(leaf.value):
-            pattern = re.sub(r"\[[^]]*\]", "[]", path)
-            scales[pattern] = max(scales.get(pattern, 0), abs(leaf.value))
+        if is_number(leaf.value) and math.isfinite(leaf.value):
+            scales[pattern(path)] = max(scales.get(pattern(path), 0), abs(leaf.value))
     for path, leaf in found.items():
-        leaf.scale = scales.get(re.sub(r"\[[^]]*\]", "[]", path), 0)
+        leaf.scale = scales.get(pattern(path), 0)
     return found
 
 
@@ -241,7 +260,7 @@ def without(path):
     return path.rpartition(".")[0]
 
 
-def compare_leaves(outcome, a, b, accuracy, prefix=""):
+def compare_leaves(outcome, a, b, accuracy):
     scale_of_record = {}
     for found in (a, b):
         for path, leaf in found.items():
@@ -250,78 +269,41 @@ def compare_leaves(outcome, a, b, accuracy, prefix=""):
     for path in [*a, *(p for p in b if p not in a)]:
         x, y = a.get(path), b.get(path)
         if x and y and x.kind == y.kind == "words":
-            compare_words(outcome, prefix + path, x.value, y.value)
+            compare_words(outcome, path, x.value, y.value)
             continue
         outcome.values += 1
         if x and y and same(x.value, y.value):
             continue
         if (x or y).kind == "effort":
-            outcome.effort.append(Difference(prefix + path, x, y))
+            outcome.effort.append(Difference(path, x, y))
             continue
         times = share_of_allowed(x, y, accuracy, scale_of_record.get(without(path), 0)) if x and y else math.inf
-        (outcome.within if times <= 1 else outcome.different).append(Difference(prefix + path, x, y, times))
+        (outcome.within if times <= 1 else outcome.different).append(Difference(path, x, y, times))
 
 
-def columns_of(text):
+def leaves_of_table(name, text):
+    """Column by column, with its errors where the table has a column of them."""
     rows = [row for row in csv.reader(io.StringIO(text)) if row and not row[0].startswith("# ")]
-    if not rows:
-        return {}
-    return {f"{name}#{k}" if rows[0].index(name) != k else name: [row[k] if k < len(row) else "" for row in rows[1:]]
-            for k, name in enumerate(rows[0])}
+    columns = {}
+    for k, heading in enumerate(rows[0] if rows else ()):
+        if "processor time" in heading or heading.partition(" [")[0] in LEFT_OUT:
+            continue
+        columns[f"{heading}#{k}" if heading in columns else heading] = [value_of(row[k]) if k < len(row) else None for row in rows[1:]]
+    found = {}
+    for heading, values in columns.items():
+        errors = columns.get(f"error of {heading}") or columns.get(heading.partition(" [")[0] + "_error") or [None] * len(values)
+        kind = "estimate" if heading.startswith("error of ") or heading.endswith("_error") else "value"
+        for row, (value, error) in enumerate(zip(values, errors), 1):
+            known = error if kind == "value" and is_number(value) and is_number(error) else None
+            found[f"{name}:{heading.translate(NO_BRACKETS)}[{row}]"] = Leaf(value, known, "words" if isinstance(value, str) else kind)
+    return with_scales(found)
 
 
-def as_numbers(cells):
+def value_of(cell):
     try:
-        return [float(c) if c else None for c in cells]
+        return float(cell) if cell else None
     except ValueError:
-        return None
-
-
-def compare_tables(outcome, name, a, b, accuracy):
-    """Column by column: by its errors where it has a column of them, else by the accuracy of the run and its scale."""
-    if a == b:
-        outcome.values += a.count(",")
-        return
-    a, b = columns_of(a), columns_of(b)
-    for column in [*a, *(c for c in b if c not in a)]:
-        x, y, where = a.get(column), b.get(column), f"{name}:{column}"
-        if any(c in column for c in ("seconds", "processor time", "time ×")) or column in LEFT_OUT:
-            continue
-        outcome.values += len(x or y)
-        if x == y:
-            continue
-        if x is None or y is None or len(x) != len(y):
-            outcome.different.append(Difference(where, x and Leaf(f"{len(x)} rows"), y and Leaf(f"{len(y)} rows")))
-            continue
-        p, q = as_numbers(x), as_numbers(y)
-        if p is None or q is None:
-            compare_words(outcome, where, "\n".join(x), "\n".join(y))
-            continue
-        compare_columns(outcome, where, (p, q), [error_column(t, column) for t in (a, b)], accuracy)
-
-
-def error_column(table, column):
-    named = next((table[n] for n in (f"error of {column}", column.split(" [")[0] + "_error") if n in table), None)
-    return as_numbers(named) if named else None
-
-
-def compare_columns(outcome, where, values, errors, accuracy):
-    scale = max((abs(v) for side in values for v in side if v is not None and math.isfinite(v)), default=0)
-    kind = "estimate" if where.partition(":")[2].startswith("error of ") else "value"
-    worst, beyond, moved = None, 0, False
-    for row, pair in enumerate(zip(*values)):
-        if same(*pair):
-            continue
-        moved = True
-        x, y = (Leaf(v, e[row] if e else None, kind, scale) for v, e in zip(pair, errors))
-        times = share_of_allowed(x, y, accuracy, scale)
-        beyond += times > 1
-        if worst is None or times > worst.times:
-            worst = Difference(f"{where} row {row + 1}", x, y, times)
-    if moved:
-        if beyond:
-            worst.path += f", {beyond} of {len(values[0])} rows beyond"
-        (outcome.different if beyond else outcome.within).append(worst)
+        return cell
 
 
 def compare_cells(a, b, left_out=frozenset(), tables=True):
@@ -334,16 +316,15 @@ def compare_cells(a, b, left_out=frozenset(), tables=True):
     accuracy = max(stated_accuracy(summary_a), stated_accuracy(summary_b))
     leave = LEFT_OUT | left_out
     compare_leaves(outcome, leaves(summary_a, leave), leaves(summary_b, leave), accuracy)
-    if tables:
-        tables_a, tables_b = a.get("csv", {}), b.get("csv", {})
-        for name in sorted(set(tables_a) | set(tables_b)):
-            if name in leave:
-                continue
-            if name in tables_a and name in tables_b:
-                compare_tables(outcome, name, tables_a[name], tables_b[name], accuracy)
-            else:
-                outcome.different.append(Difference(name, name in tables_a and Leaf("written") or None,
-                                                    name in tables_b and Leaf("written") or None))
+    tables_a, tables_b = (cell.get("csv", {}) if tables else {} for cell in (a, b))
+    for name in sorted({*tables_a, *tables_b} - leave):
+        x, y = tables_a.get(name), tables_b.get(name)
+        if x is None or y is None:
+            outcome.different.append(Difference(name, x and Leaf("written"), y and Leaf("written")))
+        elif x == y:
+            outcome.values += x.count(",")
+        else:
+            compare_leaves(outcome, leaves_of_table(name, x), leaves_of_table(name, y), accuracy)
     for stream in ("stdout", "stderr"):
         if stream not in leave and stream in a and stream in b:
             compare_words(outcome, stream, a[stream], b[stream])
