@@ -43,10 +43,10 @@ COMMANDS = {
     "size": Command(("size", "SCENE", "--delta", "0.02")),
     "reduce": Command(("reduce", "SCENE")),
     "gears": Command(("gears", "SCENE")),
-    "effects": Command(("effects", "SCENE")),
-    "advise": Command(("advise", "SCENE", "--no-held-out")),
+    "effects": Command(("effects", "SCENE"), frozenset({"stdout"})),
+    "advise": Command(("advise", "SCENE", "--no-held-out"), frozenset({"stdout"})),
     "accuracy": Command(("accuracy", "SCENE", "--no-multibody", "--methods", "dop853", "esdirk", "--tolerances", "1e-4",
-                         "1e-6", "--time", "1e6")),
+                         "1e-6", "--time", "1e6 s"), frozenset({"stdout"})),
     "uncertainty": Command(("uncertainty", "SCENE", "--samples", "20", "--jobs", "1", "--no-trials")),
     "modes --torque": Command(("modes", "SCENE", "--torque", "main_coupling"), scenes=("*press*", "*engine*")),
     "sweep": Command(("sweep", "SCENE", "--vary", "main_coupling.stiffness=500,900,1500 kN*m/rad", "--jobs", "1", "--into",
@@ -112,6 +112,7 @@ def run_cell(program, cell, limit):
         with open(f"{folder}/stdout", "wb") as said, open(f"{folder}/stderr", "wb") as complained:
             process = subprocess.Popen([str(program), *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=said,
                                        stderr=complained, env={**os.environ, "NO_COLOR": "1", "LC_ALL": "C.UTF-8"})
+            resource.prlimit(process.pid, resource.RLIMIT_CORE, (0, 0))
             resource.prlimit(process.pid, resource.RLIMIT_CPU, (int(limit), int(limit) + 1))
             _, status, used = os.wait4(process.pid, 0)
             process.returncode = code = os.waitstatus_to_exitcode(status)

@@ -32,7 +32,7 @@ TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of pro
          (re.compile(r"costs (?:about the same time|[\d.e+-]+ × the time)"), "costs T × the time"),
          (re.compile(r"costs most, [\d.e+-]+ × the time"), "costs most, T × the time"),
          (re.compile(r"takes [\d.]+ of the time"), "takes T of the time"),
-         (re.compile(r", [\d.e+-]+ (?:s|ms|µs)(?=$|\n)"), ", T"),
+         (re.compile(r"(cycles' worth \([^)]*\)), [\d.e+-]+ (?:min|s|ms)"), r"\1, T"),
          (re.compile(r"kurbel \d+\.\d+\.\d+\S*"), "kurbel VERSION")]
 
 
