@@ -50,10 +50,10 @@ COMMANDS = {
     "uncertainty": Command(("uncertainty", "SCENE", "--samples", "20", "--jobs", "1", "--no-trials")),
     "modes --torque": Command(("modes", "SCENE", "--torque", "main_coupling"), scenes=("*press*", "*engine*")),
     "sweep": Command(("sweep", "SCENE", "--vary", "main_coupling.stiffness=500,900,1500 kN*m/rad", "--jobs", "1", "--into",
-                      "OUT.db"), scenes=("scenes/crank_press.toml", "scenes/press_drive.toml")),
+                      "OUT.db"), frozenset({"row", "line"}), ("scenes/crank_press.toml", "scenes/press_drive.toml")),
     "sweep --of steady": Command(("sweep", "SCENE", "--vary", "main_coupling.stiffness=500..1500 kN*m/rad", "--design",
                                   "sobol:8", "--of", "steady", "--jobs", "1", "--into", "OUT.db"),
-                                 scenes=("scenes/crank_press.toml",)),
+                                 frozenset({"row", "line"}), ("scenes/crank_press.toml",)),
     "diff": Command(("diff", "SCENE", "SCENE", "--other-set", "main_coupling.stiffness=1 MN*m/rad"),
                     scenes=("scenes/crank_press.toml", "docs/tasks/eccentric_press.toml")),
 }

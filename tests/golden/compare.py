@@ -14,8 +14,13 @@ from dataclasses import dataclass, field, replace
 LAST_BITS = 1e-9
 # Of what is of that order beside larger values of the same name: components of a shape that are zero but for rounding.
 NOTHING = 1e-12
-# Estimates of errors are good to a factor; one that grew beyond it hides changes of its value.
-ESTIMATE = 2
+# Errors are estimates by the difference of two runs, good to an order of magnitude; one that grew beyond it hides changes of
+# its value.
+ESTIMATE = 10
+# Samples for plots state no error: of the column's largest value. On steep flanks last bits of the time show.
+SAMPLES = 1e-6
+# Where a largest value is reached [rad]: tops are flat, the root of last bits.
+PLACE = 1e-5
 
 # Depends on the processor's speed, on the place of files, on the version.
 LEFT_OUT = {"version", "scene", "other_scene", "database", "machine", "fingerprint", "processor_seconds", "cpu_seconds",
@@ -23,7 +28,7 @@ LEFT_OUT = {"version", "scene", "other_scene", "database", "machine", "fingerpri
 # Work of the numerics: told apart, and no result.
 EFFORT = {"statistics"}
 # Differences that the numerics leave where there should be none: judged as estimates.
-RESIDUALS = re.compile(r"residual|closure$|closure_error$|drift$|^relative$|^measured$|agreement|bodies_against_reduced")
+RESIDUALS = re.compile(r"residual|closure$|closure_error$|drift$|^relative$|^measured$|agreement|bodies_against|remaining_to")
 NAMES = ("name", "figure", "effects", "effect", "component", "joint", "shaft", "label", "parameter", "path", "model",
          "method", "gearbox", "what", "limit", "finding", "point")
 NO_BRACKETS = str.maketrans("[]", "()")
@@ -40,8 +45,9 @@ TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of pro
 class Leaf:
     value: object
     error: float | None = None  # stated; None: none
-    kind: str = "value"         # value, estimate, effort, words
+    kind: str = "value"         # value, estimate (of an error), residual, effort, words
     scale: float = 0            # largest value of that name in the same cell
+    kin: object = None          # what it is like: its unit, that of which it is the error, its record; then the largest of those
 
 
 @dataclass
@@ -105,8 +111,15 @@ def stated_error(record, key):
         return record.get("share_extremes_error")
     if key in ("work_in", "work_useful", "work_harmful"):
         return record.get("works_error")
+    if key in ("least", "mean", "greatest", "deviation") and "largest_error" in record:
+        return record["largest_error"]
     if not is_number(of_all):
         return None
+    for base in ("full", "elastic", "off"):  # the error is that of the change over this one
+        if base in record and key in ("full", "without", "elastic", "rigid", "off", "on"):
+            return of_all * abs(record[base]) if is_number(record[base]) else None
+    if key == "phi":
+        return PLACE
     if key == "omega" and "frequency" in record:
         return 2 * math.pi * of_all
     if key == "phase":
@@ -124,8 +137,17 @@ def stated_error(record, key):
 def kind_of(key, above, error):
     if above == "effort" or key in EFFORT:
         return "effort"
-    residual = error is None and RESIDUALS.search(key)
-    return "estimate" if above == "estimate" or residual or key in ("error", "errors") or key.endswith("_error") else "value"
+    if above == "estimate" or key in ("error", "errors") or key.endswith("_error"):
+        return "estimate"
+    return "residual" if above == "residual" or error is None and RESIDUALS.search(key) else "value"
+
+
+def kin_of(record, key, path):
+    if isinstance(record.get("unit"), str):
+        return "unit " + record["unit"]
+    if key.endswith("_error") and key[:-6] in record:
+        return "like " + pattern(path[:-6])
+    return "in " + without(path) if key == "error" or key.endswith("_error") else "like " + pattern(path)
 
 
 def labels(items):
@@ -143,22 +165,26 @@ def labels(items):
 def leaves(node, left_out=LEFT_OUT):
     found = {}
 
-    def walk(node, path, kind, error):
+    def walk(node, path, kind, error, kin):
         if isinstance(node, dict):
             for key, value in node.items():
                 if key not in left_out:
-                    stated = stated_error(node, key)
-                    walk(value, f"{path}.{key}" if path else key, kind_of(key, kind, stated), stated)
+                    stated, place = stated_error(node, key), f"{path}.{key}" if path else key
+                    walk(value, place, kind_of(key, kind, stated), stated, kin_of(node, key, place))
         elif isinstance(node, list):
             errors = error if isinstance(error, list) and len(error) == len(node) else [error] * len(node)
             for label, item, one in zip(labels(node), node, errors):
-                walk(item, f"{path}[{label}]", kind, one)
+                walk(item, f"{path}[{label}]", kind, one, kin and kin + "[]" * kin.startswith("like "))
         else:
             known = float(error) if is_number(error) and kind == "value" and is_number(node) else None
-            found[path] = Leaf(node, known, "words" if isinstance(node, str) and kind != "effort" else kind)
+            found[path] = Leaf(node, known, "words" if isinstance(node, str) and kind != "effort" else kind, kin=kin)
 
-    walk(node, "", "value", None)
+    walk(node, "", "value", None, None)
     return with_scales(found)
+
+
+def without(path):
+    return path.rpartition(".")[0]
 
 
 def pattern(path):
@@ -169,10 +195,11 @@ def pattern(path):
 def with_scales(found):
     scales = {}
     for path, leaf in found.items():
-        if is_number(leaf.value) and math.isfinite(leaf.value):
-            scales[pattern(path)] = max(scales.get(pattern(path), 0), abs(leaf.value))
+        if is_number(leaf.value) and math.isfinite(leaf.value) and leaf.kind in ("value", "residual"):
+            for key in {"like " + pattern(path), "in " + without(path), leaf.kin}:
+                scales[key] = max(scales.get(key, 0), abs(leaf.value))
     for path, leaf in found.items():
-        leaf.scale = scales.get(pattern(path), 0)
+        leaf.scale, leaf.kin = scales.get("like " + pattern(path), 0), scales.get(leaf.kin, 0)
     return found
 
 
@@ -184,21 +211,19 @@ def same(x, y):
     return type(x) is type(y) and x == y or is_number(x) and is_number(y) and x == y
 
 
-def share_of_allowed(a, b, accuracy, owner_scale):
+def share_of_allowed(a, b, accuracy):
     """|a − b| over what both sides' errors allow; up to 1: within."""
     if not (is_number(a.value) and is_number(b.value)) or not (math.isfinite(a.value) and math.isfinite(b.value)):
         return math.inf
-    apart, larger, scale = abs(a.value - b.value), max(abs(a.value), abs(b.value)), max(a.scale, b.scale)
-    if a.kind == "estimate":
-        if apart <= max(LAST_BITS * owner_scale, NOTHING * scale):
+    apart, larger = abs(a.value - b.value), max(abs(a.value), abs(b.value))
+    scale, kin = max(a.scale, b.scale), max(a.kin, b.kin)
+    if a.kind in ("estimate", "residual"):
+        if apart <= LAST_BITS * (kin if a.kind == "estimate" else max(kin, 1)):
             return 0
-        least = min(abs(a.value), abs(b.value))
-        return larger / least / ESTIMATE if least > 0 and a.value * b.value > 0 else apart / (LAST_BITS * owner_scale or 1e-300)
+        return larger / max(min(abs(a.value), abs(b.value)), LAST_BITS * kin, 1e-300) / ESTIMATE
     stated = [leaf.error for leaf in (a, b) if leaf.error is not None]
-    if stated:
-        allowed = sum(stated) + NOTHING * larger
-    else:
-        allowed = max(LAST_BITS * larger, NOTHING * scale, accuracy * scale)
+    allowed = sum(stated) if stated else max(LAST_BITS * larger, accuracy * scale)
+    allowed = max(allowed, NOTHING * max(larger, kin))
     return apart / allowed if allowed > 0 else math.inf
 
 
@@ -214,7 +239,7 @@ def numbers_agree(a, b):
         if x.group() == y.group():
             continue
         p, q = (float(m.group().replace("−", "-")) for m in (x, y))
-        allowed = max(last_digit(x.group()), last_digit(y.group()))
+        allowed = max(last_digit(x.group()), last_digit(y.group()), LAST_BITS)
         if re.fullmatch(r" ?± ?", a[x.end():found_a[i + 1].start()] if i + 1 < len(found_a) else ""):
             allowed += float(found_a[i + 1].group()) + float(found_b[i + 1].group())
         elif re.search(r"± ?$", a[:x.start()]):
@@ -230,8 +255,11 @@ def masked(text):
     return re.sub(r"[ \t]+", " ", text)
 
 
-def compare_words(outcome, where, a, b):
+def compare_words(outcome, where, a, b, numbers=True):
+    """`numbers`: those in the text count; not where they are those of a summary that is compared."""
     a, b = masked(a), masked(b)
+    if not numbers:
+        a, b = (re.sub(r"[-+#±% ]+", " ", NUMBER.sub("#", text)) for text in (a, b))
     if a == b:
         return
     if numbers_agree(a, b):
@@ -256,16 +284,7 @@ def stated_accuracy(summary):
     return max((x for x in stated if is_number(x)), default=0)
 
 
-def without(path):
-    return path.rpartition(".")[0]
-
-
 def compare_leaves(outcome, a, b, accuracy):
-    scale_of_record = {}
-    for found in (a, b):
-        for path, leaf in found.items():
-            if is_number(leaf.value) and leaf.kind == "value":
-                scale_of_record[without(path)] = max(scale_of_record.get(without(path), 0), abs(leaf.value))
     for path in [*a, *(p for p in b if p not in a)]:
         x, y = a.get(path), b.get(path)
         if x and y and x.kind == y.kind == "words":
@@ -277,7 +296,7 @@ def compare_leaves(outcome, a, b, accuracy):
         if (x or y).kind == "effort":
             outcome.effort.append(Difference(path, x, y))
             continue
-        times = share_of_allowed(x, y, accuracy, scale_of_record.get(without(path), 0)) if x and y else math.inf
+        times = share_of_allowed(x, y, accuracy) if x and y else math.inf
         (outcome.within if times <= 1 else outcome.different).append(Difference(path, x, y, times))
 
 
@@ -291,11 +310,16 @@ def leaves_of_table(name, text):
         columns[f"{heading}#{k}" if heading in columns else heading] = [value_of(row[k]) if k < len(row) else None for row in rows[1:]]
     found = {}
     for heading, values in columns.items():
-        errors = columns.get(f"error of {heading}") or columns.get(heading.partition(" [")[0] + "_error") or [None] * len(values)
-        kind = "estimate" if heading.startswith("error of ") or heading.endswith("_error") else "value"
-        for row, (value, error) in enumerate(zip(values, errors), 1):
-            known = error if kind == "value" and is_number(value) and is_number(error) else None
-            found[f"{name}:{heading.translate(NO_BRACKETS)}[{row}]"] = Leaf(value, known, "words" if isinstance(value, str) else kind)
+        title, _, unit = heading.partition(" [")
+        errors = columns.get(f"error of {heading}") or columns.get(title + "_error")
+        if title == "phase":  # of an amplitude that is none, it is any
+            amplitudes = next(([abs(a or 0) for a in c] for h, c in columns.items() if h.startswith("amplitude")), [])
+            errors = [min(math.pi, SAMPLES * max(amplitudes) / max(a, 1e-300)) for a in amplitudes]
+        kind = "estimate" if title.startswith("error of ") or title.endswith("_error") else "residual" if RESIDUALS.search(title) else "value"
+        for row, value in enumerate(values):
+            error = errors[row] if errors and kind == "value" and is_number(value) else None
+            found[f"{name}:{heading.translate(NO_BRACKETS)}[{row + 1}]"] = Leaf(
+                value, error, "words" if isinstance(value, str) else kind, kin=f"unit {unit}")
     return with_scales(found)
 
 
@@ -324,8 +348,8 @@ def compare_cells(a, b, left_out=frozenset(), tables=True):
         elif x == y:
             outcome.values += x.count(",")
         else:
-            compare_leaves(outcome, leaves_of_table(name, x), leaves_of_table(name, y), accuracy)
+            compare_leaves(outcome, leaves_of_table(name, x), leaves_of_table(name, y), max(accuracy, SAMPLES))
     for stream in ("stdout", "stderr"):
         if stream not in leave and stream in a and stream in b:
-            compare_words(outcome, stream, a[stream], b[stream])
+            compare_words(outcome, stream, a[stream], b[stream], numbers=not summary_a)
     return outcome
