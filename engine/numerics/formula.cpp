@@ -26,7 +26,8 @@ Interval hull(std::initializer_list<double> values) { return {std::min(values), 
 
 // sin over an interval: its ends, and the crests and troughs between them.
 Interval sine(const Interval& a) {
-  if (!(a.high - a.low < 2 * pi)) return {-1, 1};
+  constexpr double countable = 1e15;  // of greater angles a double does not tell the place in its turn
+  if (!(a.high - a.low < 2 * pi) || std::max(-a.low, a.high) > countable) return {-1, 1};
   Interval s = hull({std::sin(a.low), std::sin(a.high)});
   const auto holds = [&](double place) { return std::ceil((a.low - place) / (2 * pi)) * 2 * pi + place <= a.high; };
   if (holds(pi / 2)) s.high = 1;
@@ -136,11 +137,6 @@ std::string edge_of(const Formula::Node& n) {
   if (n.op == FormulaOp::sqrt || n.op == FormulaOp::asin || n.op == FormulaOp::acos || (broken && n.number < 1))
     return "an infinite slope";
   return fmt::format("a value beyond ± {:g}", most);
-}
-
-double apply(FormulaOp op, double a, double n) {
-  const Interval i = image(op, {a, a}, n);
-  return i.low;
 }
 
 }  // namespace
@@ -287,7 +283,7 @@ Formula::Points Formula::at(double x) const {
             : node.op == FormulaOp::subtract ? u - v
             : node.op == FormulaOp::multiply ? u * v
             : node.op == FormulaOp::divide   ? u / v
-                                             : apply(node.op, u, node.number);
+                                             : FormulaProgram::of_one<double>({node.op, node.number}, u);
     if (!(std::abs(value) <= most)) p.fault[k] = static_cast<int>(k);
   }
   return p;

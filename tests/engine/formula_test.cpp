@@ -246,6 +246,41 @@ TEST(Formula, KinksAndJumpsAreFoundToTheLastDigit) {
   EXPECT_FALSE(rectified.jumps());
 }
 
+// A branch that is constant has the slope 0, whatever is made of it: never NaN, where 0 vⁿ⁻¹ of a base 0 is 0·∞.
+TEST(Formula, WhatIsConstantOnItsPieceHasNoSlope) {
+  for (const std::string zero : {"min(0, x)", "max(0, -x)", "clamp(x, -2, 0)", "if(x >= -1, 0, 3 + x)", "0*x"})
+    for (const char* of : {"({})^0",           "({})^log10(1)", "(2*{})^0",
+                           "({})^1",           "({})^2",        "({})^3",
+                           "({})^1.5",         "({})^2.5",      "abs({})",
+                           "sign({})",         "step({})",      "sin({})",
+                           "cos({})",          "tan({})",       "asin({})",
+                           "acos({})",         "atan({})",      "tanh({})",
+                           "exp({})",          "log(1 + {})",   "log10(({})^0)",
+                           "sqrt(1 + {})",     "(1 + {})^-2",   "1/(1 + {})",
+                           "hypot({}, 1)",     "max({}, 1)",    "atan2({}, 1)/1 [rad]",
+                           "(({0})^0)^({0})^0"}) {
+      const std::string text = fmt::format(fmt::runtime(of), zero);
+      const Dual<1> got = curve_of(text, 0.1, 1).value(Dual<1>::input(0.3, 0));
+      EXPECT_TRUE(std::isfinite(got.value)) << text;
+      EXPECT_EQ(got.d[0], 0) << text;
+    }
+  for (const double x : {-0.5, 0.0, 0.7}) EXPECT_EQ(curve_of("x^0", -1, 1).value(Dual<1>::input(x, 0)).d[0], 0) << x;
+}
+
+// By its nodes, which look for kinks and tell values where it is read, and by its pieces, which run.
+TEST(Formula, NodesAndPiecesComputeTheSameOfAnglesOfManyTurns) {
+  for (const char* text : {"cos(x + 1e3^7)", "sin(x - 7^exp(3))", "cos(x + 1e9)", "sin(1e12*x)", "tan(x + 1e9)"}) {
+    UnitError error;
+    const auto read = read_formula(text, names_of_x(), error);
+    ASSERT_TRUE(read) << text;
+    for (double x = 0.01; x < 1; x += 0.0917) {
+      double by_nodes = 0;
+      ASSERT_FALSE(read->formula.value(x, by_nodes)) << text;
+      EXPECT_EQ(read->formula.program(x)(x), by_nodes) << text << " at " << x;
+    }
+  }
+}
+
 TEST(Formula, WhatOnlyTouchesZeroHasNoKink) {
   EXPECT_EQ(curve_of("abs(x^2)", -1, 1).x().size(), 2u);
   EXPECT_EQ(curve_of("abs((x - 0.3)^2)", -1, 1).x().size(), 2u);
