@@ -152,6 +152,7 @@ Json value_schema(const Key& key) {
       schema = nested(key);
       break;
   }
+  if ((key.type == KeyType::quantities || key.type == KeyType::integers) && !key.may_be_empty) schema["minItems"] = 1;
   schema["description"] = description(key);
   if (!key.fallback.empty()) schema["default"] = Json::parse(key.fallback);
   return schema;
