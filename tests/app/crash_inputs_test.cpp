@@ -60,12 +60,12 @@ class CrashInputs : public testing::Test {
 TEST_F(CrashInputs, AnEmptyListIsRefusedByEveryCommand) {
   for (const char* verb : {"check", "run", "steady", "modes", "forces", "reduce", "gears", "effects"})
     expect_refused(verb, "dc_motor_without_switch_times.toml",
-                   ":3:204: ", "motor \"motor\": switch_times = []; must hold one value at least");
+                   ":3:194: ", "motor \"motor\": switch_times = []; must hold one value at least");
 }
 
 TEST_F(CrashInputs, AStartToldAtWhatAScrewMovesIsRefused) {
   for (const char* verb : {"check", "run", "steady", "reduce"})
-    expect_refused(verb, "slide_before_it_is_compiled.toml", ":4:23: ",
+    expect_refused(verb, "slide_before_it_is_compiled.toml", ":4:24: ",
                    "start: on = \"engine.slider\": \"engine\" has no slider; allowed: \"engine\", its shaft");
 }
 

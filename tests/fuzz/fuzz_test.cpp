@@ -53,6 +53,14 @@ TEST(Fuzz, EveryMachineRunsOrSaysWhyNot) { Attack("run").expect_no_fault(25); }
 
 TEST(Fuzz, EveryOtherVerbAnswersOrRefuses) { Attack("study").expect_no_fault(10); }
 
+// What was found stays found: by every target, and every verb.
+TEST(Fuzz, InputsThatCrashedAreAnswered) {
+  EXPECT_FALSE(crashes().empty());
+  for (const Seed& seed : crashes())
+    for (const auto judge : {judge_reader, judge_compile, judge_run, judge_every_study})
+      EXPECT_EQ(judge(seed.text), "") << seed.name;
+}
+
 // Each list of each example emptied, and each list key of each kind given as []: once by key and kind.
 class EmptyLists {
  public:
