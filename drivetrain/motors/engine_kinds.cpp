@@ -65,7 +65,7 @@ const Fields<EngineKeys>& engine_fields() {
                 .doc = "of one cylinder over the same angle, absolute (indicator diagram), in place of torque",
                 .choices = {"angle"}},
                &Keys::pressure)
-          .add({.name = "misfire", .doc = "numbers of the cylinders that do not fire", .may_be_empty = true},
+          .add({.name = "misfire", .fallback = "[]", .doc = "numbers of the cylinders that do not fire"},
                &Keys::misfire)
           .add({.name = "motored_torque",
                 .unit = "N*m",

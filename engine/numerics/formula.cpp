@@ -139,6 +139,13 @@ std::string edge_of(const Formula::Node& n) {
   return fmt::format("a value beyond ± {:g}", most);
 }
 
+// As its pieces' programs compute it: of an angle of many turns no other form of a function gives the same.
+double apply(FormulaOp op, double a, double n) {
+  if (op == FormulaOp::sin) return std::sin(a);
+  if (op == FormulaOp::cos) return std::cos(a);
+  return image(op, {a, a}, n).low;
+}
+
 }  // namespace
 
 void FormulaProgram::push(Step step) {
@@ -283,7 +290,7 @@ Formula::Points Formula::at(double x) const {
             : node.op == FormulaOp::subtract ? u - v
             : node.op == FormulaOp::multiply ? u * v
             : node.op == FormulaOp::divide   ? u / v
-                                             : FormulaProgram::of_one<double>({node.op, node.number}, u);
+                                             : apply(node.op, u, node.number);
     if (!(std::abs(value) <= most)) p.fault[k] = static_cast<int>(k);
   }
   return p;
@@ -381,6 +388,7 @@ std::optional<FormulaFault> Formula::knots(double from, double to, std::vector<d
 void Formula::emit(int node, const Points& here, FormulaProgram& to) const {
   const Node& n = nodes_[static_cast<std::size_t>(node)];
   if (n.op == FormulaOp::choose) return emit(here.value[static_cast<std::size_t>(n.a)] >= 0 ? n.b : n.c, here, to);
+  if (n.op == FormulaOp::power && n.number == 0) return to.push({FormulaOp::number, 1});  // also of 0: n vⁿ⁻¹ is 0·∞
   if (n.a >= 0) emit(n.a, here, to);
   if (n.b >= 0) emit(n.b, here, to);
   to.push({n.op, n.number});

@@ -95,19 +95,18 @@ class FormulaProgram {
         case FormulaOp::divide:
           --top, stack[top - 1] = value_of(stack[top]) == 0 ? T(far) : stack[top - 1] / stack[top];
           break;
+        case FormulaOp::negate:
+          stack[top - 1] = -stack[top - 1];
+          break;
         default:
           stack[top - 1] = of_one(step, stack[top - 1]);
       }
     return stack[0];
   }
-  friend class Formula;  // whose nodes are computed by the same functions
-
   template <class T>
   static T of_one(const Step& step, const T& a) {
     const double v = value_of(a);
     switch (step.op) {
-      case FormulaOp::negate:
-        return -a;
       case FormulaOp::power:
         return power(a, step.number);
       case FormulaOp::sin:
@@ -139,16 +138,14 @@ class FormulaProgram {
   template <class T>
   static T power(const T& a, double n) {
     const double v = value_of(a);
-    if (n == 0) return T(1);  // also of 0, where n vⁿ⁻¹ is 0·∞
     if (n != std::round(n) && v <= 0) return chain(a, n > 0 ? 0 : far, n > 1 ? 0 : far);
     if (n < 0 && v == 0) return T(far);
     return chain(a, std::pow(v, n), n * std::pow(v, n - 1));
   }
   static double within_one(double v) { return v < -1 ? -1 : v > 1 ? 1 : v; }
   static double root_of_rest(double v) {
-    constexpr double digit = 0x1p-53;  // of v beside ±1: what is less is not known
     const double rest = (1 - v) * (1 + v);
-    return std::sqrt(rest > digit ? rest : digit);
+    return std::sqrt(rest > near ? rest : near);
   }
   static constexpr double near = 1e-200, far = 1e200;  // in place of 0 and of what is divided by it
 

@@ -54,7 +54,7 @@ bool read_list(const DocumentValue& value, const Key& key, const std::string& wh
     messages.add(value.at, fmt::format("{} has {} values; must be at most {}", what, value.items.size(), most_items));
     return false;
   }
-  if (value.items.empty() && !key.may_be_empty) {  // nobody behind the reader asks whether there is a first one
+  if (value.items.empty() && key.fallback != "[]") {  // nobody behind the reader asks whether there is a first one
     messages.add(value.at, fmt::format("{} = []; must hold one value at least, e.g. [{}]{}", what,
                                        key.type == KeyType::integers ? "1" : first_example_of(key.unit),
                                        key.required ? "" : ", or leave the key out"));

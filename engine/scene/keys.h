@@ -48,7 +48,6 @@ struct Key {
   Domain domain = any_number;
   std::string doc = "";
   bool required = false;
-  bool may_be_empty = false;                  // a list: [] is a value, too
   std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
   const std::vector<Kind>* nested = nullptr;  // of sections
   std::string effect = "";                    // giving it gives the scene parameters for these effects, by spaces
