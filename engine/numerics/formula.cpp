@@ -139,6 +139,21 @@ std::string edge_of(const Formula::Node& n) {
   return fmt::format("a value beyond ± {:g}", most);
 }
 
+// Whether a node is part of the whole where the nodes have these values, and not only asked by a branch.
+bool is_part(const Formula& whole, int node, const std::vector<double>& values) {
+  std::vector<char> part(whole.size(), 0);
+  part.back() = 1;
+  for (std::size_t k = whole.size(); k-- > 0;) {
+    if (!part[k]) continue;
+    const Formula::Node& n = whole[static_cast<int>(k)];
+    const bool chooses = n.op == FormulaOp::choose;
+    const bool yes = chooses && values[static_cast<std::size_t>(n.a)] >= 0;
+    for (const int operand : {chooses ? (yes ? n.b : n.c) : n.a, chooses ? -1 : n.b})
+      if (operand >= 0) part[static_cast<std::size_t>(operand)] = 1;
+  }
+  return part[static_cast<std::size_t>(node)];
+}
+
 // As its pieces' programs compute it: of an angle of many turns no other form of a function gives the same.
 double apply(FormulaOp op, double a, double n) {
   if (op == FormulaOp::sin) return std::sin(a);
@@ -351,9 +366,13 @@ std::optional<FormulaFault> Formula::look_into(double low, double high, double l
       open.push_back({a, middle});
       continue;
     }
-    for (const double x : {a, middle, b})
-      if (const Points p = at(x); p.fault.back() >= 0) return fault_at(x, p.fault.back());
-    if (r.outside >= 0 && !r.split && !may_touch(nodes_[static_cast<std::size_t>(r.outside)]))
+    bool computed = r.outside >= 0;  // what is outside, on whichever branch
+    for (const double x : {a, middle, b}) {
+      const Points p = at(x);
+      if (p.fault.back() >= 0) return fault_at(x, p.fault.back());
+      computed = computed && (!r.split || is_part(*this, r.outside, p.value));
+    }
+    if (computed && !may_touch(nodes_[static_cast<std::size_t>(r.outside)]))
       return fault_at(std::abs(a - low) < least ? a : b, r.outside);
     if (!near.empty() && a - near.back().second <= 0.5 * least)
       near.back().second = b;

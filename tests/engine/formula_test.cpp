@@ -310,6 +310,12 @@ TEST(Formula, LeavingItsDomainIsToldBeforeAnyRun) {
   EXPECT_NE(fault_of("asin(x)", 0, 1.5).find("asin of"), std::string::npos);
   EXPECT_NE(fault_of("exp(x)", 0, 1000).find("exp of"), std::string::npos);
   EXPECT_NE(fault_of("1e20*x^10", 0, 1e3).find("beyond"), std::string::npos);
+  // What is compared with something is refused as it is alone.
+  EXPECT_NE(fault_of("min(log10(x*x), 0.5)", -2, 3).find("an infinite value"), std::string::npos);
+  EXPECT_NE(fault_of("abs(asin(sin(x)))/1 [rad]", 0, 3).find("an infinite slope"), std::string::npos);
+  EXPECT_NE(fault_of("max(sqrt(x^2), -1) - x", -2, 3).find("an infinite slope"), std::string::npos);
+  EXPECT_EQ(fault_of("if(sqrt(x^2) > 1, x, 1)", -2, 3), "");
+  EXPECT_EQ(fault_of("max(sqrt(x^2), 0.1) - x", -2, 3), "");  // nothing of it is left where its slope is infinite
   EXPECT_EQ(fault_of("x^1.5", 0, 2), "");
   EXPECT_EQ(fault_of("1/(x - 0.3)", 0.31, 1), "");
 }
