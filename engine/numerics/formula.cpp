@@ -17,6 +17,7 @@ constexpr double least_part = 1e-9;         // of the whole range: nearer places
 constexpr int most_intervals = 100'000;     // that are looked into …
 constexpr int most_work = 10'000'000;       // … and operations for that
 constexpr std::size_t most_knots = 10'000;  // of one formula
+constexpr double most_angle = 1e12;         // [rad]: of greater ones a double does not tell the place in the turn
 
 struct Interval {
   double low, high;
@@ -26,8 +27,7 @@ Interval hull(std::initializer_list<double> values) { return {std::min(values), 
 
 // sin over an interval: its ends, and the crests and troughs between them.
 Interval sine(const Interval& a) {
-  constexpr double countable = 1e15;  // of greater angles a double does not tell the place in its turn
-  if (!(a.high - a.low < 2 * pi) || std::max(-a.low, a.high) > countable) return {-1, 1};
+  if (!(a.high - a.low < 2 * pi)) return {-1, 1};
   Interval s = hull({std::sin(a.low), std::sin(a.high)});
   const auto holds = [&](double place) { return std::ceil((a.low - place) / (2 * pi)) * 2 * pi + place <= a.high; };
   if (holds(pi / 2)) s.high = 1;
@@ -83,8 +83,12 @@ bool allows(FormulaOp op, const Interval& a, double n) {
     case FormulaOp::power:
       if (n == std::round(n)) return n >= 0 || a.low > 0 || a.high < 0;
       return n > 1 ? a.low >= 0 : a.low > 0;
+    case FormulaOp::sin:
+    case FormulaOp::cos:
+      return a.low >= -most_angle && a.high <= most_angle;
     case FormulaOp::tan:
-      return std::floor(a.low / pi + 0.5) == std::floor(a.high / pi + 0.5);
+      return a.low >= -most_angle && a.high <= most_angle &&
+             std::floor(a.low / pi + 0.5) == std::floor(a.high / pi + 0.5);
     case FormulaOp::asin:
     case FormulaOp::acos:
       return a.low > -1 && a.high < 1;
@@ -123,6 +127,15 @@ std::string not_defined(FormulaOp op, double a, double n) {
       return a < 0 ? fmt::format("root of {:.4g}", a) : "";
     case FormulaOp::exp:
       return a > 700 ? fmt::format("exp of {:.4g}", a) : "";
+    case FormulaOp::sin:
+    case FormulaOp::cos:
+    case FormulaOp::tan:
+      return std::abs(a) > most_angle ? fmt::format("{} of {:.4g} rad, beyond ± {:g}",
+                                                    op == FormulaOp::sin   ? "sin"
+                                                    : op == FormulaOp::cos ? "cos"
+                                                                           : "tan",
+                                                    a, most_angle)
+                                      : "";
     default:
       return "";
   }
