@@ -69,5 +69,33 @@ TEST_F(CrashInputs, AStartToldAtWhatAScrewMovesIsRefused) {
                    "start: on = \"engine.slider\": \"engine\" has no slider; allowed: \"engine\", its shaft");
 }
 
+TEST_F(CrashInputs, TheBudgetReachesEveryLoop) {
+  for (const char* verb : {"modes", "reduce", "steady", "forces", "effects"}) {
+    const Answer a = answer(verb, "modes_and_reduce_do_not_end.toml", "--set 'run.budget=1 s'");
+    EXPECT_TRUE(a.code == 0 || a.code == 2 || a.code == 3) << verb << a.code;
+    EXPECT_LT(a.seconds, 10) << verb << a.err;
+    if (std::string(verb) == "modes" || std::string(verb) == "reduce") {
+      EXPECT_EQ(a.code, 3) << verb;
+      EXPECT_LT(a.seconds, 3) << verb;
+      EXPECT_NE(a.err.find("the budget of 1 s of processor time is spent"), std::string::npos) << a.err;
+    }
+  }
+}
+
+TEST_F(CrashInputs, AHeavySliderOnALightCrankRunsAsFarAsItsBudget) {
+  const Answer a = answer("run", "heavy_slider_without_place.toml");
+  EXPECT_TRUE(a.code == 0 || a.code == 3) << a.code << a.err;
+  EXPECT_EQ(a.err.find("otherwise than its equations"), std::string::npos) << a.err;
+  EXPECT_LT(a.seconds, 10);
+}
+
+// T = 151.492424049175 N·m at 45° and 1 rad/s: the motion that is given, whatever becomes of the other.
+TEST_F(CrashInputs, ForcesOfEqualLinksEnd) {
+  const Answer a = answer("forces", "equal_links.toml");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("it swings to and fro"), std::string::npos) << a.out;
+  EXPECT_LT(a.seconds, 30);
+}
+
 }  // namespace
 }  // namespace kurbel
