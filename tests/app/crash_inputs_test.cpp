@@ -60,7 +60,7 @@ class CrashInputs : public testing::Test {
 TEST_F(CrashInputs, AnEmptyListIsRefusedByEveryCommand) {
   for (const char* verb : {"check", "run", "steady", "modes", "forces", "reduce", "gears", "effects"})
     expect_refused(verb, "dc_motor_without_switch_times.toml",
-                   ":3:194: ", "motor \"motor\": switch_times = []; must hold one value at least");
+                   ":3:194: ", "dc shunt motor \"motor\": switch_times = []; must hold one value at least");
 }
 
 TEST_F(CrashInputs, AStartToldAtWhatAScrewMovesIsRefused) {
