@@ -91,8 +91,9 @@ TEST_F(CrashInputs, AHeavySliderOnALightCrankRunsAsFarAsItsBudget) {
 
 // T = 151.492424049175 N·m at 45° and 1 rad/s: the motion that is given, whatever becomes of the other.
 TEST_F(CrashInputs, ForcesOfEqualLinksEnd) {
-  const Answer a = answer("forces", "equal_links.toml");
+  const Answer a = answer("forces", "equal_links.toml", "--positions 8");
   EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("     45         1  151.492 "), std::string::npos) << a.out;
   EXPECT_NE(a.out.find("it swings to and fro"), std::string::npos) << a.out;
   EXPECT_LT(a.seconds, 30);
 }
