@@ -65,7 +65,8 @@ const Fields<EngineKeys>& engine_fields() {
                 .doc = "of one cylinder over the same angle, absolute (indicator diagram), in place of torque",
                 .choices = {"angle"}},
                &Keys::pressure)
-          .add({.name = "misfire", .doc = "numbers of the cylinders that do not fire"}, &Keys::misfire)
+          .add({.name = "misfire", .fallback = "[]", .doc = "numbers of the cylinders that do not fire"},
+               &Keys::misfire)
           .add({.name = "motored_torque",
                 .unit = "N*m",
                 .doc = "of a cylinder that does not fire; default: its compression, mirrored about top dead centre",
@@ -109,7 +110,6 @@ std::vector<double> firing_angles(const Reading<EngineKeys>& e) {
                     fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, "
                                 "2]",
                                 n));
-  if (n == 0) return refuse(&Keys::firing_order, "firing_order is empty; one cylinder is [1]");
   const std::vector<double> intervals =
       e.firing_intervals.value_or(std::vector<double>(n, cycle / static_cast<double>(n)));
   if (intervals.size() != n)

@@ -10,6 +10,7 @@
 
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/angles.h"
+#include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -188,6 +189,7 @@ double BaseMotion::angle_rate(std::size_t tracked) const {
 }
 
 std::span<const double> BaseMotion::at(const Position& position) {
+  Deadline::check();  // of a cycle of many turns there are hundreds of thousands
   y_ = begin_;
   const double way = position.angle - begin_angle_;
   for (std::size_t i = 0; i < m_.angles.size(); ++i) y_[i] += angle_rate(i) * way;

@@ -17,6 +17,7 @@ constexpr double least_part = 1e-9;         // of the whole range: nearer places
 constexpr int most_intervals = 100'000;     // that are looked into …
 constexpr int most_work = 10'000'000;       // … and operations for that
 constexpr std::size_t most_knots = 10'000;  // of one formula
+constexpr double most_angle = 1e12;         // [rad]: of greater ones a double does not tell the place in the turn
 
 struct Interval {
   double low, high;
@@ -82,8 +83,12 @@ bool allows(FormulaOp op, const Interval& a, double n) {
     case FormulaOp::power:
       if (n == std::round(n)) return n >= 0 || a.low > 0 || a.high < 0;
       return n > 1 ? a.low >= 0 : a.low > 0;
+    case FormulaOp::sin:
+    case FormulaOp::cos:
+      return a.low >= -most_angle && a.high <= most_angle;
     case FormulaOp::tan:
-      return std::floor(a.low / pi + 0.5) == std::floor(a.high / pi + 0.5);
+      return a.low >= -most_angle && a.high <= most_angle &&
+             std::floor(a.low / pi + 0.5) == std::floor(a.high / pi + 0.5);
     case FormulaOp::asin:
     case FormulaOp::acos:
       return a.low > -1 && a.high < 1;
@@ -122,6 +127,15 @@ std::string not_defined(FormulaOp op, double a, double n) {
       return a < 0 ? fmt::format("root of {:.4g}", a) : "";
     case FormulaOp::exp:
       return a > 700 ? fmt::format("exp of {:.4g}", a) : "";
+    case FormulaOp::sin:
+    case FormulaOp::cos:
+    case FormulaOp::tan:
+      return std::abs(a) > most_angle ? fmt::format("{} of {:.4g} rad, beyond ± {:g}",
+                                                    op == FormulaOp::sin   ? "sin"
+                                                    : op == FormulaOp::cos ? "cos"
+                                                                           : "tan",
+                                                    a, most_angle)
+                                      : "";
     default:
       return "";
   }
@@ -138,9 +152,26 @@ std::string edge_of(const Formula::Node& n) {
   return fmt::format("a value beyond ± {:g}", most);
 }
 
+// Whether a node is part of the whole where the nodes have these values, and not only asked by a branch.
+bool is_part(const Formula& whole, int node, const std::vector<double>& values) {
+  std::vector<char> part(whole.size(), 0);
+  part.back() = 1;
+  for (std::size_t k = whole.size(); k-- > 0;) {
+    if (!part[k]) continue;
+    const Formula::Node& n = whole[static_cast<int>(k)];
+    const bool chooses = n.op == FormulaOp::choose;
+    const bool yes = chooses && values[static_cast<std::size_t>(n.a)] >= 0;
+    for (const int operand : {chooses ? (yes ? n.b : n.c) : n.a, chooses ? -1 : n.b})
+      if (operand >= 0) part[static_cast<std::size_t>(operand)] = 1;
+  }
+  return part[static_cast<std::size_t>(node)];
+}
+
+// As its pieces' programs compute it: of an angle of many turns no other form of a function gives the same.
 double apply(FormulaOp op, double a, double n) {
-  const Interval i = image(op, {a, a}, n);
-  return i.low;
+  if (op == FormulaOp::sin) return std::sin(a);
+  if (op == FormulaOp::cos) return std::cos(a);
+  return image(op, {a, a}, n).low;
 }
 
 }  // namespace
@@ -348,9 +379,13 @@ std::optional<FormulaFault> Formula::look_into(double low, double high, double l
       open.push_back({a, middle});
       continue;
     }
-    for (const double x : {a, middle, b})
-      if (const Points p = at(x); p.fault.back() >= 0) return fault_at(x, p.fault.back());
-    if (r.outside >= 0 && !r.split && !may_touch(nodes_[static_cast<std::size_t>(r.outside)]))
+    bool computed = r.outside >= 0;  // what is outside, on whichever branch
+    for (const double x : {a, middle, b}) {
+      const Points p = at(x);
+      if (p.fault.back() >= 0) return fault_at(x, p.fault.back());
+      computed = computed && (!r.split || is_part(*this, r.outside, p.value));
+    }
+    if (computed && !may_touch(nodes_[static_cast<std::size_t>(r.outside)]))
       return fault_at(std::abs(a - low) < least ? a : b, r.outside);
     if (!near.empty() && a - near.back().second <= 0.5 * least)
       near.back().second = b;
@@ -385,6 +420,7 @@ std::optional<FormulaFault> Formula::knots(double from, double to, std::vector<d
 void Formula::emit(int node, const Points& here, FormulaProgram& to) const {
   const Node& n = nodes_[static_cast<std::size_t>(node)];
   if (n.op == FormulaOp::choose) return emit(here.value[static_cast<std::size_t>(n.a)] >= 0 ? n.b : n.c, here, to);
+  if (n.op == FormulaOp::power && n.number == 0) return to.push({FormulaOp::number, 1});  // also of 0: n vⁿ⁻¹ is 0·∞
   if (n.a >= 0) emit(n.a, here, to);
   if (n.b >= 0) emit(n.b, here, to);
   to.push({n.op, n.number});

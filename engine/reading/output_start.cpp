@@ -40,7 +40,8 @@ class Output {
       if (channel.name.what == QuantityKind::velocity) velocity_ = &channel;
     }
   }
-  bool found() const { return position_ && velocity_; }
+  // What a shaft moves along, as a screw does, is no output: its place hangs on turns and travel as well.
+  bool found() const { return position_ && velocity_ && cycle_ != 0; }
   bool turns() const { return std::isfinite(cycle_); }
   double cycle() const { return cycle_; }
   bool rocks() const { return position_->unit == "rad"; }

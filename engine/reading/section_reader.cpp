@@ -16,12 +16,16 @@ using Type = DocumentValue::Type;
 
 constexpr std::size_t most_items = 100'000;
 
+std::string first_example_of(const std::string& unit) {
+  const std::string examples = examples_of(unit);
+  return examples.substr(0, examples.find(", "));
+}
+
 // How a missing value would be written.
 std::string example_of(const Key& key) {
-  const std::string examples = examples_of(key.unit);
   switch (key.type) {
     case KeyType::quantity:
-      return examples.substr(0, examples.find(", "));
+      return first_example_of(key.unit);
     case KeyType::integers:
       return "[19, 95]";
     case KeyType::curve:
@@ -48,6 +52,12 @@ bool read_list(const DocumentValue& value, const Key& key, const std::string& wh
   }
   if (value.items.size() > most_items) {
     messages.add(value.at, fmt::format("{} has {} values; must be at most {}", what, value.items.size(), most_items));
+    return false;
+  }
+  if (value.items.empty() && key.fallback != "[]") {  // nobody behind the reader asks whether there is a first one
+    messages.add(value.at, fmt::format("{} = []; must hold one value at least, e.g. [{}]{}", what,
+                                       key.type == KeyType::integers ? "1" : first_example_of(key.unit),
+                                       key.required ? "" : ", or leave the key out"));
     return false;
   }
   for (const DocumentValue& item : value.items) {

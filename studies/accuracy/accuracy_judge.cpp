@@ -28,6 +28,7 @@ class Judge {
       for (const std::size_t i : front(own, [](const MeasuredSetting& s) { return s.trajectory_error; }))
         study_.settings[i].on_level_front = true;
     }
+    if (study_.figures.empty()) return;  // where nothing moves there is no total error
     std::vector<std::size_t> all(study_.settings.size());
     std::iota(all.begin(), all.end(), 0u);
     for (const std::size_t i : front(all, [&](const MeasuredSetting& s) { return total(s); }))

@@ -395,9 +395,9 @@ class Study {
     Watch watch = options_.watch;
     watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
     const std::string& link = model_->network.nodes[at(model_->reduction_node)].component;
-    found_.history = simulate_torque(
-        scene_, effects_,
-        {.torque = options_.torque, .link = link, .highest = found_.modes.back().natural(), .watch = watch});
+    const double highest = found_.modes.empty() ? 0 : found_.modes.back().natural();
+    found_.history =
+        simulate_torque(scene_, effects_, {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false, found_.diagnosis = found_.history->diagnosis;
   }

@@ -430,6 +430,7 @@ Spectrum spectrum(const std::string& name, const std::string& unit, const Piecew
   s.mean_square = mean_of([](double y, double) { return y * y; });
   double sum = 0;
   for (int n = 0; n <= orders; ++n) {
+    Deadline::check();
     const double order = n * base, factor = n == 0 ? 1 : 2;
     const double a = factor * mean_of([&](double y, double x) { return y * std::cos(order * x); });
     const double b = factor * mean_of([&](double y, double x) { return y * std::sin(order * x); });

@@ -377,6 +377,7 @@ std::vector<double> inertia_variation(const LinearDrive& drive, const Eigen::Vec
     const double weight = std::pow(m.gain_of_node[at(e.node)] * amplitude[at(m.shaft_of_node[at(e.node)])], 2);
     const double ratio = m.node_ratio[at(e.node)];
     if (weight == 0) continue;
+    Deadline::check();
     for (std::size_t k = 0; k < samples; ++k) {
       const double phi = cycle.angle * static_cast<double>(k) / static_cast<double>(samples);
       modal[k] += weight * e.element->inertia_at(ratio * phi + e.phase).value;

@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "engine/matrices/linear_algebra.h"
+#include "engine/numerics/deadline.h"
 
 namespace kurbel {
 namespace {
@@ -178,6 +179,7 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
     const double before = sum[(k + n - 1) % n].real(), here = sum[k].real(), after = sum[(k + 1) % n].real();
     const double value = scale * here, margin = 0.25 * std::abs(value);
     const bool top = here >= before && here >= after, bottom = here <= before && here <= after;
+    if (top || bottom) Deadline::check();
     if (top && value + margin >= found.greatest)
       found.greatest = std::max({found.greatest, value, polished(x, step * static_cast<double>(k), step)});
     if (bottom && value - margin <= found.least)
@@ -243,6 +245,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   std::vector<Complex> speeds(excitations.harmonics + 1);
   for (std::size_t r = 1; r <= excitations.harmonics && !by_order.empty() && speed > 0; ++r) {
     if (!excitations.is_looked_at(r)) continue;
+    Deadline::check();
     Forcing forcing = Forcing::none(drive);
     for (const OrderSource& source : by_order) forcing.add(source.kind, source.index, source.at(r, drive.at.speed));
     const double omega = excitations.order(r) * speed;

@@ -152,6 +152,8 @@ Json value_schema(const Key& key) {
       schema = nested(key);
       break;
   }
+  if ((key.type == KeyType::quantities || key.type == KeyType::integers) && key.fallback != "[]")
+    schema["minItems"] = 1;
   schema["description"] = description(key);
   if (!key.fallback.empty()) schema["default"] = Json::parse(key.fallback);
   return schema;

@@ -246,6 +246,41 @@ TEST(Formula, KinksAndJumpsAreFoundToTheLastDigit) {
   EXPECT_FALSE(rectified.jumps());
 }
 
+// A branch that is constant has the slope 0, whatever is made of it: never NaN, where 0 vⁿ⁻¹ of a base 0 is 0·∞.
+TEST(Formula, WhatIsConstantOnItsPieceHasNoSlope) {
+  for (const std::string zero : {"min(0, x)", "max(0, -x)", "clamp(x, -2, 0)", "if(x >= -1, 0, 3 + x)", "0*x"})
+    for (const char* of : {"({})^0",           "({})^log10(1)", "(2*{})^0",
+                           "({})^1",           "({})^2",        "({})^3",
+                           "({})^1.5",         "({})^2.5",      "abs({})",
+                           "sign({})",         "step({})",      "sin({})",
+                           "cos({})",          "tan({})",       "asin({})",
+                           "acos({})",         "atan({})",      "tanh({})",
+                           "exp({})",          "log(1 + {})",   "log10(({})^0)",
+                           "sqrt(1 + {})",     "(1 + {})^-2",   "1/(1 + {})",
+                           "hypot({}, 1)",     "max({}, 1)",    "atan2({}, 1)/1 [rad]",
+                           "(({0})^0)^({0})^0"}) {
+      const std::string text = fmt::format(fmt::runtime(of), zero);
+      const Dual<1> got = curve_of(text, 0.1, 1).value(Dual<1>::input(0.3, 0));
+      EXPECT_TRUE(std::isfinite(got.value)) << text;
+      EXPECT_EQ(got.d[0], 0) << text;
+    }
+  for (const double x : {-0.5, 0.0, 0.7}) EXPECT_EQ(curve_of("x^0", -1, 1).value(Dual<1>::input(x, 0)).d[0], 0) << x;
+}
+
+// By its nodes, which look for kinks and tell values where it is read, and by its pieces, which run.
+TEST(Formula, NodesAndPiecesComputeTheSameOfAnglesOfManyTurns) {
+  for (const char* text : {"cos(x + 1e11)", "sin(x - 7^exp(2.6))", "cos(x + 1e9)", "sin(1e9*x)", "tan(x + 1e9)"}) {
+    UnitError error;
+    const auto read = read_formula(text, names_of_x(), error);
+    ASSERT_TRUE(read) << text;
+    for (double x = 0.01; x < 1; x += 0.0917) {
+      double by_nodes = 0;
+      ASSERT_FALSE(read->formula.value(x, by_nodes)) << text;
+      EXPECT_EQ(read->formula.program(x)(x), by_nodes) << text << " at " << x;
+    }
+  }
+}
+
 TEST(Formula, WhatOnlyTouchesZeroHasNoKink) {
   EXPECT_EQ(curve_of("abs(x^2)", -1, 1).x().size(), 2u);
   EXPECT_EQ(curve_of("abs((x - 0.3)^2)", -1, 1).x().size(), 2u);
@@ -272,9 +307,16 @@ TEST(Formula, LeavingItsDomainIsToldBeforeAnyRun) {
   EXPECT_NE(fault_of("x^0.5", 0, 2).find("infinite slope"), std::string::npos);
   EXPECT_NE(fault_of("(x^3 + 2)^1.5", -2, 2).find("to the power of 1.5"), std::string::npos);
   EXPECT_NE(fault_of("tan(x)", 0, 2).find("pole of tan"), std::string::npos);
+  EXPECT_NE(fault_of("cos(x + 1e3^7)", 0, 2).find("cos of 1e+21 rad, beyond ± 1e+12"), std::string::npos);
   EXPECT_NE(fault_of("asin(x)", 0, 1.5).find("asin of"), std::string::npos);
   EXPECT_NE(fault_of("exp(x)", 0, 1000).find("exp of"), std::string::npos);
   EXPECT_NE(fault_of("1e20*x^10", 0, 1e3).find("beyond"), std::string::npos);
+  // What is compared with something is refused as it is alone.
+  EXPECT_NE(fault_of("min(log10(x*x), 0.5)", -2, 3).find("an infinite value"), std::string::npos);
+  EXPECT_NE(fault_of("abs(asin(sin(x)))/1 [rad]", 0, 3).find("an infinite slope"), std::string::npos);
+  EXPECT_NE(fault_of("max(sqrt(x^2), -1) - x", -2, 3).find("an infinite slope"), std::string::npos);
+  EXPECT_EQ(fault_of("if(sqrt(x^2) > 1, x, 1)", -2, 3), "");
+  EXPECT_EQ(fault_of("max(sqrt(x^2), 0.1) - x", -2, 3), "");  // nothing of it is left where its slope is infinite
   EXPECT_EQ(fault_of("x^1.5", 0, 2), "");
   EXPECT_EQ(fault_of("1/(x - 0.3)", 0.31, 1), "");
 }

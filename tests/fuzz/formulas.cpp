@@ -66,9 +66,12 @@ std::string fault_of_slope(const FormulaProgram& program, double x, double room)
   const double wide = slope(width * room), narrow = slope(0.37 * width * room);
   const double dual = program(Dual<1>::input(x, 0)).d[0];
   const double size = std::max(std::abs(wide), std::abs(narrow));
-  const double noise = 1e-10 * std::abs(program(x)) / (width * room);  // of the values, in the differences
+  // Of the values, in the differences: their last digits, and those of a one from which they may be what is left; where
+  // they do not change at all, the root of those.
+  const double noise = (1e-10 * std::abs(program(x)) + (size == 0 ? 1e-8 : 1e-15)) / (width * room);
+  const double digit = std::abs(program(Dual<1>::input(x * (1 + 1e-14), 0)).d[0] - dual);  // of x, in the slope
   if (!std::isfinite(size) || std::abs(wide - narrow) > alike * size) return {};
-  if (std::abs(dual - narrow) <= same * size + noise + least) return {};
+  if (std::abs(dual - narrow) <= same * size + noise + digit + least) return {};
   return fmt::format("slope {:.17g} at x = {:.17g}, by differences {:.17g}", dual, x, narrow);
 }
 

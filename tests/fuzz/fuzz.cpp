@@ -1,6 +1,7 @@
 // fuzz.cpp — throws inputs at one target by the number: every one has a seed, so every one can be had again.
 //
-//     kurbel_fuzz reader --from 1 --count 1000000 --seconds 600 --out build/fuzz/reader
+//     kurbel_fuzz reader --count 1000000 --seconds 600 --out build/fuzz/reader    from a number of the clock's on, told
+//     kurbel_fuzz reader --from 1 --count 1000
 //     kurbel_fuzz run FILE…           judges these files
 //
 // Inputs are judged in a process of their own, so that a crash ends that one alone; what crashes, hangs or is answered
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   const Target* target = nullptr;
-  std::uint64_t from = 1, count = 1000;
+  std::uint64_t from = number_of_now(), count = 1000;
   double seconds = 1e9;
   std::string out = "fuzz";
   std::vector<std::string> files;
@@ -152,6 +153,8 @@ int campaign(const Arguments& a) {
       static_cast<Shared*>(mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   Findings findings(a);
   const double begin = seconds_of(CLOCK_MONOTONIC);
+  fmt::print("{}: inputs from {} on\n", a.target->name, a.from);
+  std::fflush(stdout);
   const std::uint64_t end = a.from + a.count, at_once = 2000;
   std::uint64_t number = a.from;
   for (double told = begin; number < end && seconds_of(CLOCK_MONOTONIC) - begin < a.seconds;) {

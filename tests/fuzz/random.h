@@ -1,12 +1,19 @@
 // random.h — numbers that are the same from the same seed with every library and compiler.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace kurbel::fuzz {
+
+// Where inputs begin that nobody has seen: a million numbers for each second of the clock.
+inline std::uint64_t number_of_now() {
+  using namespace std::chrono;
+  return 1'000'000 * static_cast<std::uint64_t>(duration_cast<seconds>(system_clock::now().time_since_epoch()).count());
+}
 
 // SplitMix64 (Steele, Lea, Flood 2014): any seed will do, neighbouring ones as well.
 class Random {

@@ -40,6 +40,10 @@ const std::vector<Seed>& all_scenes() {
   static const std::vector<Seed> seeds = from({"scenes", "tests/bad_scenes"}, ".toml");
   return seeds;
 }
+const std::vector<Seed>& crashes() {
+  static const std::vector<Seed> seeds = from({"tests/cases/crashes"}, ".toml");
+  return seeds;
+}
 const std::vector<Seed>& tables() {
   static const std::vector<Seed> seeds = from({"scenes/data", "tests/bad_scenes"}, ".csv");
   return seeds;

@@ -12,6 +12,7 @@ struct Seed {
 
 const std::vector<Seed>& good_scenes();  // of scenes/ and tests/hard-like chains
 const std::vector<Seed>& all_scenes();   // and tests/bad_scenes/
+const std::vector<Seed>& crashes();      // of tests/cases/crashes: what was found
 const std::vector<Seed>& tables();       // CSV
 
 // Where data files of a scene are looked for: beside those of scenes/.

@@ -219,13 +219,14 @@ std::string judge_run(const std::string& text) {
   });
 }
 
+namespace {
 // Refusals of a study are about its question, not about a line of the scene: std::invalid_argument in words.
-std::string judge_study(const std::string& text) {
+std::string judge_verb(const std::string& text, Verb verb) {
   return judged(text, [&]() -> std::string {
     const Scene scene = short_scene(text);
     const Deadline deadline(20 * run_budget);
     try {
-      return verbs[number_of(text) % std::size(verbs)](scene);
+      return verb(scene);
     } catch (const SceneError&) {
       throw;
     } catch (const std::invalid_argument& refused) {
@@ -234,6 +235,15 @@ std::string judge_study(const std::string& text) {
       return std::string(failed.what()).empty() ? "a failure without words" : "";
     }
   });
+}
+}  // namespace
+
+std::string judge_study(const std::string& text) { return judge_verb(text, verbs[number_of(text) % std::size(verbs)]); }
+
+std::string judge_every_study(const std::string& text) {
+  for (const Verb verb : verbs)
+    if (std::string fault = judge_verb(text, verb); !fault.empty()) return fault;
+  return {};
 }
 
 std::string judge_csv(const std::string& text) {

@@ -25,6 +25,7 @@ std::string judge_reader(const std::string& text);
 std::string judge_compile(const std::string& text);  // with rough tables of the mechanisms
 std::string judge_run(const std::string& text);      // with a budget
 std::string judge_study(const std::string& text);    // one of the other verbs, chosen by the text
+std::string judge_every_study(const std::string& text);
 std::string judge_csv(const std::string& text);
 
 const std::vector<Target>& targets();
