@@ -40,6 +40,7 @@ struct Sums {
   double* element_inertia = nullptr;    // per shaft element: its variable inertia
   double* work_rate = nullptr;          // per work account, or null where nobody asks
   double* own_rate = nullptr;           // per own state: its derivative
+  double* turning_torque = nullptr;     // per elastic connection: further torque on a, of those that use the angle
 };
 
 // Registers the places of a sparse Jacobian; a column or row of −1 is a motion that is no state.

@@ -141,7 +141,8 @@ class CycleRecorder final : public Observer {
   double energy_at_begin_ = 0;
 };
 
-// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r.
+// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r. And that the torque of
+// every joint is the same by both of its sides (theory 5.18).
 class EnergyAudit final : public Observer {
  public:
   EnergyAudit(double until, int checks) : until_(until), checks_(checks) {}
@@ -149,7 +150,7 @@ class EnergyAudit final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override {
     tape(kinetic_start, kinetic_end, stored_start, stored_end, largest_residual, reduction_residual, turnover,
-         largest_kinetic, checked, work, start_);
+         largest_kinetic, checked, work, start_, open_body.part, open_body.shaft);
   }
 
   double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0;
@@ -158,7 +159,8 @@ class EnergyAudit final : public Observer {
   double turnover = 0;            // Σ |work| between checks [J]
   double largest_kinetic = 0;
   int checked = 0;
-  std::vector<double> work;  // per account at the last check [J]
+  std::vector<double> work;           // per account at the last check [J]
+  JointTorques::Open open_body = {};  // where free bodies differ most
   // Residual over max(turnover, largest T); 0 for a machine that never had energy.
   double relative() const;
 

@@ -361,6 +361,7 @@ EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit) {
   e.residual = audit.largest_residual;
   e.relative = audit.relative();
   e.reduction_residual = audit.reduction_residual;
+  e.free_bodies = audit.open_body.part;
   e.checks = audit.checked;
   return e;
 }

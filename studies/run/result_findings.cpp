@@ -170,6 +170,7 @@ Record energy_record(const EnergyBalance& e) {
           {"residual", e.residual},
           {"relative", e.relative},
           {"bodies_against_reduced", e.reduction_residual},
+          {"free_bodies", e.free_bodies},
           {"check_points", e.checks},
           {"unit", "J"}};
 }
