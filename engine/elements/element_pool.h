@@ -62,6 +62,7 @@ struct Snapshot {
   Sums sums;
   const double* alpha;            // per shaft [rad/s²]
   const double* joint_torque;     // per joint of the network: torque that it transmits [N·m]
+  const double* reaction;         // per node whose motion is prescribed: torque that this takes [N·m]
   const double* relation_torque;  // per relation: torque λ that it takes from its first node [N·m]
   const double* relation_loss;    // per relation: what of it is lost [N·m]
   const double* node_angle;       // per node, turns counted [rad]

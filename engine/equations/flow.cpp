@@ -259,7 +259,7 @@ void Flow::write_quadratures(double* rate) {
   }
   double* of_motor = rate + m.accounts.size() + 2 * m.torque_joints.size();
   for (const MotorTorque& motor : m.motors) {
-    double torque = 0;
+    double torque = motor.prescribed ? joint_torques_.balance()[at(motor.node)] : 0;
     for (const std::size_t e : motor.elements) torque += element_torque_[e];
     *of_motor++ = torque;
     *of_motor++ = torque * torque;
@@ -373,6 +373,7 @@ const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
     node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
   snapshot_.alpha = alpha_.data();
   snapshot_.joint_torque = joint_torques_.torque().data();
+  snapshot_.reaction = joint_torques_.balance().data();
   snapshot_.relation_torque = ties_.relation_torque().data();
   snapshot_.relation_loss = ties_.relation_loss().data();
   snapshot_.node_angle = node_angle_.data();

@@ -200,7 +200,7 @@ class Figures {
     add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
-    double driving = 0, useful = 0;
+    double driving = 0, useful = 0, weight = 0;
     for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
       double sum = 0;
       for (std::size_t k = 0; k < last->work.size(); ++k)
@@ -210,6 +210,8 @@ class Figures {
       if (kind == Account::useful) useful = sum;
     }
     for (std::size_t k = 0; k < last->work.size(); ++k)
+      if (model_.accounts[k].kind == Account::weight) weight += last->work[k];
+    for (std::size_t k = 0; k < last->work.size(); ++k)
       if (const std::string mechanism = mechanism_loaded_by(model_.accounts[k]); !mechanism.empty())
         add_loop(mechanism, last->work[k], *last);
     for (const Intake& intake : intakes_of(model_)) {
@@ -217,8 +219,9 @@ class Figures {
       run_.figures.back().exact = true;
     }
     if (repeats) collect_flywheels(*last);
-    if (repeats && driving > 0 && useful < 0)
-      add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1, last->end);
+    if (!repeats || !(driving > 0)) return;
+    if (const auto efficiency = efficiency_of(driving, useful, weight, last->energy_after - last->energy_before))
+      add(Name{QuantityKind::other, "", "machine_efficiency"}, *efficiency, "", 1, last->end);
   }
   void add_loop(const std::string& mechanism, double work, const CycleRecord& c) {
     const double time = c.end - c.begin;
@@ -282,6 +285,7 @@ class Figures {
     std::vector<double> work;  // up to the end, of an incomplete run too
     for (std::size_t k = 0; k < model_.accounts.size(); ++k)
       work.push_back(run_.outcome.state[equations_.work_index(k)]);
+    const std::vector<Figure> known = run_.figures;
     for (Figure& f : motor_figures({.equations = equations_,
                      .y = run_.outcome.state,
                      .work = work,
@@ -292,6 +296,7 @@ class Figures {
                      .currents = run_.currents.get(),
                      .end = run_.outcome.t,
                      .steady = run_.periods.steady && !run_.periods.run_down_begin,
+                     .known = &known,
                      .after_run_up = after_run_up()}))
       run_.figures.push_back(std::move(f));
   }

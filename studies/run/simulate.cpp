@@ -17,6 +17,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/motion_answers.h"
 #include "studies/duty/holding.h"
+#include "studies/duty/motor_figures.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
@@ -248,6 +249,7 @@ class Simulation {
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
+    for (ExtremeOf& of_motor : motor_extremes_of(model)) extremes.push_back(std::move(of_motor));
     for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
     for (ExtremeOf& held : held_torques_of(model)) extremes.push_back(std::move(held));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
