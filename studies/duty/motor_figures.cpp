@@ -207,9 +207,10 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
 
 std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
-  const auto want = [&](const char* words, const MotorTorque& motor, const char* unit, double scale, auto value) {
-    wanted.push_back(
-        {.name = Name::own(words, motor.component), .unit = unit, .scale = scale, .value = value, .rate = {}});
+  const auto want = [&](const std::string& words, const MotorTorque& motor, const char* unit, double scale,
+                        auto value) {
+    const Name name{QuantityKind::peak_other, motor.component, words + "." + motor.component};  // by magnitude
+    wanted.push_back({.name = name, .unit = unit, .scale = scale, .value = value, .rate = {}});
   };
   for (const MotorTorque& motor : m.motors) {
     want("motor_peak_torque", motor, "N*m", motor.rated_torque, [motor](const Snapshot& s) { return motor.torque(s); });
