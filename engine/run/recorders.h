@@ -1,6 +1,7 @@
 // recorders.h — observers of a run: the trajectory, extremes of chosen quantities, cycles, and the energy balance.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -163,6 +164,14 @@ class EnergyAudit final : public Observer {
   JointTorques::Open open_body = {};  // where free bodies differ most
   // Residual over max(turnover, largest T); 0 for a machine that never had energy.
   double relative() const;
+  // What speaks against an accuracy: the residual, and what free bodies leave open where it is more than round-off.
+  double largest(double accuracy) const {
+    return open_body.part > accuracy ? std::max(relative(), open_body.part) : relative();
+  }
+  bool closes(double accuracy) const { return largest(accuracy) <= accuracy; }
+  const char* where(double largest) const {
+    return relative() < largest ? " in the torques of joints by both sides" : " in the energy balance";
+  }
 
  private:
   void check(double t, std::span<const double> y, Equations& equations);
