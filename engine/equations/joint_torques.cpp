@@ -132,11 +132,11 @@ JointTorques::Open JointTorques::open(const Given& given) const {
     for (int k = 0; k < relation.members(); ++k)
       meet(relation.node[at(k)], relation.gain[at(k)] * given.relation_torque[r]);
   }
-  constexpr double nothing = 1e-9;  // of the torque scale: what is this small is rounding
+  constexpr double small = 1e-3;  // of the torque scale: beside less, rounding would count
   Open worst;
   for (std::size_t s = 0; s < m.free_shafts; ++s) {
     const double left = std::abs(balance_[at(m.shafts[s].reference)]);
-    const double part = left / std::max(meeting[s], nothing * m.shafts[s].torque_scale);
+    const double part = left / std::max(meeting[s], small * m.shafts[s].torque_scale);
     if (part > worst.part) worst = {part, static_cast<int>(s)};
   }
   return worst;

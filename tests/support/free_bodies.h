@@ -57,7 +57,7 @@ inline OpenNode most_open_node(Equations& equations, double t, std::span<const d
     const int p = m.shafts[at(m.shaft_of_node[n])].prescribed;
     if (p >= 0 && net.prescribed[at(p)].is_nothing()) continue;
     if (net.nodes[n].prescribed >= 0) act(static_cast<int>(n), s.reaction[n]);
-    const double part = std::abs(left[n]) / std::max(size[n], 1e-9 * m.torque_scale);
+    const double part = std::abs(left[n]) / std::max(size[n], 1e-3 * m.torque_scale / m.scale_ratio[n]);
     if (!(part <= worst.part))
       worst = {part, fmt::format("at {:.9g} s {} N·m are left of {} N·m at \"{}\"", t, left[n], size[n],
                                  m.node_label(static_cast<int>(n)))};
