@@ -222,8 +222,11 @@ void Start::members_follow(std::span<double> y, std::vector<char> given, double 
 double Start::turn_of(int joint, std::span<const double> y) const {
   const Network::Joint& of = model_.network.joints[index(joint)];
   if (!of.element->is.uses_angle) return 0;
-  const auto tracked = std::find_if(model_.angles.begin(), model_.angles.end(),
-                                    [&](const TrackedAngle& angle) { return angle.node == of.a; });
+  const int shaft = model_.shaft_of_node[index(of.a)];
+  const double gain = model_.gain_of_node[index(of.a)];
+  const auto tracked = std::find_if(model_.angles.begin(), model_.angles.end(), [&](const TrackedAngle& angle) {
+    return angle.shaft == shaft && angle.gain == gain;
+  });
   return y[static_cast<std::size_t>(tracked - model_.angles.begin())];
 }
 
