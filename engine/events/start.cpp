@@ -257,11 +257,11 @@ void Start::balance_twists(std::span<double> y, double t) {
   const Together at_first = moving_together(y);
   constexpr int most_passes = 50;
   constexpr double found = 1e-15, near_enough = 1e-10;  // [rad]
-  double largest = 0, before = HUGE_VAL;
+  double largest = 0, before = HUGE_VAL, stored = 0;
   for (int pass = 0; pass < most_passes; ++pass, before = largest) {
     std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(first), joints, 0.0);
     flow_.evaluate(t, y);
-    const std::vector<double> torque = balanced_joints(m, needs_when_balanced(y, t), locked_in, share);
+    const std::vector<double> torque = balanced_joints(m, needs_when_balanced(y, t, stored), locked_in, share);
     std::vector<double> turned(joints), angles(m.shafts.size(), 0.0);
     largest = 0;
     for (std::size_t i = 0; i < joints; ++i) {
@@ -280,9 +280,14 @@ void Start::balance_twists(std::span<double> y, double t) {
     std::copy(twist.begin(), twist.end(), y.begin() + static_cast<std::ptrdiff_t>(first));
     turn_together(unloaded, at_first, y);
     if (!by_angle || largest <= found || (largest <= near_enough && largest >= 0.5 * before)) break;
-    for (std::size_t i = 0; i < joints; ++i)
-      share[index(m.elastic[i].joint)] =
-          element(i).share_of_a(torque[index(m.elastic[i].joint)], turn_of(m.elastic[i].joint, y));
+    stored = 0;
+    const Together now = moving_together(y);
+    for (std::size_t i = 0; i < joints; ++i) {
+      const std::size_t j = index(m.elastic[i].joint);
+      const double turn = turn_of(m.elastic[i].joint, y);
+      share[j] = element(i).share_of_a(torque[j], turn);
+      stored += now.ratio[index(m.network.joints[j].a)] * torque[j] * (share[j] - element(i).rest_ratio(turn));
+    }
   }
   if (by_angle && !(largest <= near_enough))
     throw std::runtime_error("no twists were found that carry the loads in this position; start without equilibrium");
@@ -325,14 +330,15 @@ void Start::turn_together(std::span<const double> before, const Together& then, 
 }
 
 // What every node needs from its joints [N·m] when all shafts accelerate together, at the state evaluated last, whose
-// twists must be none: only the elements' torques are there.
-std::vector<double> Start::needs_when_balanced(std::span<const double> y, double t) {
+// twists must be none: only the elements' torques are there. `stored`: what springs that vary take with the angle, as a
+// torque on the reduction link.
+std::vector<double> Start::needs_when_balanced(std::span<const double> y, double t, double stored) {
   const Model& m = model_;
   const Network& net = m.network;
   const std::vector<double>&element_torque = flow_.element_torque(), &element_inertia = flow_.element_inertia();
   const Together together = moving_together(y);
   const std::vector<double>& ratio = together.ratio;
-  double torque = 0, inertia = 0;
+  double torque = -stored, inertia = 0;
   std::optional<double> given;  // acceleration of the reduction link, where a motion is prescribed
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
     inertia += net.nodes[n].inertia * ratio[n] * ratio[n];

@@ -33,7 +33,7 @@ class Start {
   void refuse_impossible_slip(double t, std::span<const double> y);
   void members_follow(std::span<double> y, std::vector<char> given, double t);
   void balance_twists(std::span<double> y, double t);
-  std::vector<double> needs_when_balanced(std::span<const double> y, double t);
+  std::vector<double> needs_when_balanced(std::span<const double> y, double t, double stored);
   struct Together {             // per node
     std::vector<double> ratio;  // of its speed to the reduction link's
     std::vector<double> kept;   // acceleration while the reduction link keeps its speed [rad/s²]
