@@ -83,6 +83,7 @@ struct UniversalJoint {
   double stiffness_at_rest() const { return stiffness; }
   double rest_twist(double turn) const { return joint.advance(phase) - joint.advance(turn + phase); }
   double rest_ratio(double turn) const { return joint.ratio(turn + phase); }
+  double rest_ratio_slope(double turn) const { return joint.ratio_slope(turn + phase); }
   std::string describe() const;
 
  private:

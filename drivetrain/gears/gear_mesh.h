@@ -76,6 +76,8 @@ struct VaryingMesh : Contact {
   double spring_torque(const Twist<double>& x) const {
     return variation.factor(x.turn) * Contact::spring_torque(x.angle);
   }
+  using Contact::twist_at;  // of the mean mesh
+  double twist_at(double torque, double turn) const { return Contact::twist_at(torque / variation.factor(turn)); }
   double energy(const Twist<double>& x) const { return variation.factor(x.turn) * Contact::energy(x.angle); }
   std::string describe() const;
 };

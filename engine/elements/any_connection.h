@@ -28,10 +28,12 @@ class AnyConnection {
   std::vector<OwnState> own_states = {};
 
   // --- laws ---
-  virtual double twist_at(double torque) const = 0;                                      // 0 without a spring
+  virtual double twist_at(double torque, double turn = 0) const = 0;                     // 0 without a spring
   virtual double torque_rate(double twist, double rate, double acceleration) const = 0;  // dτ/dt from θ̇ and θ̈
   virtual double rest_twist(double turn) const = 0;                                      // unloaded at φ_a,
   virtual double rest_ratio(double turn) const = 0;                                      // and i ω_b/ω_a
+  virtual double rest_ratio_slope(double turn) const = 0;                                // by φ_a
+  virtual double share_of_a(double torque, double turn) const = 0;                       // on a over τ, at rest
   virtual std::string describe() const = 0;                                              // empty: nothing to say
   virtual ConnectionForm settled(double inertia) const = 0;                              // J_red [kg·m²]
   virtual ConnectionForm form_under(const Effects&) const = 0;                           // null: this one
@@ -62,8 +64,10 @@ class ConnectionOf final : public AnyConnection {
     take(std::move(settled));
   }
 
-  double twist_at([[maybe_unused]] double torque) const override {
-    if constexpr (E::is.has_spring())
+  double twist_at([[maybe_unused]] double torque, [[maybe_unused]] double turn) const override {
+    if constexpr (requires { element_.twist_at(torque, turn); })
+      return element_.twist_at(torque, turn);
+    else if constexpr (E::is.has_spring())
       return element_.twist_at(torque);
     else
       return 0;
@@ -90,6 +94,21 @@ class ConnectionOf final : public AnyConnection {
       return element_.rest_ratio(turn);
     else
       return 1;
+  }
+  double rest_ratio_slope([[maybe_unused]] double turn) const override {
+    if constexpr (E::is.turns_unevenly)
+      return element_.rest_ratio_slope(turn);
+    else
+      return 0;
+  }
+  double share_of_a([[maybe_unused]] double torque, [[maybe_unused]] double turn) const override {
+    if constexpr (E::is.uses_angle) {
+      if (torque == 0) return rest_ratio(turn);
+      Twist<double> x{.angle = rest_twist(turn) + twist_at(torque, turn), .turn = turn};
+      if constexpr (Guarded<E>) x.mode = element_.first_mode(x);
+      return 1 - element_.turning_torque(x) / torque;
+    }
+    return 1;
   }
   std::string describe() const override {
     if constexpr (E::is.described)

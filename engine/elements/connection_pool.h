@@ -257,7 +257,7 @@ class ConnectionPool final : public ElementPool {
       sums.twist_rate[p.at.id] = x.rate;
       sums.connection_torque[p.at.id] = tau;
       double on_a = -tau;
-      if constexpr (UsesAngle<E>) on_a += p.element.turning_torque(x);
+      if constexpr (UsesAngle<E>) on_a += sums.turning_torque[p.at.id] = p.element.turning_torque(x);
       sums.torque[p.at.shaft_a] += p.at.gain_a * on_a;
       sums.torque[p.at.shaft_b] += p.at.gain_b * tau;
       if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.more.own);

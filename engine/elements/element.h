@@ -8,7 +8,8 @@
 // (theory 1.2): positive τ drives b and brakes a.
 //   template <class T> T torque(const Twist<T>&) const;      transmitted torque τ [N·m], spring and damper
 //   double spring_torque(double twist) const;                elastic part [N·m]
-//   double twist_at(double torque) const;                    twist that carries this torque at rest [rad]
+//   double twist_at(double torque) const;                    twist that carries this torque at rest [rad]; where that
+//                                                            hangs on φ_a, (double torque, double turn), too
 //   double energy(double twist) const;                       stored [J]
 //   double stiffness_at_rest() const;                        [N·m/rad]
 //
@@ -24,6 +25,7 @@
 // .turns_unevenly, with uses_angle
 //     double rest_twist(double turn) const;                  its twist unloaded at φ_a; of others 0
 //     double rest_ratio(double turn) const;                  and then i ω_b/ω_a; of others 1
+//     double rest_ratio_slope(double turn) const;            its derivative by φ_a; of others 0
 // .spring_takes_motion  spring_torque and energy take x in place of the twist: with states or an angle always
 // .tells_loss   with states always
 //     double loss_power(x) const;                            its power −dE/dt; of others (τ − spring torque) θ̇

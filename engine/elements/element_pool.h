@@ -40,6 +40,7 @@ struct Sums {
   double* element_inertia = nullptr;    // per shaft element: its variable inertia
   double* work_rate = nullptr;          // per work account, or null where nobody asks
   double* own_rate = nullptr;           // per own state: its derivative
+  double* turning_torque = nullptr;     // per elastic connection: further torque on a, of those that use the angle
 };
 
 // Registers the places of a sparse Jacobian; a column or row of −1 is a motion that is no state.
@@ -61,6 +62,7 @@ struct Snapshot {
   Sums sums;
   const double* alpha;            // per shaft [rad/s²]
   const double* joint_torque;     // per joint of the network: torque that it transmits [N·m]
+  const double* reaction;         // per node whose motion is prescribed: torque that this takes [N·m]
   const double* relation_torque;  // per relation: torque λ that it takes from its first node [N·m]
   const double* relation_loss;    // per relation: what of it is lost [N·m]
   const double* node_angle;       // per node, turns counted [rad]

@@ -20,7 +20,8 @@ namespace sound {
 // Every name that belongs to a trait. A member of E with that name, whatever it is (function, overload, template, data,
 // private), makes &Free<E>::name ambiguous.
 struct Names {
-  int hold, capacity, spring_torque, energy, twist_at, stiffness_at_rest, turning_torque, rest_twist, rest_ratio;
+  int hold, capacity, spring_torque, energy, twist_at, stiffness_at_rest, turning_torque, rest_twist, rest_ratio,
+      rest_ratio_slope;
   int loss_power, guard, first_mode, next_mode, mode_name, rates, first_states, state, describe;
   int work_account, angle_period, next_edge, mode_at, time_period, settled_from, stored, switched, mode_anew,
       opens_at_zero;
@@ -158,10 +159,12 @@ concept TurnsUnevenly = (E::is.turns_unevenly && E::is.uses_angle &&
                          requires(const E& e) {
                            { e.rest_twist(1.0) } -> std::same_as<double>;
                            { e.rest_ratio(1.0) } -> std::same_as<double>;
+                           { e.rest_ratio_slope(1.0) } -> std::same_as<double>;
                          }) ||
                         (!E::is.turns_unevenly && requires {
                           &Free<E>::rest_twist;
                           &Free<E>::rest_ratio;
+                          &Free<E>::rest_ratio_slope;
                         });
 template <class E>
 concept OfNoShaftElement = requires {
@@ -260,6 +263,7 @@ concept OfNoConnection = requires {
   &Free<E>::turning_torque;
   &Free<E>::rest_twist;
   &Free<E>::rest_ratio;
+  &Free<E>::rest_ratio_slope;
 };
 
 template <class E, class Traits>
@@ -324,8 +328,8 @@ consteval bool demand_sound_connection() {
   static_assert(sound::UsesAngle<E>,
                 ".uses_angle goes with template <class T> T turning_torque(const Twist<T>&) const");
   static_assert(sound::TurnsUnevenly<E>,
-                ".turns_unevenly, with .uses_angle, goes with double rest_twist(double) const "
-                "and double rest_ratio(double) const");
+                ".turns_unevenly, with .uses_angle, goes with rest_twist(double), rest_ratio(double) "
+                "and rest_ratio_slope(double), all double and const");
   static_assert(sound::OtherForms<E, ConnectionForm>,
                 ".other_forms goes with ConnectionForm under(const E&, const Effects&)");
   static_assert(sound::OfNoShaftElement<E>, "this member belongs to a trait of shaft elements");

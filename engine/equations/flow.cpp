@@ -50,7 +50,8 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
   inertia_ = constant_inertia_;
   for (auto* per_shaft : {&speed_, &torque_, &free_torque_, &alpha_, &shaft_angle_, &followed_alpha_})
     per_shaft->assign(shafts, 0);
-  for (auto* per_joint : {&twist_rate_, &connection_torque_, &spring_torque_}) per_joint->assign(m.elastic.size(), 0);
+  for (auto* per_joint : {&twist_rate_, &connection_torque_, &turning_torque_, &spring_torque_})
+    per_joint->assign(m.elastic.size(), 0);
   for (auto* per_element : {&element_torque_, &element_inertia_}) per_element->assign(elements, 0);
   node_angle_.assign(m.network.nodes.size(), 0);
   work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
@@ -58,7 +59,8 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
   command_value_.assign(m.commands.size(), 1);
   Sums& sums = snapshot_.sums;
   sums.torque = torque_.data(), sums.inertia = inertia_.data();
-  sums.connection_torque = connection_torque_.data(), sums.spring_torque = spring_torque_.data();
+  sums.connection_torque = connection_torque_.data(), sums.turning_torque = turning_torque_.data();
+  sums.spring_torque = spring_torque_.data();
   sums.element_torque = element_torque_.data(), sums.element_inertia = element_inertia_.data();
   list_elastic_tree();
   modes_ = unset_modes(m, ties_.contacts().size());
@@ -214,24 +216,28 @@ void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
     for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(m, modes_, s, t);
-    find_joint_torques(alpha_.data());
+    find_joint_torques();
     write_quadratures(ydot.data() + states_);
   }
 }
 
 // At standstill the opposing elements hold what is left of the shaft's torques.
-void Flow::find_joint_torques(const double* alpha) {
+void Flow::find_joint_torques() {
   held_shafts_.clear();
   for (std::size_t c = 0; c < directional_.size(); ++c)  // contacts with the frame come first
     if (modes_.direction[at(directional_[c])] == 0) held_shafts_.push_back({directional_[c], -ties_.torque(c)});
   if (!held_shafts_.empty()) ties_.find_holds(snapshot_.now);
-  joint_torques_.find({.alpha = alpha,
-                       .element_torque = element_torque_.data(),
-                       .element_inertia = element_inertia_.data(),
-                       .connection_torque = connection_torque_.data(),
-                       .relation_torque = ties_.relation_torque().data(),
-                       .relation_loss = ties_.relation_loss().data()},
-                      held_shafts_, ties_.shaft_hold().data(), ties_.element_hold().data());
+  joint_torques_.find(given_torques(), held_shafts_, ties_.shaft_hold().data(), ties_.element_hold().data());
+}
+
+JointTorques::Given Flow::given_torques() const {
+  return {.alpha = alpha_.data(),
+          .element_torque = element_torque_.data(),
+          .element_inertia = element_inertia_.data(),
+          .connection_torque = connection_torque_.data(),
+          .turning_torque = turning_torque_.data(),
+          .relation_torque = ties_.relation_torque().data(),
+          .relation_loss = ties_.relation_loss().data()};
 }
 
 // Work of prescribed motions (their reaction is known only now) and the squares of the torques.
@@ -253,7 +259,7 @@ void Flow::write_quadratures(double* rate) {
   }
   double* of_motor = rate + m.accounts.size() + 2 * m.torque_joints.size();
   for (const MotorTorque& motor : m.motors) {
-    double torque = 0;
+    double torque = motor.prescribed ? joint_torques_.balance()[at(motor.node)] : 0;
     for (const std::size_t e : motor.elements) torque += element_torque_[e];
     *of_motor++ = torque;
     *of_motor++ = torque * torque;
@@ -359,7 +365,7 @@ const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
   evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate_.data());
   ties_.refuse_broken(t);
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(m, modes_, s, t);
-  find_joint_torques(alpha_.data());
+  find_joint_torques();
   for (const std::size_t root : root_angles_)
     shaft_angle_[at(m.angles[root].shaft)] = angle_with_turns(root, y) / m.angles[root].gain;
   set_shaft_angles(snapshot_.now.twist, shaft_angle_);
@@ -367,6 +373,7 @@ const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
     node_angle_[n] = m.gain_of_node[n] * shaft_angle_[at(m.shaft_of_node[n])];
   snapshot_.alpha = alpha_.data();
   snapshot_.joint_torque = joint_torques_.torque().data();
+  snapshot_.reaction = joint_torques_.balance().data();
   snapshot_.relation_torque = ties_.relation_torque().data();
   snapshot_.relation_loss = ties_.relation_loss().data();
   snapshot_.node_angle = node_angle_.data();

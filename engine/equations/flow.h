@@ -87,6 +87,10 @@ class Flow : public OdeSystem {
   // Angles of all shafts from the twists, outwards from the shafts that lead, whose angles must be there.
   void set_shaft_angles(const double* twists, std::vector<double>& angles) const;
 
+  // The free bodies (theory 5.18) of the last snapshot(): how far the torque of a joint by its one side and by its other
+  // side part, at most, beside the torques that meet there; and on which shaft.
+  JointTorques::Open open_bodies() const { return joint_torques_.open(given_torques()); }
+
   // The last state at which no acceleration satisfied the friction.
   const std::optional<Jam>& jam() const { return jam_; }
   void forget_jam() { jam_.reset(); }
@@ -130,7 +134,8 @@ class Flow : public OdeSystem {
                 double* own_rate = nullptr);
   void settle_reactions(double t, double* alpha);
   void let_follow(double t, const double* alpha, double* own_rate);
-  void find_joint_torques(const double* alpha);
+  void find_joint_torques();  // from alpha_, of all shafts
+  JointTorques::Given given_torques() const;
   void write_quadratures(double* rate);
 
   std::shared_ptr<const Model> model_;
@@ -149,7 +154,7 @@ class Flow : public OdeSystem {
 
   // working arrays
   std::vector<double> speed_, torque_, inertia_, free_torque_, twist_rate_, alpha_, own_rate_, work_rate_;
-  std::vector<double> connection_torque_, spring_torque_, element_torque_, element_inertia_;
+  std::vector<double> connection_torque_, turning_torque_, spring_torque_, element_torque_, element_inertia_;
   std::vector<double> node_angle_, shaft_angle_, followed_alpha_, command_value_, slot_;
   std::vector<JointTorques::Held> held_shafts_;
   Snapshot snapshot_{};

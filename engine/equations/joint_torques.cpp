@@ -2,6 +2,7 @@
 #include "engine/equations/joint_torques.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/numerics/index.h"
 
@@ -88,7 +89,7 @@ void JointTorques::add_connections(const Given& given) {
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const Network::Joint& joint = net.joints[at(m.elastic[i].joint)];
     torque_[at(m.elastic[i].joint)] = given.connection_torque[i];
-    balance_[at(joint.a)] += given.connection_torque[i];
+    balance_[at(joint.a)] += given.connection_torque[i] - given.turning_torque[i];
     balance_[at(joint.b)] -= joint.ratio * given.connection_torque[i];
   }
   for (std::size_t r = 0; r < m.relations.size(); ++r) {
@@ -110,6 +111,35 @@ void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold
     const bool upwards = (held.rest > 0) == (m.gain_of_node[n] > 0);  // on the element's own shaft
     balance_[n] -= held.rest / capacity * (upwards ? element_hold[e].high : element_hold[e].low);
   }
+}
+
+JointTorques::Open JointTorques::open(const Given& given) const {
+  const Model& m = *model_;
+  std::vector<double> meeting(m.shafts.size(), 0.0);
+  const auto meet = [&](int node, double torque) {
+    meeting[at(m.shaft_of_node[at(node)])] += std::abs(m.gain_of_node[at(node)] * torque);
+  };
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    meet(static_cast<int>(n), nodes_[n].inertia_gain * given.alpha[nodes_[n].shaft]);
+  for (std::size_t e = 0; e < elements_.size(); ++e) meet(elements_[e].node, given.element_torque[e]);
+  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
+    const Network::Joint& joint = m.network.joints[at(m.elastic[i].joint)];
+    meet(joint.a, given.connection_torque[i]);
+    meet(joint.b, joint.ratio * given.connection_torque[i]);
+  }
+  for (std::size_t r = 0; r < m.relations.size(); ++r) {
+    const Network::Relation& relation = m.network.relations[at(m.relations[r].relation)];
+    for (int k = 0; k < relation.members(); ++k)
+      meet(relation.node[at(k)], relation.gain[at(k)] * given.relation_torque[r]);
+  }
+  constexpr double small = 1e-3;  // of the torque scale: beside less, rounding would count
+  Open worst;
+  for (std::size_t s = 0; s < m.free_shafts; ++s) {
+    const double left = std::abs(balance_[at(m.shafts[s].reference)]);
+    const double part = left / std::max(meeting[s], small * m.shafts[s].torque_scale);
+    if (part > worst.part) worst = {part, static_cast<int>(s)};
+  }
+  return worst;
 }
 
 void JointTorques::walk_to_the_roots() {

@@ -4,15 +4,16 @@
 // the nodes on the side away from the shaft's reference need beyond their own torques:
 //     need = J ε − Σ τ of the elements − what elastic joints and relations bring;
 //     a joint passes the need of its child on to its parent, times the ratio, from the leaves to the root.
-// At the root nothing is left, unless its motion is prescribed: that rest is the reaction there. Rigid loops share what they
+// At the root nothing is left, unless its motion is prescribed: that rest is the reaction there. Anything left elsewhere
+// means that the two free bodies of a cut joint disagree (open()). Rigid loops share what they
 // pass by the stiffnesses that are given (load_paths.h).
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "engine/numerics/load_paths.h"
 #include "engine/model/model.h"
+#include "engine/numerics/load_paths.h"
 
 namespace kurbel {
 
@@ -24,7 +25,8 @@ class JointTorques {
     const double* alpha = nullptr;              // per shaft [rad/s²]
     const double* element_torque = nullptr;     // per element, on its own node [N·m]
     const double* element_inertia = nullptr;    // per element: its variable inertia [kg·m²]
-    const double* connection_torque = nullptr;  // per elastic joint [N·m]
+    const double* connection_torque = nullptr;  // per elastic joint: τ, on b [N·m]
+    const double* turning_torque = nullptr;     // per elastic joint: on a besides −τ [N·m] (theory 8.1)
     const double* relation_torque = nullptr;    // per relation: λ, taken from its first node [N·m]
     const double* relation_loss = nullptr;      // per relation: what of it is lost [N·m]
   };
@@ -39,6 +41,14 @@ class JointTorques {
   const std::vector<double>& torque() const { return torque_; }  // per joint of the network [N·m]
   // Per node: what it needs from outside; at a prescribed motion the reaction [N·m].
   const std::vector<double>& balance() const { return balance_; }
+
+  // Of the last find(): the free shaft where most is left at the root, beside the torques that meet on the shaft. By so
+  // much the torque of any joint within it differs from one of its sides to the other.
+  struct Open {
+    double part = 0;  // 0 … 1
+    int shaft = -1;
+  };
+  Open open(const Given& given) const;
 
  private:
   struct NodeInertia {  // J ε = inertia · gain · α of its shaft

@@ -13,16 +13,19 @@ namespace kurbel {
 
 namespace {
 
-// All joints, then all relations as links of two; what slips in the usual motion leads nowhere.
-std::vector<LoadLink> links_of(const Model& m) {
+// All joints, then all relations as links of two; what slips in the usual motion leads nowhere. A link's torque is that
+// on a, `share` τ; its twist counts over the share, so that their product is that of τ and θ.
+std::vector<LoadLink> links_of(const Model& m, std::span<const double> share) {
   const Network& net = m.network;
   std::vector<LoadLink> links;
-  for (const Network::Joint& joint : net.joints) {
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    const Network::Joint& joint = net.joints[j];
     const double a = m.node_ratio[at(joint.a)], b = joint.ratio * m.node_ratio[at(joint.b)];
     const bool slips = joint.element && (joint.element->is.slips || joint.element->is.springless) &&
                        std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b));
-    links.push_back({joint.a, slips ? joint.a : joint.b, joint.ratio,
-                     joint.element && joint.element->stiffness > 0 ? 1 / joint.element->stiffness : 0});
+    links.push_back(
+        {joint.a, slips ? joint.a : joint.b, joint.ratio / share[j],
+         joint.element && joint.element->stiffness > 0 ? 1 / (joint.element->stiffness * share[j] * share[j]) : 0});
   }
   for (const Network::Relation& relation : net.relations) {
     if (relation.members() == 3 && relation.usual[2] != 0)
@@ -37,12 +40,13 @@ std::vector<LoadLink> links_of(const Model& m) {
 
 // Which circling torques make springs that are not straight gape by what was locked in: Newton, from their share as
 // straight ones.
-void close_loops(const Model& m, const LoadLoops& loops, const std::vector<double>& gape, std::vector<double>& torque) {
+void close_loops(const Model& m, std::span<const double> share, const LoadLoops& loops, const std::vector<double>& gape,
+                 std::vector<double>& torque) {
   const auto n = static_cast<Eigen::Index>(loops.size());
   const auto twist = [&](int link, double tau) {
     if (at(link) >= m.network.joints.size()) return 0.0;
     const Network::Joint& joint = m.network.joints[at(link)];
-    if (joint.elastic) return joint.element->twist_at(tau);
+    if (joint.elastic) return joint.element->twist_at(tau / share[at(link)]) / share[at(link)];
     return joint.element && joint.element->stiffness > 0 ? tau / joint.element->stiffness : 0.0;
   };
   constexpr int most_steps = 50;
@@ -73,9 +77,10 @@ void close_loops(const Model& m, const LoadLoops& loops, const std::vector<doubl
 
 }  // namespace
 
-std::vector<double> balanced_joints(const Model& m, std::vector<double> need, std::span<const double> twist) {
+std::vector<double> balanced_joints(const Model& m, std::vector<double> need, std::span<const double> twist,
+                                    std::span<const double> share) {
   const Network& net = m.network;
-  LoadPaths paths(links_of(m), net.nodes.size());
+  LoadPaths paths(links_of(m, share), net.nodes.size());
   std::vector<double> torque(paths.links().size(), 0.0);
   std::vector<LoadStep> all;
   const auto sum_to = [&](int root) {
@@ -105,10 +110,11 @@ std::vector<double> balanced_joints(const Model& m, std::vector<double> need, st
     for (std::size_t i = 0; i < loops.size(); ++i)
       for (const auto& [k, part] : loops.loops()[i])
         for (std::size_t e = 0; e < m.elastic.size(); ++e)
-          if (m.elastic[e].joint == k) gape[i] += part * twist[e];
-    close_loops(m, loops, gape, torque);
+          if (m.elastic[e].joint == k) gape[i] += part * twist[e] / share[at(k)];
+    close_loops(m, share, loops, gape, torque);
   }
   torque.resize(net.joints.size());
+  for (std::size_t j = 0; j < torque.size(); ++j) torque[j] /= share[j];
   return torque;
 }
 

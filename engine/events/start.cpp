@@ -218,49 +218,140 @@ void Start::members_follow(std::span<double> y, std::vector<char> given, double 
   }
 }
 
+// φ_a of a joint whose law hangs on it; of others 0.
+double Start::turn_of(int joint, std::span<const double> y) const {
+  const Network::Joint& of = model_.network.joints[index(joint)];
+  if (!of.element->is.uses_angle) return 0;
+  const int shaft = model_.shaft_of_node[index(of.a)];
+  const double gain = model_.gain_of_node[index(of.a)];
+  const auto tracked = std::find_if(model_.angles.begin(), model_.angles.end(), [&](const TrackedAngle& angle) {
+    return angle.shaft == shaft && angle.gain == gain;
+  });
+  return y[static_cast<std::size_t>(tracked - model_.angles.begin())];
+}
+
 // Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.
-// The machine as a whole may accelerate; all shafts then do so together.
+// The machine as a whole may accelerate; all shafts then do so together. Where a law hangs on the angle of its shaft, that
+// angle hangs on the twists in turn: Newton's method, joint by joint, along the tree of elastic joints.
 void Start::balance_twists(std::span<double> y, double t) {
   const Model& m = model_;
   if (m.elastic.empty()) return;
-  const std::size_t first = flow_.twists_begin();
-  std::vector<double> rest(m.elastic.size(), 0.0), locked_in(m.elastic.size(), 0.0);
-  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
-    const bool uneven = m.network.joints[index(m.elastic[i].joint)].element->is.uses_angle;
-    (uneven ? rest : locked_in)[i] = y[first + i];
-    y[first + i] = 0;
+  const std::size_t first = flow_.twists_begin(), joints = m.elastic.size();
+  const std::vector<double> unloaded(y.begin(), y.end());
+  std::vector<double> twist(unloaded.begin() + static_cast<std::ptrdiff_t>(first),
+                            unloaded.begin() + static_cast<std::ptrdiff_t>(first + joints));
+  std::vector<double> locked_in(joints), by_own_twist(joints, 0.0), share(m.network.joints.size(), 1.0);
+  const auto element = [&](std::size_t i) -> const AnyConnection& {
+    return *m.network.joints[index(m.elastic[i].joint)].element;
+  };
+  bool by_angle = false;
+  for (std::size_t i = 0; i < joints; ++i) {
+    const double turn = turn_of(m.elastic[i].joint, y);
+    locked_in[i] = twist[i] - element(i).rest_twist(turn);
+    share[index(m.elastic[i].joint)] = element(i).share_of_a(0, turn);
+    if (!element(i).is.uses_angle) continue;
+    by_angle = true;
+    by_own_twist[i] = m.elastic[i].gain_a * flow_.shaft_angles_by_twist(i)[index(m.elastic[i].shaft_a)];
   }
-  flow_.evaluate(t, y);
-  const std::vector<double> joint_torque = balanced_joints(m, needs_when_balanced(y), locked_in);
-  std::vector<double> twists(m.elastic.size());
-  for (std::size_t i = 0; i < m.elastic.size(); ++i) {
-    const std::size_t j = index(m.elastic[i].joint);
-    twists[i] = m.network.joints[j].element->twist_at(joint_torque[j]);
-    y[first + i] = twists[i] + rest[i];
+  flow_.look(t, y);
+  const Together at_first = moving_together(y);
+  constexpr int most_passes = 50;
+  constexpr double found = 1e-15, near_enough = 1e-10;  // [rad]
+  double largest = 0, before = HUGE_VAL, stored = 0;
+  for (int pass = 0; pass < most_passes; ++pass, before = largest) {
+    std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(first), joints, 0.0);
+    flow_.evaluate(t, y);
+    const std::vector<double> torque = balanced_joints(m, needs_when_balanced(y, t, stored), locked_in, share);
+    std::vector<double> turned(joints), angles(m.shafts.size(), 0.0);
+    largest = 0;
+    for (std::size_t i = 0; i < joints; ++i) {
+      const int j = m.elastic[i].joint;
+      const double turn = turn_of(j, y),
+                   target = element(i).twist_at(torque[index(j)], turn) + element(i).rest_twist(turn);
+      const double step = (target - twist[i]) / (1 + (element(i).rest_ratio(turn) - 1) * by_own_twist[i]);
+      twist[i] = element(i).is.uses_angle ? twist[i] + step : target;
+      largest = std::max(largest, std::abs(step));
+      turned[i] = twist[i] - unloaded[first + i];
+    }
+    // Shafts away from the reduction link stand turned by the twists.
+    flow_.set_shaft_angles(turned.data(), angles);
+    for (std::size_t i = 0; i < m.angles.size(); ++i)
+      y[i] = unloaded[i] + m.angles[i].gain * angles[index(m.angles[i].shaft)];
+    std::copy(twist.begin(), twist.end(), y.begin() + static_cast<std::ptrdiff_t>(first));
+    turn_together(unloaded, at_first, y);
+    if (!by_angle || largest <= found || (largest <= near_enough && largest >= 0.5 * before)) break;
+    stored = 0;
+    const Together now = moving_together(y);
+    for (std::size_t i = 0; i < joints; ++i) {
+      const std::size_t j = index(m.elastic[i].joint);
+      const double turn = turn_of(m.elastic[i].joint, y);
+      share[j] = element(i).share_of_a(torque[j], turn);
+      stored += now.ratio[index(m.network.joints[j].a)] * torque[j] * (share[j] - element(i).rest_ratio(turn));
+    }
   }
-  // Shafts away from the reduction link stand turned by the twists.
-  std::vector<double> angles(m.shafts.size(), 0.0);
-  flow_.set_shaft_angles(twists.data(), angles);
-  for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] += m.angles[i].gain * angles[index(m.angles[i].shaft)];
+  if (by_angle && !(largest <= near_enough))
+    throw std::runtime_error("no twists were found that carry the loads in this position; start without equilibrium");
   wrap(flow_.changing_modes(), y);
 }
 
+// How all nodes turn with the reduction link in this position.
+Start::Together Start::moving_together(std::span<const double> y) const {
+  const Model& m = model_;
+  Together together{m.node_ratio, std::vector<double>(m.network.nodes.size(), 0.0)};
+  if (std::none_of(m.elastic.begin(), m.elastic.end(),
+                   [&](const ElasticJoint& e) { return m.network.joints[index(e.joint)].element->is.turns_unevenly; }))
+    return together;
+  KnownMotion known{.shaft = m.shaft_of_node[index(m.reduction_node)]};
+  known.angles.resize(m.shafts.size());
+  for (std::size_t i = 0; i < m.angles.size(); ++i)
+    known.angles[index(m.angles[i].shaft)] = flow_.angle_with_turns(i, y) / m.angles[i].gain;
+  known.angle = known.angles[index(known.shaft)];
+  const UnloadedMotion motion = unloaded_motion(m, known);
+  const double speed = m.gain_of_node[index(m.reduction_node)] * flow_.now().speed[known.shaft];
+  for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
+    const std::size_t s = index(m.shaft_of_node[n]);
+    together.ratio[n] = m.gain_of_node[n] * motion.speed[s];
+    together.kept[n] = m.gain_of_node[n] * motion.bend[s] * speed * speed;
+  }
+  return together;
+}
+
+// Shafts that turned with the reduction link as they stood before do so as they stand now.
+void Start::turn_together(std::span<const double> before, const Together& then, std::span<double> y) const {
+  const Model& m = model_;
+  const double link =
+      m.gain_of_node[index(m.reduction_node)] * flow_.now().speed[index(m.shaft_of_node[index(m.reduction_node)])];
+  const Together now = moving_together(y);
+  for (std::size_t s = 0; s < m.free_shafts; ++s) {
+    const std::size_t i = flow_.speed_index(static_cast<int>(s)), n = index(m.shafts[s].reference);
+    if (now.ratio[n] != then.ratio[n] && std::abs(before[i] - then.ratio[n] * link) <= 1e-12 * std::abs(before[i]))
+      y[i] = now.ratio[n] * link;
+  }
+}
+
 // What every node needs from its joints [N·m] when all shafts accelerate together, at the state evaluated last, whose
-// twists must be none: only the elements' torques are there.
-std::vector<double> Start::needs_when_balanced(std::span<const double> y) {
+// twists must be none: only the elements' torques are there. `stored`: what springs that vary take with the angle, as a
+// torque on the reduction link.
+std::vector<double> Start::needs_when_balanced(std::span<const double> y, double t, double stored) {
   const Model& m = model_;
   const Network& net = m.network;
   const std::vector<double>&element_torque = flow_.element_torque(), &element_inertia = flow_.element_inertia();
-  double torque = 0, inertia = 0;
-  bool free = true;
+  const Together together = moving_together(y);
+  const std::vector<double>& ratio = together.ratio;
+  double torque = -stored, inertia = 0;
+  std::optional<double> given;  // acceleration of the reduction link, where a motion is prescribed
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
-    inertia += net.nodes[n].inertia * m.node_ratio[n] * m.node_ratio[n];
-    free = free && (net.nodes[n].prescribed < 0 || m.node_ratio[n] == 0);  // the frame holds nothing that moves
+    inertia += net.nodes[n].inertia * ratio[n] * ratio[n];
+    torque -= net.nodes[n].inertia * together.kept[n] * ratio[n];
+    if (net.nodes[n].prescribed < 0 || ratio[n] == 0) continue;  // the frame holds nothing that moves
+    const std::size_t s = index(m.shaft_of_node[n]);
+    const double own = m.gain_of_node[n] * prescribed_acceleration(m, flow_.modes(), s, t);
+    given = (own - together.kept[n]) / ratio[n];
   }
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
-    const double ratio = m.node_ratio[index(net.elements[e].node)];
-    torque += element_torque[e] * ratio;
-    inertia += element_inertia[e] * ratio * ratio;
+    const std::size_t n = index(net.elements[e].node);
+    torque += (element_torque[e] - element_inertia[e] * together.kept[n]) * ratio[n];
+    inertia += element_inertia[e] * ratio[n] * ratio[n];
   }
   // At standstill the opposing elements may hold the machine.
   double hold_low = 0, hold_high = 0;
@@ -270,19 +361,20 @@ std::vector<double> Start::needs_when_balanced(std::span<const double> y) {
       std::all_of(y.begin() + static_cast<std::ptrdiff_t>(flow_.speed_index(0)),
                   y.begin() + static_cast<std::ptrdiff_t>(flow_.state_count()), [](double w) { return w == 0; });
   for (std::size_t e = 0; still && e < net.elements.size(); ++e) {
-    const double ratio = m.node_ratio[index(net.elements[e].node)];
-    hold_low += ratio * (ratio > 0 ? hold[e].low : hold[e].high);
-    hold_high += ratio * (ratio > 0 ? hold[e].high : hold[e].low);
+    const double r = ratio[index(net.elements[e].node)];
+    hold_low += r * (r > 0 ? hold[e].low : hold[e].high);
+    hold_high += r * (r > 0 ? hold[e].high : hold[e].low);
   }
   const double held = std::clamp(-torque, hold_low, hold_high);
   const double capacity = held > 0 ? hold_high : hold_low;
-  const double acceleration = free ? (torque + held) / inertia : 0;  // of the reduction link
+  const double acceleration = given ? *given : (torque + held) / inertia;  // of the reduction link
   std::vector<double> need(net.nodes.size());
-  for (std::size_t n = 0; n < net.nodes.size(); ++n) need[n] = net.nodes[n].inertia * m.node_ratio[n] * acceleration;
+  for (std::size_t n = 0; n < net.nodes.size(); ++n)
+    need[n] = net.nodes[n].inertia * ratio[n] * acceleration + net.nodes[n].inertia * together.kept[n];
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const std::size_t n = index(net.elements[e].node);
-    need[n] += element_inertia[e] * m.node_ratio[n] * acceleration - element_torque[e];
-    const bool upwards = (held > 0) == (m.node_ratio[n] > 0);  // on the element's own shaft
+    need[n] += element_inertia[e] * ratio[n] * acceleration - element_torque[e] + element_inertia[e] * together.kept[n];
+    const bool upwards = (held > 0) == (ratio[n] > 0);  // on the element's own shaft
     if (still && capacity != 0) need[n] -= held / capacity * (upwards ? hold[e].high : hold[e].low);
   }
   return need;

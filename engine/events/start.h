@@ -33,7 +33,14 @@ class Start {
   void refuse_impossible_slip(double t, std::span<const double> y);
   void members_follow(std::span<double> y, std::vector<char> given, double t);
   void balance_twists(std::span<double> y, double t);
-  std::vector<double> needs_when_balanced(std::span<const double> y);
+  std::vector<double> needs_when_balanced(std::span<const double> y, double t, double stored);
+  struct Together {             // per node
+    std::vector<double> ratio;  // of its speed to the reduction link's
+    std::vector<double> kept;   // acceleration while the reduction link keeps its speed [rad/s²]
+  };
+  Together moving_together(std::span<const double> y) const;
+  void turn_together(std::span<const double> before, const Together& then, std::span<double> y) const;
+  double turn_of(int joint, std::span<const double> y) const;
   void first_states(double t, std::span<double> y);
   void first_pieces(double t, std::span<const double> y);
 
@@ -46,7 +53,8 @@ class Start {
 // Torques of the network's joints that give every node what it needs [N·m]: summed from the leaves of the whole tree to
 // a root that can take the rest (a prescribed motion, if there is one). A gear that runs counts as one without losses.
 // Closed loops share what they pass by the twists of their springs, which gape by what these twists (per elastic joint)
-// lock in. Throws std::runtime_error where the three shafts of a gear are free, or a loop has no spring.
-std::vector<double> balanced_joints(const Model& model, std::vector<double> need, std::span<const double> twist);
+// lock in. A joint takes `share` times from a what it passes on (theory 5.11, 7.10). Throws std::runtime_error where the three shafts of a gear are free, or a loop has no spring.
+std::vector<double> balanced_joints(const Model& model, std::vector<double> need, std::span<const double> twist,
+                                    std::span<const double> share);
 
 }  // namespace kurbel

@@ -37,6 +37,7 @@ class Walk {
     motion_.angle = known.angles;
     motion_.angle.resize(m_.shafts.size());
     motion_.speed.resize(m_.shafts.size());
+    motion_.bend.resize(m_.shafts.size());
     motion_.twist.resize(m_.elastic.size());
     usual_turn_ = known.angle / usual(known.shaft);
     if (!std::isfinite(usual_turn_)) usual_turn_ = 0;
@@ -62,18 +63,20 @@ class Walk {
  private:
   double usual(int shaft) const { return m_.node_ratio[at(m_.shafts[at(shaft)].reference)]; }
   bool is_usual(int shaft) const {
-    return motion_.speed[at(shaft)] == usual(shaft) && motion_.angle[at(shaft)] == usual(shaft) * usual_turn_;
+    return motion_.speed[at(shaft)] == usual(shaft) && motion_.bend[at(shaft)] == 0 &&
+           motion_.angle[at(shaft)] == usual(shaft) * usual_turn_;
   }
   // Held in the usual motion, too.
   bool stands(int shaft) const {
     const int p = m_.shafts[at(shaft)].prescribed;
     return p >= 0 && m_.network.prescribed[at(p)].is_nothing() && usual(shaft) == 0;
   }
-  void reach(int shaft, double angle, double speed) {
+  void reach(int shaft, double angle, double speed, double bend = 0) {
     reached_[at(shaft)] = 1;
     order_.push_back(shaft);
     if (given_.angles.empty()) motion_.angle[at(shaft)] = angle;
     motion_.speed[at(shaft)] = speed;
+    motion_.bend[at(shaft)] = bend;
   }
 
   // From the side that is reached to the other: unloaded.
@@ -91,11 +94,19 @@ class Walk {
       input = e.gain_a * motion_.angle[at(e.shaft_a)];
     else if (!forward)
       input = own ? known + *own : element.is.uses_angle ? input_at(element, known) : known;
+    // ω_b = g′ ω_a and ε_b = g′ ε_a + g″ ω_a² at the joint
     const double twist = own ? *own : element.rest_twist(input), ratio = element.rest_ratio(input);
-    if (forward)
-      reach(to, (input - twist) / e.gain_b, ratio * e.gain_a * motion_.speed[at(from)] / e.gain_b);
-    else
-      reach(to, input / e.gain_a, e.gain_b * motion_.speed[at(from)] / (ratio * e.gain_a));
+    const double slope = element.rest_ratio_slope(input);
+    const double speed = motion_.speed[at(from)], bend = motion_.bend[at(from)];
+    if (forward) {
+      const double speed_a = e.gain_a * speed;
+      reach(to, (input - twist) / e.gain_b, ratio * e.gain_a * speed / e.gain_b,
+            (ratio * e.gain_a * bend + slope * speed_a * speed_a) / e.gain_b);
+    } else {
+      const double speed_a = e.gain_b * speed / ratio;
+      reach(to, input / e.gain_a, e.gain_b * speed / (ratio * e.gain_a),
+            (e.gain_b * bend - slope * speed_a * speed_a) / (ratio * e.gain_a));
+    }
   }
 
   // Of the relations that a reached shaft belongs to, the one with the fewest unknown members: its last one, or where
@@ -134,32 +145,33 @@ class Walk {
   }
 
   void solve_for(const ShaftRelation& relation, const ShaftGain& member) {
-    double angle = 0, speed = 0, usual_sum = 0, size = 0;
+    double angle = 0, speed = 0, bend = 0, usual_sum = 0, size = 0;
     bool all_usual = true;
     for (const ShaftGain& g : relation.motion) {
       usual_sum += g.gain * usual(g.shaft), size += std::abs(g.gain * usual(g.shaft));
       if (g.shaft == member.shaft || !reached_[at(g.shaft)]) continue;
       angle += g.gain * motion_.angle[at(g.shaft)];
       speed += g.gain * motion_.speed[at(g.shaft)];
+      bend += g.gain * motion_.bend[at(g.shaft)];
       all_usual = all_usual && is_usual(g.shaft);
     }
     if (all_usual && std::abs(usual_sum) <= fits * size)
       reach(member.shaft, usual(member.shaft) * usual_turn_, usual(member.shaft));
     else
-      reach(member.shaft, -angle / member.gain, -speed / member.gain);
+      reach(member.shaft, -angle / member.gain, -speed / member.gain, -bend / member.gain);
   }
 
   // What a member that is known turns more or less than usual the others do in proportion.
   void share(const ShaftRelation& relation, int shaft) {
-    double angle = usual(shaft) * usual_turn_, speed = usual(shaft);
+    double angle = usual(shaft) * usual_turn_, speed = usual(shaft), bend = 0;
     for (const ShaftGain& g : relation.motion) {
       if (!reached_[at(g.shaft)] || usual(g.shaft) == 0 || is_usual(g.shaft)) continue;
       const double part = usual(shaft) / usual(g.shaft);
       angle += part * (motion_.angle[at(g.shaft)] - usual(g.shaft) * usual_turn_);
-      speed = part * motion_.speed[at(g.shaft)];
+      speed = part * motion_.speed[at(g.shaft)], bend = part * motion_.bend[at(g.shaft)];
       break;
     }
-    reach(shaft, angle, speed);
+    reach(shaft, angle, speed, bend);
   }
 
   std::optional<double> given_twist(std::size_t joint) const {

@@ -11,6 +11,7 @@ namespace kurbel {
 struct UnloadedMotion {
   std::vector<double> angle;  // of every shaft [rad]
   std::vector<double> speed;  // of every shaft, over that of the reduction link in the usual motion
+  std::vector<double> bend;  // its derivative by the angle of the reduction link [1/rad]: acceleration at ω² = 1, ε = 0
   std::vector<double> twist;  // of every elastic joint [rad]
 };
 

@@ -92,12 +92,15 @@ struct TorqueJoint {
   double torque_scale = 1;  // [N·m]
 };
 
-// A motor: the elements of a component that drive and tell a rated torque and speed.
+// A motor: the elements of a component that drive and tell a rated torque and speed. Or what turns a shaft whose speed is
+// given: it brings whatever torque that takes (theory 5.18), and its rated ones are the machine's.
 struct MotorTorque {
   std::string component;
   std::vector<std::size_t> elements;
   int node = 0;                              // whose speed is the motor's
   double rated_torque = 0, rated_speed = 0;  // [N·m], [rad/s]
+  bool prescribed = false;
+  double torque(const Snapshot& s) const;  // [N·m]
 };
 
 struct WorkAccount {

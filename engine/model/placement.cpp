@@ -255,6 +255,16 @@ void list_motors(Model& m) {
     else
       m.motors.push_back({element.component, {e}, element.node, rated.torque, rated.speed});
   }
+  for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
+    const Network::Node& node = m.network.nodes[n];
+    if (node.prescribed >= 0 && !m.network.prescribed[at(node.prescribed)].is_nothing())
+      m.motors.push_back({node.component,
+                          {},
+                          static_cast<int>(n),
+                          m.torque_scale / m.scale_ratio[n],
+                          m.speed_scale * m.scale_ratio[n],
+                          true});
+  }
 }
 
 }  // namespace kurbel

@@ -184,6 +184,13 @@ std::vector<int> loose_trees(const Model& model) {
   return loose;
 }
 
+double MotorTorque::torque(const Snapshot& s) const {
+  if (prescribed) return s.reaction[node];
+  double sum = 0;
+  for (const std::size_t e : elements) sum += s.sums.element_torque[e];
+  return sum;
+}
+
 double GearTorque::value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const {
   double sum = 0;
   for (const Term& term : terms) {

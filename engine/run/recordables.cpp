@@ -42,6 +42,7 @@ class ChannelList {
       if (is_wanted(wanted_, component)) {
         add_motions(component);
         add_elements(component);
+        add_drive(component);
       }
     for (const TorqueJoint& joint : model_.torque_joints)
       if (is_wanted(wanted_, component_of(joint.component))) add_joint(joint);
@@ -92,6 +93,18 @@ class ChannelList {
       for (const std::size_t e : own) sum += s.sums.element_torque[e];
       return sum;
     });
+  }
+
+  // What turns a shaft at a given speed: its torque and power.
+  void add_drive(const std::string& component) {
+    for (const MotorTorque& drive : model_.motors) {
+      if (!drive.prescribed || drive.component != component) continue;
+      add(Name::make(QuantityKind::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
+      const int shaft = model_.shaft_of_node[at(drive.node)];
+      const double gain = model_.gain_of_node[at(drive.node)];
+      add(Name::own("power", component), "W",
+          [=](const Snapshot& s) { return drive.torque(s) * gain * s.now.speed[shaft]; });
+    }
   }
 
   void add_joint(const TorqueJoint& joint) {

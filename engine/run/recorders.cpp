@@ -324,6 +324,8 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
   stored_end = stored;
   largest_kinetic = std::max(largest_kinetic, bodies);
   largest_residual = std::max(largest_residual, std::abs(bodies + stored - start_ - sum));
+  equations.snapshot(t, y);
+  if (const JointTorques::Open open = equations.open_bodies(); open.part > open_body.part) open_body = open;
   if (bodies > 1e-9 * largest_kinetic)
     reduction_residual = std::max(reduction_residual, std::abs(reduced / bodies - 1));
   work = std::move(now);

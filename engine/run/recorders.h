@@ -1,6 +1,7 @@
 // recorders.h — observers of a run: the trajectory, extremes of chosen quantities, cycles, and the energy balance.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -141,7 +142,8 @@ class CycleRecorder final : public Observer {
   double energy_at_begin_ = 0;
 };
 
-// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r.
+// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r. And that the torque of
+// every joint is the same by both of its sides (theory 5.18).
 class EnergyAudit final : public Observer {
  public:
   EnergyAudit(double until, int checks) : until_(until), checks_(checks) {}
@@ -149,7 +151,7 @@ class EnergyAudit final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override {
     tape(kinetic_start, kinetic_end, stored_start, stored_end, largest_residual, reduction_residual, turnover,
-         largest_kinetic, checked, work, start_);
+         largest_kinetic, checked, work, start_, open_body.part, open_body.shaft);
   }
 
   double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0;
@@ -158,9 +160,18 @@ class EnergyAudit final : public Observer {
   double turnover = 0;            // Σ |work| between checks [J]
   double largest_kinetic = 0;
   int checked = 0;
-  std::vector<double> work;  // per account at the last check [J]
+  std::vector<double> work;           // per account at the last check [J]
+  JointTorques::Open open_body = {};  // where free bodies differ most
   // Residual over max(turnover, largest T); 0 for a machine that never had energy.
   double relative() const;
+  // What speaks against an accuracy: the residual, and what free bodies leave open where it is more than round-off.
+  double largest(double accuracy) const {
+    return open_body.part > accuracy ? std::max(relative(), open_body.part) : relative();
+  }
+  bool closes(double accuracy) const { return largest(accuracy) <= accuracy; }
+  const char* where(double largest) const {
+    return relative() < largest ? " in the torques of joints by both sides" : " in the energy balance";
+  }
 
  private:
   void check(double t, std::span<const double> y, Equations& equations);

@@ -44,6 +44,7 @@ int rank_of(const Figure& f, const std::string& link, const std::set<std::string
   using enum QuantityKind;
   if (judged.contains(f.name)) return 1;
   const bool of_link = f.of == link;
+  if (f.name.starts_with("motor_peak_")) return 9;  // behind what heats it
   switch (f.what) {
     case cycle_fluctuation:
       return of_link && f.value < stands_within_the_cycle ? 2 : never;

@@ -50,16 +50,12 @@ class Judge {
   // A motor under torque whose own shaft stands.
   const MotorTorque* standing_motor() const {
     for (const MotorTorque& motor : m_.motors)
-      if (std::abs(torque_of(motor)) > drives * motor.rated_torque &&
+      if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
           std::abs(speed_of(motor)) < stands * std::abs(motor.rated_speed))
         return &motor;
     return nullptr;
   }
-  double torque_of(const MotorTorque& motor) const {
-    double torque = 0;
-    for (const std::size_t e : motor.elements) torque += now_.sums.element_torque[e];
-    return torque;
-  }
+  double torque_of(const MotorTorque& motor) const { return motor.torque(now_); }
   double speed_of(const MotorTorque& motor) const {
     return m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
   }

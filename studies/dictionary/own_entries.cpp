@@ -88,6 +88,23 @@ std::vector<Definition> entries_of_own() {
       coupling("strand_force", "largest force in the tight strand", "N", "BELT",
                "pretension and half of the largest torque over the driving pulley's radius, fixed centres", "5"),
       of_run(
+          "motor_peak_torque", "peak torque of a motor", "N*m", "MOTOR",
+          "the torque of greatest magnitude that it brings to its shaft in the run, its rotor's inertia not counted; "
+          "of a prescribed shaft the one that keeps it at its speed, its own inertia counted",
+          "its breakdown torque, which is what it could bring", "M"),
+      of_run("motor_peak_power", "peak power of a prescribed shaft's drive", "W", "MOTOR",
+             "the power of greatest magnitude that keeps the shaft at its speed, negative where the machine drives it",
+             "the mean power, which says what the supply gives", "M ω"),
+      of_run(
+          "motor_peak_current", "peak current of a motor", "A", "MOTOR",
+          "greatest magnitude of the armature's current in the run, of a direct-current motor; of the two-axis model "
+          "the greatest length of the stator current's space vector, which is the momentary value that a line can "
+          "see",
+          "an effective current: of alternating current that is the length over √2", "|M|/k, √(|M|/κ), |i_s|"),
+      of_run("power", "power of a prescribed shaft's drive", "W", "MOTOR",
+             "torque that keeps the shaft at its speed, times that speed", "the power of a motor that a scene gives",
+             "M ω"),
+      of_run(
           "motor_rms_torque", "RMS torque of a motor over a run", "N*m", "MOTOR",
           "root of the mean square of its torque over the time run; a lower bound of heating: no-load losses and the "
           "currents of a start come on top",
@@ -113,8 +130,9 @@ std::vector<Definition> entries_of_own() {
               "work that the motor gives to its shaft in the last whole cycle of a motion that repeats, over its time",
               "its rated power", "(1/T) ∫ M ω dt"),
       of_both("machine_efficiency", "efficiency of the machine", "", "",
-              "useful work over driving work in the last whole cycle of a motion that repeats",
-              "the efficiency of one gear or mechanism", "η = −A_useful/A_driving"),
+              "useful work over driving work in the last whole cycle of a motion that repeats; what stored energy still "
+              "changes and what weights do is counted with the driving work",
+              "the efficiency of one gear or mechanism", "η = −A_useful/(A_driving + A_weight − ΔE)"),
       of_run("current_use", "use of a motor's rated current", "", "MOTOR",
              "RMS current of a line over the cycle that the thermal use is of, over that at the rated slip: of the "
              "two-axis model",

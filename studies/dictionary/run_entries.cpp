@@ -48,7 +48,7 @@ std::vector<KindEntry> channels_of_shafts() {
         .unit = "N*m",
         .of = "COMPONENT",
         .is = "of a coupling what it transmits, positive when it drives its driven shaft; of a motor or load what it "
-              "exerts on its shaft, positive when it drives forwards",
+              "exerts on its shaft, positive when it drives forwards; of a prescribed speed what keeps its shaft at it",
         .is_not = "reduced to another shaft",
         .theory = "1.2",
         .verbs = of_files}},

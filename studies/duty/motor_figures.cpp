@@ -93,11 +93,23 @@ void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, 
   }
 }
 
+// Of an armature, by its greatest torque.
+void add_peak_current(const MotorRun& run, const MotorTorque& motor, const MeanSquareCurrent& law,
+                      std::vector<Figure>& out) {
+  if (!run.known) return;
+  for (const Figure& peak : *run.known)
+    if (peak.name == "motor_peak_torque." + motor.component) {
+      const auto current = [&](double torque) {
+        return std::sqrt(law.by_mean * std::abs(torque) + law.by_square * torque * torque);
+      };
+      out.push_back(figure("motor_peak_current", motor, current(peak.value), "A", current(motor.rated_torque)));
+      out.back().at = peak.at;
+      return;
+    }
+}
+
 double torque_at_end(const MotorRun& run, const MotorTorque& motor) {
-  const Snapshot& s = run.equations.snapshot(run.end, run.y);
-  double torque = 0;
-  for (const std::size_t e : motor.elements) torque += s.sums.element_torque[e];
-  return torque;
+  return motor.torque(run.equations.snapshot(run.end, run.y));
 }
 
 // Of a machine in steady motion that knows no cycle, by the torque at the end: all that varies has faded.
@@ -171,6 +183,7 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
       };
       figures.push_back(figure("motor_rms_current", motor, rms(mean / run.duration, square / run.duration), "A",
                                rms(motor.rated_torque, motor.rated_torque * motor.rated_torque)));
+      add_peak_current(run, motor, *current, figures);
     }
     if (const std::optional<double> synchronous = synchronous_speed(m, motor)) {
       const double usual = motor.rated_torque * *synchronous * run.duration;
@@ -192,12 +205,42 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
   return figures;
 }
 
+std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
+  std::vector<ExtremeOf> wanted;
+  const auto want = [&](const std::string& words, const MotorTorque& motor, const char* unit, double scale,
+                        auto value) {
+    const Name name{QuantityKind::peak_other, motor.component, words + "." + motor.component};  // by magnitude
+    wanted.push_back({.name = name, .unit = unit, .scale = scale, .value = value, .rate = {}});
+  };
+  for (const MotorTorque& motor : m.motors) {
+    want("motor_peak_torque", motor, "N*m", motor.rated_torque, [motor](const Snapshot& s) { return motor.torque(s); });
+    if (!motor.prescribed) continue;
+    const int shaft = m.shaft_of_node[at(motor.node)];
+    const double gain = m.gain_of_node[at(motor.node)];
+    want("motor_peak_power", motor, "W", std::abs(motor.rated_torque * motor.rated_speed),
+         [=](const Snapshot& s) { return motor.torque(s) * gain * s.now.speed[shaft]; });
+  }
+  const MotorCurrents currents(m);
+  for (const MotorTorque& motor : m.motors)
+    for (const MotorCurrents::Motor& of : currents.motors())
+      if (of.component == motor.component)
+        want("motor_peak_current", motor, "A", of.usual, [parts = of.stator](const Snapshot& s) {
+          double square = 0;
+          for (const std::size_t k : parts) square += s.now.own[k] * s.now.own[k];
+          return std::sqrt(square);
+        });
+  return wanted;
+}
+
 std::vector<Figure> motor_figure_list(const Model& m) {
   std::vector<Figure> list;
+  for (const ExtremeOf& e : motor_extremes_of(m)) list.push_back(Figure::of_name(e.name, 0, e.unit));
   for (const MotorTorque& motor : m.motors) {
     list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
     list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
-    if (mean_square_current(m, motor)) list.push_back(figure("motor_rms_current", motor, 0, "A", 0));
+    if (mean_square_current(m, motor))
+      for (const char* words : {"motor_rms_current", "motor_peak_current"})
+        list.push_back(figure(words, motor, 0, "A", 0));
     if (synchronous_speed(m, motor))
       for (const char* words : {"motor_slip_heat", "start_heat"}) list.push_back(figure(words, motor, 0, "J", 0));
     const MotorCurrents currents(m);

@@ -4,6 +4,8 @@
 //     RMS torque    √( ∫ M² dt / t )                    a lower bound of heating: no-load losses and starts come on top
 //     RMS current   √( ∫ i² dt / t )                    of a direct-current motor's armature: i = M/k, i² = M/κ; of a
 //                                                       line of the two-axis model: i² = ½ |i_s|²
+//     peak torque, power                                of greatest magnitude
+//     peak current  |M|/k, √(|M|/κ) at the peak torque  of a direct-current motor's armature; of the two-axis model |i_s|
 //     heat of slip  ω_s ∫ M dt − ∫ M ω dt               of the rotor of an induction motor at the mains (theory 4)
 //                   3/2 R_r ∫ |i_r|² dt                 the same, of the two-axis model; of its stator with R_s, i_s
 //     start heat    heat of slip − P_s (t_off − t_up)   P_s: of the last whole cycle; t_up, t_off: steady from and to
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "engine/events/equations.h"
+#include "engine/run/recorders.h"
 #include "studies/duty/motor_currents.h"
 #include "studies/findings/result.h"
 
@@ -43,9 +46,12 @@ struct MotorRun {
   struct Span {
     double begin = 0, end = 0;
   };
+  const std::vector<Figure>* known = nullptr;  // figures of the run so far: the peaks among them
   std::optional<Span> after_run_up = {};  // from run-up's end to where the drive goes off, of a run with a run-up [s]
 };
 std::vector<Figure> motor_figures(const MotorRun& run);
+// Peaks that are looked for along the run: of torque, of the power of a prescribed shaft's drive, of a current in axes.
+std::vector<ExtremeOf> motor_extremes_of(const Model& model);
 // Those that a run can yield: names and units.
 std::vector<Figure> motor_figure_list(const Model& model);
 

@@ -42,9 +42,10 @@ double WorkPeriod::residual() const {
   return energy - sum;
 }
 
-std::optional<double> WorkPeriod::efficiency() const {
-  if (!(work[0] > 0) || !(work[1] < 0)) return {};
-  return -work[1] / work[0];
+std::optional<double> efficiency_of(double driving, double useful, double weight, double energy) {
+  const double spent = driving + weight - energy;
+  if (!(spent > 0) || !(useful < 0)) return {};
+  return -useful / spent;
 }
 
 std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, const std::vector<CycleRecord>& cycles,

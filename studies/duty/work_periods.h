@@ -12,13 +12,18 @@
 
 namespace kurbel {
 
+// Useful work over what was spent on it and on losses: driving work, that of weights, and what stored energy gave. So it is
+// at most 1 while harmful works take, whether the period closes or not; none where nothing useful was done.
+//     η = −A_u/(A_d + A_w − ΔE)
+std::optional<double> efficiency_of(double driving, double useful, double weight, double energy);
+
 struct WorkPeriod {
-  const char* name = "";                     // "run_up", "steady_motion", "run_down"
-  double begin = 0, end = 0;                 // [s]
-  std::array<double, 4> work{};              // by Account: driving, useful, harmful, weight [J]
-  double energy = 0;                         // ΔE, of kinetic and stored energy as they are at both ends [J]
-  double residual() const;                   // ΔE less all works: what the balance leaves open [J]
-  std::optional<double> efficiency() const;  // −A_useful/A_driving, where both have their usual signs
+  const char* name = "";         // "run_up", "steady_motion", "run_down"
+  double begin = 0, end = 0;     // [s]
+  std::array<double, 4> work{};  // by Account: driving, useful, harmful, weight [J]
+  double energy = 0;             // ΔE, of kinetic and stored energy as they are at both ends [J]
+  double residual() const;       // ΔE less all works: what the balance leaves open [J]
+  std::optional<double> efficiency() const { return efficiency_of(work[0], work[1], work[3], energy); }
 };
 
 // Kinetic and stored energy at begin and end of a run, and its works by account.

@@ -51,8 +51,8 @@ struct Periods {
   double steady_speed = 0;                                  // of steady motion only [rad/s]
   bool steady = false;                                      // what remains to the mid speed's limit is below 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; nothing: none is in sight
-  bool without_limit = false;                               // the speed goes on changing, by no less from cycle to cycle
-  std::string verdict;                                      // why steady, or why not, in words
+  bool without_limit = false;  // the speed goes on changing, by no less from cycle to cycle
+  std::string verdict;         // why steady, or why not, in words
 };
 
 struct EnergyBalance {
@@ -60,6 +60,7 @@ struct EnergyBalance {
   std::map<std::string, double> by_account;  // per component [J]
   double kinetic_start = 0, kinetic_end = 0, stored_start = 0, stored_end = 0, residual = 0, relative = 0;
   double reduction_residual = 0;  // kinetic energy of Simbody's bodies against that from I_r, relative
+  double free_bodies = 0;         // torque of a joint by its one side against that by its other (theory 5.18), relative
   int checks = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/numerics/index.h"
@@ -200,15 +201,11 @@ class Figures {
     add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
     add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
-    double driving = 0, useful = 0;
-    for (const Account kind : {Account::driving, Account::useful, Account::harmful}) {
-      double sum = 0;
-      for (std::size_t k = 0; k < last->work.size(); ++k)
-        if (model_.accounts[k].kind == kind) sum += last->work[k];
-      add(work_per_cycle_of(kind), "", sum, "J", energy_scale(), last->end);
-      if (kind == Account::driving) driving = sum;
-      if (kind == Account::useful) useful = sum;
-    }
+    std::array<double, 4> sum{};  // by account
+    for (std::size_t k = 0; k < last->work.size(); ++k)
+      sum[static_cast<std::size_t>(model_.accounts[k].kind)] += last->work[k];
+    for (const Account kind : {Account::driving, Account::useful, Account::harmful})
+      add(work_per_cycle_of(kind), "", sum[static_cast<std::size_t>(kind)], "J", energy_scale(), last->end);
     for (std::size_t k = 0; k < last->work.size(); ++k)
       if (const std::string mechanism = mechanism_loaded_by(model_.accounts[k]); !mechanism.empty())
         add_loop(mechanism, last->work[k], *last);
@@ -217,8 +214,9 @@ class Figures {
       run_.figures.back().exact = true;
     }
     if (repeats) collect_flywheels(*last);
-    if (repeats && driving > 0 && useful < 0)
-      add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1, last->end);
+    if (!repeats || !(sum[0] > 0)) return;
+    if (const auto efficiency = efficiency_of(sum[0], sum[1], sum[3], last->energy_after - last->energy_before))
+      add(Name{QuantityKind::other, "", "machine_efficiency"}, *efficiency, "", 1, last->end);
   }
   void add_loop(const std::string& mechanism, double work, const CycleRecord& c) {
     const double time = c.end - c.begin;
@@ -282,6 +280,7 @@ class Figures {
     std::vector<double> work;  // up to the end, of an incomplete run too
     for (std::size_t k = 0; k < model_.accounts.size(); ++k)
       work.push_back(run_.outcome.state[equations_.work_index(k)]);
+    const std::vector<Figure> known = run_.figures;
     for (Figure& f : motor_figures({.equations = equations_,
                      .y = run_.outcome.state,
                      .work = work,
@@ -292,6 +291,7 @@ class Figures {
                      .currents = run_.currents.get(),
                      .end = run_.outcome.t,
                      .steady = run_.periods.steady && !run_.periods.run_down_begin,
+                     .known = &known,
                      .after_run_up = after_run_up()}))
       run_.figures.push_back(std::move(f));
   }
@@ -361,6 +361,7 @@ EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit) {
   e.residual = audit.largest_residual;
   e.relative = audit.relative();
   e.reduction_residual = audit.reduction_residual;
+  e.free_bodies = audit.open_body.part;
   e.checks = audit.checked;
   return e;
 }

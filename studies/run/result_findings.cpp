@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -170,6 +171,7 @@ Record energy_record(const EnergyBalance& e) {
           {"residual", e.residual},
           {"relative", e.relative},
           {"bodies_against_reduced", e.reduction_residual},
+          {"free_bodies", e.free_bodies},
           {"check_points", e.checks},
           {"unit", "J"}};
 }
@@ -291,18 +293,17 @@ void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
     std::string name = p.name;
     std::replace(name.begin(), name.end(), '_', ' ');
     std::vector<std::string> line = {name, read_as(p.begin), read_as(p.end)};
-    double open = 0, driving = 0, useful = 0;
-    for (const char* kind : {"driving", "useful", "harmful", "weight", "energy"}) {
-      const Figure* figure = r.find(words + "." + kind);
+    WorkPeriod told = p;
+    for (std::size_t i = 0; i < 5; ++i) {
+      constexpr std::array kinds = {"driving", "useful", "harmful", "weight", "energy"};
+      const Figure* figure = r.find(words + "." + kinds[i]);
       if (!figure) return;
       line.push_back(figure_text(figure->value, figure->error).value);
-      const bool is_energy = std::string_view(kind) == "energy";
-      open += is_energy ? figure->value : -figure->value;
-      if (std::string_view(kind) == "driving") driving = figure->value;
-      if (std::string_view(kind) == "useful") useful = figure->value;
+      (i < told.work.size() ? told.work[i] : told.energy) = figure->value;
     }
-    line.push_back(fmt::format("{:.1e}", open));
-    line.push_back(driving > 0 && useful < 0 ? fmt::format("{:.4g} %", -100 * useful / driving) : "—");
+    line.push_back(fmt::format("{:.1e}", told.residual()));
+    const std::optional<double> efficiency = told.efficiency();
+    line.push_back(efficiency ? fmt::format("{:.4g} %", 100 * *efficiency) : "—");
     lines.push_back(std::move(line));
   }
   if (lines.empty()) return;

@@ -129,7 +129,8 @@ std::vector<std::string> balance_words(const Result& r) {
     lines.push_back("  work:" + works);
     lines.push_back(
         "  " + told(e) +
-        (e.reduction_residual > 0 ? fmt::format("; bodies against reduced inertia {:.1e}", e.reduction_residual) : ""));
+        (e.reduction_residual > 0 ? fmt::format("; bodies against reduced inertia {:.1e}", e.reduction_residual) : "") +
+        (e.free_bodies > 0 ? fmt::format("; torques of joints by both sides {:.1e}", e.free_bodies) : ""));
   }
   if (r.errors_measured)
     lines.push_back(fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}", r.accuracy, r.measured_accuracy,

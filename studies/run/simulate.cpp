@@ -17,6 +17,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/motion_answers.h"
 #include "studies/duty/holding.h"
+#include "studies/duty/motor_figures.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
@@ -113,11 +114,11 @@ class Simulation {
   }
   bool ladder_agrees() const {
     return coarse_ && error_by(coarse_.get(), nullptr) <= settings_.accuracy &&
-           fine_->energy->relative() <= settings_.accuracy;
+           fine_->energy->closes(settings_.accuracy);
   }
   bool confirmed() const {
     return coarse_ && elsewhere_ && error_by(coarse_.get(), elsewhere_.get()) <= settings_.accuracy &&
-           fine_->energy->relative() <= settings_.accuracy;
+           fine_->energy->closes(settings_.accuracy);
   }
   bool interrupted() const { return options_.watch.stopped(); }
 
@@ -210,7 +211,7 @@ class Simulation {
       return;
     }
     const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
-                 of_energy = fine_->energy->relative();
+                 of_energy = fine_->energy->largest(settings_.accuracy);
     measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
     if (coarse_)
       add_event_errors(fine_->outcome.events, coarse_->outcome.events, weight_of_coarse_, result_.event_errors);
@@ -225,9 +226,9 @@ class Simulation {
   }
   void note_unconfirmed(double of_energy) {
     if (coarse_ && elsewhere_)
-      result_.notes.push_back(fmt::format("accuracy {:.1e} was asked for, {:.1e} was reached{}", settings_.accuracy,
-                                          result_.measured_accuracy,
-                                          result_.measured_accuracy == of_energy ? " in the energy balance" : ""));
+      result_.notes.push_back(fmt::format(
+          "accuracy {:.1e} was asked for, {:.1e} was reached{}", settings_.accuracy, result_.measured_accuracy,
+          result_.measured_accuracy == of_energy ? fine_->energy->where(of_energy) : ""));
     result_.notes.push_back(unconfirmed_.empty() ? "the tolerances cannot be tightened further"
                             : !elsewhere_        ? unconfirmed_ + "; errors are by the run before it"
                             : !coarse_           ? unconfirmed_ + "; errors are by a run by another method"
@@ -241,9 +242,8 @@ class Simulation {
     run->trajectory =
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
     std::vector<ExtremeOf> extremes = extremes_of(model);
-    for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
-    for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
-    for (ExtremeOf& held : held_torques_of(model)) extremes.push_back(std::move(held));
+    for (const auto more : {motor_extremes_of, rim_speeds_of, shaft_torques_of, held_torques_of})
+      for (ExtremeOf& extreme : more(model)) extremes.push_back(std::move(extreme));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "engine/numerics/index.h"
@@ -16,16 +17,8 @@
 namespace kurbel {
 namespace {
 
-// Elements of one component that drive together.
-struct Drive {
-  std::string component;
-  std::vector<std::size_t> elements;
-  double torque(const Snapshot& s) const {
-    double sum = 0;
-    for (const std::size_t e : elements) sum += s.sums.element_torque[e];
-    return sum;
-  }
-};
+// Elements of one component that drive together, rated or not, and what turns shafts at a given speed.
+using Drive = MotorTorque;
 
 std::vector<Drive> drives_of(const Model& model) {
   std::vector<Drive> drives;
@@ -37,9 +30,11 @@ std::vector<Drive> drives_of(const Model& model) {
     if (known != drives.end()) {
       known->elements.push_back(e);
     } else {
-      drives.push_back({element.component, {e}});
+      drives.push_back({.component = element.component, .elements = {e}, .node = element.node});
     }
   }
+  std::copy_if(model.motors.begin(), model.motors.end(), std::back_inserter(drives),
+               [](const MotorTorque& motor) { return motor.prescribed; });
   return drives;
 }
 
@@ -78,8 +73,7 @@ class DriveQuadratures final : public RunExtension {
     ErrorControl control = equations_.error_control(tolerance);
     const Model& m = equations_.model();
     for (const Drive& drive : drives_) {
-      const int node = m.network.elements[drive.elements.front()].node;
-      const double torque = m.torque_scale / m.scale_ratio[at(node)];
+      const double torque = m.torque_scale / m.scale_ratio[at(drive.node)];
       control.scale.push_back(torque / m.speed_scale);  // per radian of the link
       control.scale.push_back(torque * torque / m.speed_scale);
     }

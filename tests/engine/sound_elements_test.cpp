@@ -105,6 +105,7 @@ struct Hooke : SpringOfMotion {
   }
   double rest_twist(double) const { return 0; }
   double rest_ratio(double) const { return 1; }
+  double rest_ratio_slope(double) const { return 0; }
 };
 static_assert(SoundConnection<Hooke>);
 
@@ -130,6 +131,7 @@ struct MisspeltRestRatio : SpringOfMotion {
   }
   double rest_twist(double) const { return 0; }
   double rest_ration(double) const { return 1; }
+  double rest_ratio_slope(double) const { return 0; }
 };
 static_assert(!SoundConnection<MisspeltRestRatio>);
 

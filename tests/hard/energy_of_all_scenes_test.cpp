@@ -25,6 +25,7 @@ TEST_P(EnergyBalance, ClosesWithinTheAccuracyAskedFor) {
   EXPECT_GT(r.energy.checks, 10);
   EXPECT_LE(r.energy.relative, scene.run.accuracy);
   EXPECT_LE(r.energy.reduction_residual, 1e-11);
+  EXPECT_LE(r.energy.free_bodies, 1e-9);
 }
 
 TEST_P(EnergyBalance, ClosesForTheRigidMachineToo) {
@@ -32,6 +33,7 @@ TEST_P(EnergyBalance, ClosesForTheRigidMachineToo) {
   const Result r = simulate(scene, {}, "rigid", {});
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_LE(r.energy.relative, scene.run.accuracy);
+  EXPECT_LE(r.energy.free_bodies, 1e-9);
 }
 
 // A blow of 20 µs falls into two steps at any tolerance, so that runs agree in the work that they get wrong

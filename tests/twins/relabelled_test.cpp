@@ -101,8 +101,8 @@ std::string with_old_names(std::string json, const std::map<std::string, std::st
 // What depends on rounding or on how long it took.
 bool is_noise(const std::string& key) {
   for (const char* noise :
-       {"statistics", "residual", "relative", "bodies_against_reduced", "scene", "scene_text", "explanation",
-        "torque_left_over", "accuracy", "captured_of_mean_square", "error", "errors"})
+       {"statistics", "residual", "relative", "bodies_against_reduced", "free_bodies", "scene", "scene_text",
+        "explanation", "torque_left_over", "accuracy", "captured_of_mean_square", "error", "errors"})
     if (key == noise) return true;
   return key.starts_with("cpu");
 }
