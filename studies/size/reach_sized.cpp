@@ -38,7 +38,8 @@ class Reach {
   static SizedRegimes::Parts parts(const Sizing& s, const SizeOptions& options) {
     SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, options.at};
     constexpr int few_rounds = 40;
-    if (s.basis == SizeBasis::classical && !s.operating) parts.most_rounds = few_rounds;
+    if ((s.basis == SizeBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
+    if (s.held) parts.held = s.mid_speed;
     return parts;
   }
 
