@@ -70,16 +70,16 @@ std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncert
 }
 
 // To first order: a run that is nearer to the point says more.
-bool hold_member(const ReturnMap& map, SteadyPoint& point) {
+bool is_member_of_run(const ReturnMap& map, SteadyPoint& point) {
   constexpr double same_member = 1e-10;  // of the rated values
   const Eigen::Index n = point.z.size();
   if (n == 0) return true;
   const std::optional<Family> family =
       family_of(point.derivative - Eigen::MatrixXd::Identity(n, n), point.multiplier_error);
   if (!family) return true;
-  if (std::abs(family->quantity.dot(point.z)) * family->tangent.cwiseAbs().maxCoeff() > same_member) return false;
-  point.to_come = family->tangent * family->quantity.dot(loosely_reached(map));
-  return true;
+  const double beside = std::abs(family->quantity.dot(point.z));
+  point.to_come = family->tangent * (beside + std::abs(family->quantity.dot(loosely_reached(map))));
+  return beside * family->tangent.cwiseAbs().maxCoeff() <= same_member;
 }
 
 }  // namespace kurbel

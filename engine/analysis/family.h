@@ -22,9 +22,9 @@ std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncert
 NewtonOutcome solve_in_family(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough,
                               std::function<double()> uncertain);
 
-// A fixed point of a family is the one that the section's run belongs to; to_come of the point then says by how much a run
-// with looser steps comes to another. False where the point is too far from the section's state to tell.
-bool hold_member(const ReturnMap& map, SteadyPoint& point);
+// Whether a fixed point of a family is the member that the section's run belongs to. to_come of the point then says by how
+// much it may be another: what is left to the run's own, and what a run with looser steps comes to.
+bool is_member_of_run(const ReturnMap& map, SteadyPoint& point);
 
 // What is said of a search whose last trial had no residual: `why` tells of that trial, not of the machine.
 std::string trial_ended(const NewtonOutcome& search, const std::string& why);

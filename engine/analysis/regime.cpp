@@ -343,7 +343,8 @@ class Search {
 
   // Of a family, the run tells which member is meant: what the motion keeps, it has from the start on.
   bool keeps_its_member(const ReturnMap& map, SteadyPoint& point) {
-    if (!point.neutral() || hold_member(map, point)) return true;
+    constexpr int patient = 64;  // rounds: what does not fade does not come nearer either
+    if (!point.neutral() || is_member_of_run(map, point) || settled_rounds_ >= patient) return true;
     why_not_ = "the motion is one of a family, and the run is still too far from it to tell which";
     return false;
   }

@@ -100,7 +100,7 @@ class Reach {
     options_.simulation.watch.at(name + ", " + sized_by, 0);
     const SizedRegime regime = regimes_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
     if (!regime.found) {
-      if (s_.operating || s_.basis == SizeBasis::regime) {
+      if (s_.operating || (s_.basis == SizeBasis::regime && !s_.held)) {
         s_.complete = false;
         s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, regime.why);
       } else {

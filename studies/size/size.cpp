@@ -226,8 +226,7 @@ class Sizer {
     start_speed_ = found.sense * found.speed.value(0);
   }
   // The mid speed that is given, kept by a torque beside the drive, with as much inertia as that takes.
-  Regime hold(double mid_speed, const std::string& as_it_is, double& tried) {
-    Regime none;
+  Regime hold(double mid_speed, const std::string& as_it_is, double& tried) try {
     tried = s_.flywheel_now;
     for (int k = 0; k < 3; ++k, tried = std::max(10 * tried, 10 * others())) {
       HeldRegime held = held_regime(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, mid_speed,
@@ -240,7 +239,9 @@ class Sizer {
                                      held.added_torque < 0 ? "less" : "more", held.added_at));
       return std::move(held.regime);
     }
-    return none;
+    return {};
+  } catch (const std::invalid_argument&) {  // time drives it
+    return {};
   }
   // At a mid speed that is given the rigid machine may still tell torques.
   void without_a_cycle(const std::string& why) {
