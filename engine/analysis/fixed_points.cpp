@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/analysis/family.h"
 #include "engine/analysis/return_map.h"
 #include "engine/matrices/linear_algebra.h"
 
@@ -67,7 +68,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
   system.derivative_cost = map.derivative_cost();
   system.magnitude = std::max(system.magnitude, map.section().magnitude());
   system.run_on = true;
-  const NewtonOutcome newton = solve(system, guess, enough);
+  const NewtonOutcome newton = solve_in_family(system, guess, enough, [&] { return image.uncertain; });
   out.rounds = newton.rounds;
   out.derivatives = newton.derivatives;
   out.residual = newton.residual;
@@ -76,7 +77,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
   if (newton.found) {
     out.take(newton.x, image);
   } else if (image.end != ReturnMap::End::returned) {
-    out.why = image.why;
+    out.why = trial_ended(newton, image.why);
   } else {
     out.end = ReturnMap::End::failed;
     out.why =

@@ -1,5 +1,5 @@
 // newton.cpp — steps that are halved until they pay, a derivative that is kept while it serves.
-#include "engine/analysis/newton.h"
+#include "engine/analysis/family.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,9 @@ constexpr double residual_floor = 30;  // times the residual asked for may be le
 
 class Newton {
  public:
-  Newton(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough)
-      : system_(system), x_(guess), enough_(enough) {}
+  Newton(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough,
+         std::function<double()> uncertain = {})
+      : system_(system), uncertain_(std::move(uncertain)), x_(guess), enough_(enough) {}
 
   NewtonOutcome run() {
     if (evaluate(x_, true)) iterate();
@@ -36,17 +37,38 @@ class Newton {
     Eigen::MatrixXd derivative;
     valid_ = system_.evaluate(x, residual_, with_derivative ? &derivative : nullptr);
     if (!valid_) return false;
-    norm_ = residual_.cwiseAbs().maxCoeff();
+    out_.residual = norm_ = residual_.cwiseAbs().maxCoeff();
     if (with_derivative) {
       at_ = x;
-      solver_ = Lu(derivative);
+      factorise(derivative);
     }
     return true;
   }
 
+  // Where r knows a family and does not leave its member, the member is kept: [A q; qᵀ 0].
+  void factorise(const Eigen::MatrixXd& derivative) {
+    const Eigen::Index n = derivative.rows();
+    const std::optional<Family> family = uncertain_ ? family_of(derivative, uncertain_()) : std::optional<Family>();
+    kept_ = family && std::abs(family->quantity.dot(residual_)) <= std::max(enough_, norm_ * norm_);
+    if (!kept_) {
+      solver_ = Lu(derivative);
+      return;
+    }
+    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    bordered.topLeftCorner(n, n) = derivative;
+    bordered.col(n).head(n) = bordered.row(n).head(n) = family->quantity;
+    solver_ = Lu(bordered);
+  }
+  Eigen::VectorXd correction(const Eigen::VectorXd& residual) const {
+    if (!kept_) return solver_.solve(residual);
+    Eigen::VectorXd bordered = Eigen::VectorXd::Zero(residual.size() + 1);
+    bordered.head(residual.size()) = residual;
+    return solver_.solve(bordered).head(residual.size());
+  }
+
   void iterate() {
     while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
-      const Progress progress = advance(-solver_.solve(residual_));
+      const Progress progress = advance(-correction(residual_));
       if (progress == Progress::ended) return;
       if (progress == Progress::floor) break;
     }
@@ -77,7 +99,7 @@ class Newton {
     for (double part = 1; part > 0.02; part *= 0.5) {
       const Eigen::VectorXd trial = from + part * step;
       if (evaluate(trial, false)) {
-        const double contraction = solver_.solve(residual_).cwiseAbs().maxCoeff() / length;
+        const double contraction = correction(residual_).cwiseAbs().maxCoeff() / length;
         if (contraction < 1 - 0.25 * part * taken) {
           x_ = trial;
           if (norm_ <= enough_ || keep_derivative(contraction)) return Progress::made;
@@ -108,7 +130,7 @@ class Newton {
   // The derivative at the solution itself, for the multipliers; a trial elsewhere may have come last.
   void finish() {
     if (at_ != x_) {
-      x_ += limited(-solver_.solve(residual_));
+      x_ += limited(-correction(residual_));
       if (!evaluate(x_, true)) return;
     } else if (!last_with_derivative_ || last_ != x_) {
       if (!evaluate(x_, true)) return;
@@ -119,18 +141,24 @@ class Newton {
   }
 
   const NewtonSystem& system_;
+  std::function<double()> uncertain_;  // entries of the derivative; empty: no family is looked for
   Eigen::VectorXd x_, at_, residual_, last_;
   Lu solver_;
   NewtonOutcome out_;
   double enough_, norm_ = 0;
   int run_on_ = 0;
-  bool valid_ = false, last_with_derivative_ = false;
+  bool valid_ = false, last_with_derivative_ = false, kept_ = false;
 };
 
 }  // namespace
 
 NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough) {
   return Newton(system, guess, enough).run();
+}
+
+NewtonOutcome solve_in_family(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough,
+                              std::function<double()> uncertain) {
+  return Newton(system, guess, enough, std::move(uncertain)).run();
 }
 
 }  // namespace kurbel

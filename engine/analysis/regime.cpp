@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/analysis/family.h"
 #include "engine/analysis/sequence_ahead.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -220,7 +221,16 @@ class Search {
     return now > 0 && std::abs(now - before) <= as_before * now;
   }
   std::string at_rest() {
-    return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", state_.t));
+    return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rested_at()));
+  }
+  // When the last shaft stopped, where all are held; else by when nothing moves any more: a round is long beside that.
+  double rested_at() const {
+    for (std::size_t s = 0; s < m_.free_shafts; ++s)
+      if (!equations_.at_standstill(s)) return state_.t;
+    double last = 0;
+    for (const Event& e : events_)
+      if (e.kind == EventKind::rest) last = std::max(last, e.t);
+    return last > 0 ? last : state_.t;
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
@@ -347,15 +357,23 @@ class Search {
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
     state_ = map->section().state();
-    const SteadyPoint point = find_steady(*map, way.z, enough);
+    SteadyPoint point = find_steady(*map, way.z, enough);
     spend(*map);
     if (point.end == ReturnMap::End::interrupted) return end(Regime::Kind::interrupted, "interrupted");
     if (!point.found) {
       why_not_ = point.why;
       return;
     }
-    if (!was_on_its_way(point) || sequence_goes_on(*map, point.z)) return;
+    if (!was_on_its_way(point) || sequence_goes_on(*map, point.z) || !keeps_its_member(*map, point)) return;
     accept(map, point);
+  }
+
+  // Of a family, the run tells which member is meant: what the motion keeps, it has from the start on.
+  bool keeps_its_member(const ReturnMap& map, SteadyPoint& point) {
+    constexpr int patient = 64;  // rounds: what does not fade does not come nearer either
+    if (!point.neutral() || is_member_of_run(map, point) || settled_rounds_ >= patient) return true;
+    why_not_ = "the motion is one of a family, and the run is still too far from it to tell which";
+    return false;
   }
   void spend(const ReturnMap& map) { out_.cost += map.cost(); }
 
@@ -450,26 +468,6 @@ class Search {
 };
 
 }  // namespace
-
-const char* name_of(Regime::Kind kind) {
-  switch (kind) {
-    case Regime::Kind::equilibrium:
-      return "equilibrium";
-    case Regime::Kind::cycle:
-      return "cycle";
-    case Regime::Kind::at_rest:
-      return "at rest";
-    case Regime::Kind::runaway:
-      return "running away";
-    case Regime::Kind::drifting:
-      return "drifting";
-    case Regime::Kind::interrupted:
-      return "interrupted";
-    case Regime::Kind::failed:
-      break;
-  }
-  return "failed";
-}
 
 Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options) {
   return Search(std::move(model), options).run();

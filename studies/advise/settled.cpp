@@ -40,7 +40,7 @@ Settled settled(const Scene& scene, const Effects& effects, const Watch& watch) 
   options.start_search = false;
   options.watch.interrupted = watch.interrupted;
   try {
-    SteadyCycle cycle = search_cycle(scene, effects, SteadyStudy{}, options);
+    SteadyCycle cycle = search_cycle(scene, effects, options);
     found.result.figures = std::move(cycle.figures);
     found.result.tolerance = 1e-10;  // of the looser search
     if (!cycle.found) found.why = cycle.why;

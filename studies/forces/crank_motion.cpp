@@ -198,12 +198,13 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
   for (const double edge : edges)
     for (const double phi : {edge - beside, edge + beside}) {
       const double within = phi < 0 ? phi + cycle : phi > cycle ? phi - cycle : phi;
-      if (within > 0 && within < cycle) all.push_back({.phi = within});
+      if (within > 0 && within < cycle) all.push_back({.phi = within, .side = phi < edge ? -direction : direction});
     }
   for (Abscissa& a : all)
     if (a.grid || a.row)
       for (const double edge : edges)
-        if (std::abs(std::remainder(a.phi - edge, cycle)) < 0.5 * beside) a.aside = 0.5 * direction * beside;
+        if (std::abs(std::remainder(a.phi - edge, cycle)) < 0.5 * beside)
+          a.aside = 0.5 * direction * beside, a.side = 1;
   std::stable_sort(all.begin(), all.end(), [](const Abscissa& a, const Abscissa& b) { return a.phi < b.phi; });
   return all;
 }

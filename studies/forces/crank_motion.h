@@ -73,6 +73,7 @@ struct Abscissa {
   bool grid = false;  // one of the even positions that curves and orders are made of
   bool row = false;   // one of the positions asked for; alone, it takes no part in anything else
   double aside = 0;   // where it is an edge: looked at just after it [rad]
+  int side = 0;       // of an edge, in the order of the motion: just before it (−1), just after it (1)
   double place() const { return phi + aside; }
 };
 // The same for any number of rows: an even grid, Gauss' three points between its points and the load edges, a point on

@@ -129,7 +129,7 @@ void CycleBuilder::call_rounding_zero() {
   const double torque = force * (statics_.data().radius + statics_.data().rod_length);
   const auto clean = [](Peak& p, double scale) {
     if (std::abs(p.value) <= rounding * scale) p = {};
-    p.error = p.error.value_or(0) + rounding * scale;
+    p.error = p.error.value_or(0) + rounding * scale, p.scale = scale;
   };
   for (Peak& p : cycle_.reaction) clean(p, force);
   clean(cycle_.shaking_force, force);

@@ -83,6 +83,7 @@ struct Peak {
   double value = 0;
   double phi = 0;               // [rad]
   std::optional<double> error;  // theory 9.13
+  double scale = 0;             // of the forces or moments that it is the sum of: what it is rounded by
   bool unbounded = false;       // it grows without bound; the value is that a thousandth of the way beside the place
   double told() const { return unbounded ? HUGE_VAL : value; }
 };

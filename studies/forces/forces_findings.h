@@ -14,6 +14,7 @@ Findings findings_of(const LinkageStudy& study);
 // Peaks in words: "90.0°", "10.45 kN"; for tables with the error, or "no bound".
 double degrees(double angle);
 std::string at_angle(const Peak& p);
+// None at all, as far as rounding tells. What an error hides that is more than that is not known to be nothing.
 bool is_nothing(const Peak& p);
 std::string in_words(const Peak& p, const std::string& si_unit);
 std::string peak_text(const Peak& p, double factor = 1);

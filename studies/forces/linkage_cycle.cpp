@@ -64,6 +64,7 @@ class Builder {
     Peak found = measured_peak_of(
         phi_, values, [&](double x) { return value(at(x, motion_between(motion_, x))); }, scale);
     if (std::abs(found.value) <= rounding_of_forces * scale) found = {0, 0, rounding_of_forces * scale};
+    found.scale = scale;
     return found;
   }
   // Of positions that are even over the cycle: all of them, and every other one.

@@ -15,9 +15,15 @@ namespace kurbel {
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
-bool is_nothing(const Peak& p) { return std::abs(p.value) <= p.error.value_or(0); }
+bool is_nothing(const Peak& p) {
+  constexpr double negligible = 1e-6;
+  return std::abs(p.value) <= p.error.value_or(0) && p.error.value_or(0) <= negligible * p.scale;
+}
 std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
+  const double error = p.error.value_or(0);
+  if (std::abs(p.value) <= error && !is_nothing(p))  // not told from zero: the number alone would say too much
+    return with_error(unit.factor * p.value, unit.factor * error, unit.unit);
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
 std::string peak_text(const Peak& p, double factor) {

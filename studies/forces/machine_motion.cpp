@@ -22,13 +22,20 @@ constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
 constexpr int most_turns = 64;           // of the crank until everything comes again
 constexpr int rounds_undriven = 40;      // what nothing drives comes to rest, or has come again long before
 constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
+constexpr double near_edge = 1e-7;       // of the crank: a run meets an edge this near to where its law has it [rad]
 
-// Motion and forces of the crank when it comes past given angles.
+// Motion and forces of the crank when it comes past given angles. What stands on one side of an edge is looked at on that
+// side of the machine's event, wherever within its tolerances the run meets it: laws and motion change there together.
 class PassageRecorder final : public Observer {
  public:
-  PassageRecorder(std::size_t tracked, int node, const DeformedMechanism& forces, std::vector<double> targets,
-                  int direction)
-      : tracked_(tracked), node_(node), forces_(forces), targets_(std::move(targets)), direction_(direction) {}
+  PassageRecorder(std::size_t tracked, int node, const DeformedMechanism& forces, const std::vector<Abscissa>& where,
+                  std::vector<double> targets, int direction)
+      : tracked_(tracked),
+        node_(node),
+        forces_(forces),
+        where_(where),
+        targets_(std::move(targets)),
+        direction_(direction) {}
   void step(StepView& view) override {
     Equations& equations = view.equations();
     const Model& m = equations.model();
@@ -41,10 +48,11 @@ class PassageRecorder final : public Observer {
     const double from = view.t_previous();
     while (passed.size() < targets_.size()) {
       Deadline::check();
-      const double at_end = beyond(view.t());
-      if (at_end < 0) return;
-      const double at_begin = beyond(from);
-      const double time = at_begin < 0 ? find_root(beyond, from, at_begin, view.t(), at_end) : from;
+      const double at_end = beyond(view.t()), at_begin = beyond(from);
+      if (at_end < where_[passed.size()].side * near_edge) return;
+      const double time = at_begin >= 0 ? from
+                          : at_end < 0  ? view.t()
+                                        : find_root(beyond, from, at_begin, view.t(), at_end);
       const Snapshot& s = view.snapshot(time);
       passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft], acting_loads(m, forces_.element(), s.now)});
       machine.push_back(forces_.at(s));
@@ -57,6 +65,7 @@ class PassageRecorder final : public Observer {
   std::size_t tracked_;
   int node_;
   const DeformedMechanism& forces_;
+  const std::vector<Abscissa>& where_;
   std::vector<double> targets_;
   int direction_;
 };
@@ -198,8 +207,6 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
     const SteadyPoint other = find_looser(loose, regime.point, enough);
     motion.others.push_back(
         {along_round(loads, loose, other.found ? other.z : regime.point.z, looser_tolerance).along, 1});
-    // A member of a family is the one that the run came to, as accurately as it ran.
-    if (regime.point.neutral()) motion.others.push_back({sped_up(tight.along, 1e-9 * regime.rounds), 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(regime.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
     motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
@@ -277,7 +284,7 @@ MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const Retu
   run.stop = [&, last](double, std::span<const double> now) {
     return std::min(1.0, 1e-3 + direction * (last - equations.angle_with_turns(crank_.tracked, now)));
   };
-  PassageRecorder passages(crank_.tracked, crank_.node, forces_, std::move(targets), direction);
+  PassageRecorder passages(crank_.tracked, crank_.node, forces_, where, std::move(targets), direction);
   const RunOutcome outcome = integrate(equations, run, {&passages});
   if (passages.passed.size() != where.size())
     throw std::invalid_argument(outcome.diagnosis.empty() ? "the round ended before the crank's cycle"
@@ -324,7 +331,7 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
   out.along.cycle = cycle;
   out.along.where = where;
   std::vector<double> targets = targets_of(where, origin);
-  PassageRecorder passages(crank_.tracked, crank_.node, forces_, std::move(targets), direction);
+  PassageRecorder passages(crank_.tracked, crank_.node, forces_, where, std::move(targets), direction);
   Equations equations(model_, false);
   integrate(equations, run_options(tolerance), {&passages});
   if (passages.passed.size() != where.size())
@@ -366,7 +373,8 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
     out.diagnosis = outcome.diagnosis;
   }
   const int direction = end_angle >= begin_angle ? 1 : -1;
-  const double last = direction > 0 ? std::floor((end_angle - 1e-9) / cycle) : std::ceil((end_angle + 1e-9) / cycle);
+  const double last =
+      direction > 0 ? std::floor((end_angle - 2 * near_edge) / cycle) : std::ceil((end_angle + 2 * near_edge) / cycle);
   const double first = last - direction;
   if (direction * (first * cycle - begin_angle) < -1e-9) {
     out.notes.push_back(fmt::format(

@@ -146,7 +146,11 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
 // The same with tolerances 100 × looser, the fixed point found anew where it is one by itself.
 SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>& joints) {
   const bool neutral = std::abs(regime.point.largest() - 1) < neutral_within;
-  if (!regime.polished || neutral) return follow(*regime.map, regime.point, joints, loose);
+  if (!regime.polished || neutral) {
+    SteadyPoint point = regime.point;
+    if (neutral && point.to_come.size() > 0) point.z += point.to_come;  // the member that a looser run comes to
+    return follow(*regime.map, point, joints, loose);
+  }
   ReturnMapOptions options;
   options.tolerance = loose;
   ReturnMap map(regime.map->shared_model(), options);

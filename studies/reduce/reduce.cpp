@@ -66,6 +66,9 @@ class Reducer {
     if (machine_) {
       r_.cycle = machine_->cycle();
       choose_speed(*machine_, options_, r_);
+      if (!beyond_.empty() && !options_.speed && machine_->uses_speed())
+        r_.speed_source +=
+            fmt::format("; an estimate: {} left out", all_of(beyond_) + (beyond_.size() == 1 ? " is" : " are"));
     } else {
       find_cycle();
     }
@@ -302,12 +305,22 @@ class Reducer {
       s.harmonics[n].error =
           std::abs(s.harmonics[n].amplitude - looser.harmonics[n].amplitude) + rounding * std::sqrt(s.mean_square);
   }
-  // Within pieces: at an edge either may be a hair late.
+  // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {
+    const double hair = 1e-6 * looser.length();
+    const std::vector<double>& breaks = looser.breaks();
     double most = rounding * f.largest();
     for (std::size_t i = 0; i < f.pieces(); ++i) {
-      const double x = 0.5 * (f.breaks()[i] + f.breaks()[i + 1]) * looser.end() / f.end();
-      most = std::max(most, std::abs(f.value_in(i, 0.5 * (f.breaks()[i] + f.breaks()[i + 1])) - looser.value(x)));
+      const double middle = 0.5 * (f.breaks()[i] + f.breaks()[i + 1]), x = middle * looser.end() / f.end();
+      const double here = f.value_in(i, middle);
+      double apart = std::abs(here - looser.value(x));
+      for (auto next = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, x - hair);; ++next) {
+        const double lo = *(next - 1), hi = *next;
+        if (lo > x + hair) break;
+        apart = std::min(apart, std::abs(here - looser.value_in(at(next - 1 - breaks.begin()), std::clamp(x, lo, hi))));
+        if (next + 1 == breaks.end()) break;
+      }
+      most = std::max(most, apart);
     }
     return most;
   }

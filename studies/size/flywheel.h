@@ -5,6 +5,7 @@
 //     ½ (I₀ + I_em) ω² = T₀ + ΔT(φ),   ΔT = A_d − A_c,   a = ½ ω_max²,  b = ½ ω_min²
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -104,11 +105,12 @@ class SpeedCycle {
 // --- punch presses: energy per stroke, time, speed range ---
 
 struct PunchPress {
-  double energy = 0;        // per stroke E [J], > 0
-  double cycle_time = 0;    // between strokes t_c [s], > 0
-  double working_time = 0;  // of a stroke t_w [s], 0 ≤ t_w ≤ t_c
+  double energy = 0;                // per stroke E [J], > 0
+  double cycle_time = 0;            // between strokes t_c [s], > 0
+  double working_time = 0;          // of a stroke t_w [s], 0 ≤ t_w ≤ t_c
+  std::optional<double> work = {};  // of the drive per stroke, with losses and further loads [J]; default: E
 
-  double power() const { return energy / cycle_time; }  // of the motor, running steadily [W]
+  double power() const { return work.value_or(energy) / cycle_time; }  // of the motor, running steadily [W]
   // The motor goes on while the tool works: ΔE = E (1 − t_w/t_c).
   double from_flywheel() const { return energy * (1 - working_time / cycle_time); }
 };

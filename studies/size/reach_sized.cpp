@@ -38,7 +38,8 @@ class Reach {
   static SizedRegimes::Parts parts(const Sizing& s, const SizeOptions& options) {
     SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, options.at};
     constexpr int few_rounds = 40;
-    if (s.basis == SizeBasis::classical && !s.operating) parts.most_rounds = few_rounds;
+    if ((s.basis == SizeBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
+    if (s.held) parts.held = s.mid_speed;
     return parts;
   }
 
@@ -99,7 +100,7 @@ class Reach {
     options_.simulation.watch.at(name + ", " + sized_by, 0);
     const SizedRegime regime = regimes_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
     if (!regime.found) {
-      if (s_.operating || s_.basis == SizeBasis::regime) {
+      if (s_.operating || (s_.basis == SizeBasis::regime && !s_.held)) {
         s_.complete = false;
         s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, regime.why);
       } else {

@@ -14,33 +14,13 @@
 #include "engine/scene/units.h"
 #include "studies/cycle/classical.h"
 #include "studies/size/reach_sized.h"
+#include "studies/steady/cycle_search.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double looser_sampling = 1e-9;
-
-// The component that is sized: the one named, else the scene's only flywheel; empty: one is put on the crank's shaft.
-std::string chosen_flywheel(const Scene& scene, const std::string& named) {
-  std::vector<std::string> bodies, flywheels;
-  for (const Section& s : scene.components) {
-    if (s.kind->name == "flywheel" || s.kind->name == "inertia") bodies.push_back(s.name);
-    if (s.kind->name == "flywheel") flywheels.push_back(s.name);
-  }
-  if (!named.empty()) {
-    if (std::count(bodies.begin(), bodies.end(), named)) return named;
-    throw std::invalid_argument(
-        fmt::format("--flywheel {}: no flywheel or inertia of the scene; {}", in_quotes(named),
-                    bodies.empty() ? "it has none: leave the option out, and one is put on the crank's shaft"
-                                   : "allowed: " + listed(bodies)));
-  }
-  if (flywheels.size() > 1)
-    throw std::invalid_argument(
-        fmt::format("the scene has several flywheels, {}; say which one is to be sized: --flywheel NAME",
-                    listed(flywheels, "and")));
-  return flywheels.empty() ? "" : flywheels.front();
-}
 
 class Sizer {
  public:
@@ -229,6 +209,7 @@ class Sizer {
                            options);
       Deadline::check();
     }
+    if (!regime.repeats() && options_.mid_speed && !options_.basis) regime = hold(*options_.mid_speed, as_it_is, tried);
     if (!regime.repeats()) return without_a_cycle(as_it_is);
     const RegimeCycle found = regime_cycle(regime);
     s_.cycle = found.cycle;
@@ -244,9 +225,27 @@ class Sizer {
     }
     start_speed_ = found.sense * found.speed.value(0);
   }
+  // The mid speed that is given, kept by a torque beside the drive, with as much inertia as that takes.
+  Regime hold(double mid_speed, const std::string& as_it_is, double& tried) try {
+    tried = s_.flywheel_now;
+    for (int k = 0; k < 3; ++k, tried = std::max(10 * tried, 10 * others())) {
+      HeldRegime held = held_regime(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, mid_speed,
+                                    options_.at, options_.simulation.watch);
+      Deadline::check();
+      if (!held.regime.repeats()) continue;
+      s_.held = true;
+      s_.notes.push_back(fmt::format("{}; the mid speed given is held by {} {} than the drive gives at \"{}\"",
+                                     as_it_is, with_unit(std::abs(held.added_torque), "N*m", 4),
+                                     held.added_torque < 0 ? "less" : "more", held.added_at));
+      return std::move(held.regime);
+    }
+    return {};
+  } catch (const std::invalid_argument&) {  // time drives it
+    return {};
+  }
   // At a mid speed that is given the rigid machine may still tell torques.
   void without_a_cycle(const std::string& why) {
-    const std::string text = fmt::format("there is no steady cycle to size a flywheel for: {}", why);
+    const std::string text = fmt::format("no steady cycle was found to size a flywheel for: {}", why);
     if (!options_.mid_speed || options_.basis) throw std::invalid_argument(text);
     try {
       machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
@@ -331,7 +330,8 @@ class Sizer {
                   method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mid_speed, s_.delta))};
     s_.delta_now = delta_of(constant_inertia_).value_or(std::nan(""));
     s_.needed = s_.methods.front().flywheel > 0;
-    if (looser_) measure_errors(balanced(*looser_), looser_->mechanism);
+    s_.estimate = s_.basis == SizeBasis::classical && !beyond_.empty();
+    if (looser_ && !s_.estimate) measure_errors(balanced(*looser_), looser_->mechanism);
   }
   // The same by torques that were sampled, or found, with looser tolerances.
   void measure_errors(const WorkDiagram& looser, const MechanismInertia& mechanism) {
@@ -358,7 +358,8 @@ class Sizer {
     const double exact = s_.methods.front().drive_inertia;
     s_.with_motor = steady(exact);
     if (!s_.with_motor->found)
-      s_.notes.push_back("with its torques as they are the sized machine has no steady cycle: " + s_.with_motor->why);
+      s_.notes.push_back("with its torques as they are no steady cycle of the sized machine was found: " +
+                         s_.with_motor->why);
     else if (s_.with_motor->multiplier > 1)
       s_.notes.push_back(fmt::format(
           "with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy grows to "
@@ -400,10 +401,12 @@ class Sizer {
       acting = std::max(acting, angle);
     }
     if (!(energy > 0) || acting >= 0.5 * s_.cycle.drive.length()) return;
-    s_.punch = PunchPress{energy, s_.cycle.drive.length() / s_.mid_speed, acting / s_.mid_speed};
+    s_.punch = PunchPress{energy, s_.cycle.drive.length() / s_.mid_speed, acting / s_.mid_speed, s_.diagram.work};
     s_.methods.push_back(
         method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
-    s_.methods.back().error = s_.methods[2].error;
+    // The stroke's energy alone, without what is lost on the way to the tool, is the classical estimate.
+    const bool lossless = std::abs(s_.diagram.work - energy) <= 1e-9 * energy;
+    if (lossless) s_.methods.back().error = s_.methods[2].error;
   }
 
   void find_dimensions() {

@@ -82,6 +82,8 @@ struct Sizing {
   MachineCycle cycle;
   WorkDiagram diagram;
   double fluctuation_error = 0;  // [J]
+  bool held = false;             // its mid speed, by a torque added to the drive: its own start leads to no cycle
+  bool estimate = false;         // what the rigid machine at constant speed leaves out is not counted: no error is told
   bool engine = false;           // the drive varies with the angle, the load is made to balance it
   Wittenbauer exact;
   Mertsalov approximate;

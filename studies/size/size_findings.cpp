@@ -32,12 +32,17 @@ std::string conclusion_of(const Sizing& s) {
         s.title, s.delta, s.reached.front().crank, s.meeting_words);
   if (!s.needed)
     return fmt::format(
-        "{}: no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title, s.delta,
+        "{}: {}no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title,
+        s.estimate ? "by an estimate, the rigid machine without its losses, " : "", s.delta,
         exact.drive_inertia > 0
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
             : std::string("its torques would not swing the speed as far with any inertia"));
-  std::string text = fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title, exact.flywheel,
-                                 s.flywheel, s.delta, basis_of(s));
+  std::string text = s.estimate ? fmt::format(
+                                      "{}: an estimate, by the rigid machine without its losses: a flywheel of "
+                                      "about {:.3g} kg·m² on {} for δ = {:g} {}",
+                                      s.title, exact.flywheel, s.flywheel, s.delta, basis_of(s))
+                                : fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title,
+                                              exact.flywheel, s.flywheel, s.delta, basis_of(s));
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
     text += s.soft->flywheel > 0 ? fmt::format("; with {} counted {:.6g} kg·m² do ({:.3g} % {})", slope_of_what(s),
@@ -320,11 +325,11 @@ void add_key_figures(Findings& f, const Sizing& s) {
         f.figures.push_back(
             {fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, "", 0, "delta_reached"});
     }
-  f.figures.push_back(
-      {"fluctuation of energy", s.diagram.fluctuation(), "J", s.fluctuation_error, "", 0, "fluctuation_of_energy"});
+  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J",
+                       s.estimate ? std::nullopt : std::optional(s.fluctuation_error), "", 0, "fluctuation_of_energy"});
   if (s.dimensions)
-    f.figures.push_back(
-        {"mass", s.dimensions->mass, "kg", s.mass_error, s.dimensions->material.name, 0, "flywheel_mass"});
+    f.figures.push_back({"mass", s.dimensions->mass, "kg", s.estimate ? std::nullopt : std::optional(s.mass_error),
+                         s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<FormulaCard>& formulas) {

@@ -84,11 +84,11 @@ std::vector<FormulaCard> flywheel_formulas(const Sizing& s) {
   if (s.punch)
     list.push_back(FormulaCard{
         .title = "Punch-press form (theory 3.5)",
-        .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = E/t_c",
+        .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = A_d/t_c",
         .numbers = fmt::format("ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W",
                                s.punch->energy, s.punch->working_time, s.punch->cycle_time, s.punch->from_flywheel(),
                                s.methods.back().drive_inertia, s.punch->power()),
-        .note = "Useful work and the time in which it is done, at the mid speed."});
+        .note = "Useful work and the time in which it is done, at the mid speed; A_d is the drive's work of a cycle."});
   return list;
 }
 

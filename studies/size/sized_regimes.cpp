@@ -11,6 +11,7 @@
 #include "engine/numerics/index.h"
 #include "studies/cycle/classical.h"
 #include "studies/scenes/kinds.h"
+#include "studies/steady/cycle_search.h"
 #include "studies/validity/static_curve.h"
 
 namespace kurbel {
@@ -45,6 +46,26 @@ void fill(SizedRegime& r, const RegimeCycle& c, double motor_ratio) {
 }
 
 }  // namespace
+
+std::string chosen_flywheel(const Scene& scene, const std::string& named) {
+  std::vector<std::string> bodies, flywheels;
+  for (const Section& s : scene.components) {
+    if (s.kind->name == "flywheel" || s.kind->name == "inertia") bodies.push_back(s.name);
+    if (s.kind->name == "flywheel") flywheels.push_back(s.name);
+  }
+  if (!named.empty()) {
+    if (std::count(bodies.begin(), bodies.end(), named)) return named;
+    throw std::invalid_argument(
+        fmt::format("--flywheel {}: no flywheel or inertia of the scene; {}", in_quotes(named),
+                    bodies.empty() ? "it has none: leave the option out, and one is put on the crank's shaft"
+                                   : "allowed: " + listed(bodies)));
+  }
+  if (flywheels.size() > 1)
+    throw std::invalid_argument(
+        fmt::format("the scene has several flywheels, {}; say which one is to be sized: --flywheel NAME",
+                    listed(flywheels, "and")));
+  return flywheels.empty() ? "" : flywheels.front();
+}
 
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on) {
   for (Section& section : scene.components) {
@@ -82,8 +103,10 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
                                 .most_rounds = parts_.most_rounds,
                                 .interrupted = watch_.interrupted,
                                 .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
-    const Regime regime = find_regime(model, options);
+    Regime regime = find_regime(model, options);
     Deadline::check();
+    if (!regime.repeats() && parts_.held && regime.kind != Regime::Kind::interrupted)
+      regime = held_regime(sized, effects, *parts_.held, parts_.moment, watch_).regime;
     watch_.say(fmt::format("flywheel of {:.6g} kg·m², effects {}: {}: {}", flywheel, effects.describe(),
                            name_of(regime.kind), regime.words));
     r.cycles = static_cast<int>(std::lround(regime.cost));

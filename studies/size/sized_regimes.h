@@ -15,6 +15,9 @@ namespace kurbel {
 
 inline constexpr int curve_points = 720;  // of a round, drawn
 
+// The component that is sized: the one named, else the scene's only flywheel; empty: one is put on the crank's shaft.
+std::string chosen_flywheel(const Scene& scene, const std::string& named);
+
 // The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 
@@ -38,6 +41,7 @@ class SizedRegimes {
     std::string flywheel, on, motor;  // component; link that it is put on if it is not there; empty: no motor
     Moment moment;                    // that the scene is as of
     int most_rounds = RegimeOptions{}.most_rounds;
+    std::optional<double> held = {};  // mid speed that is kept where its own start leads to no cycle [rad/s]
   };
   SizedRegimes(const Scene& scene, Parts parts, const Watch& watch)
       : scene_(scene), parts_(std::move(parts)), watch_(watch) {}

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "engine/analysis/family.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/scene/units.h"
@@ -67,8 +68,8 @@ double nearest_of(const std::vector<std::complex<double>>& list, std::complex<do
 // One model of the study.
 class Search {
  public:
-  Search(const Scene& scene, const Effects& effects, const SteadyStudy& study, const SteadyOptions& options)
-      : scene_(as_of(scene, effects, options.at)), effects_(effects), study_(study), options_(options) {
+  Search(const Scene& scene, const Effects& effects, const SteadyOptions& options)
+      : scene_(as_of(scene, effects, options.at)), effects_(effects), options_(options) {
     network_ = network_as_of(scene_, options.at);
   }
 
@@ -83,6 +84,21 @@ class Search {
     if (out_.found) describe();
     out_.cpu_seconds = processor_time() - begin;
     return std::move(out_);
+  }
+
+  HeldRegime held() {
+    HeldRegime held;
+    at_speed(*options_.mid_speed);
+    held.regime.kind = out_.found                                ? Regime::Kind::cycle
+                       : out_.end == ReturnMap::End::interrupted ? Regime::Kind::interrupted
+                                                                 : Regime::Kind::failed;
+    held.regime.words = out_.found ? "the mid speed is held by a torque added to the drive" : out_.why;
+    held.regime.cost = cost_;
+    held.added_torque = out_.added_torque, held.added_at = added_to_;
+    if (!out_.found) return held;
+    held.regime.polished = true;
+    held.regime.map = map_, held.regime.point = out_.point;
+    return held;
   }
 
  private:
@@ -172,12 +188,17 @@ class Search {
     out_.point.residual = newton.residual;
     out_.end = image_.end;
     if (newton.found) return settle(newton.x);
-    out_.why = image_.end != ReturnMap::End::returned
-                   ? image_.why
-                   : fmt::format("no added torque was found with which \"{}\" turns at {} in the mean: {}",
-                                 out_.model->node_label(out_.model->reduction_node),
-                                 out_.model->scene.speed_unit.text(speed, 5), newton.why);
-    if (image_.end == ReturnMap::End::returned) out_.end = ReturnMap::End::failed;
+    if (image_.end == ReturnMap::End::interrupted) {
+      out_.why = image_.why;
+      return;
+    }
+    const std::string what = image_.end != ReturnMap::End::returned ? trial_ended(newton, image_.why) : newton.why;
+    out_.end = ReturnMap::End::failed;
+    out_.why = fmt::format(
+        "no added torque was found with which \"{}\" turns at {} in the mean (tried from {} on \"{}\" on): {}. Try a "
+        "mid speed further up first, more inertia, or a long kurbel run with that torque",
+        out_.model->node_label(out_.model->reduction_node), out_.model->scene.speed_unit.text(speed, 5),
+        with_unit(first_torque(speed), "N*m", 5), added_to_, what);
   }
 
   // A quasi-static start at that speed, or faster ones for a machine that just stops at its load's peak; where the scene
@@ -239,11 +260,15 @@ class Search {
     return system;
   }
   // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
-  double first_torque(double speed) const {
-    if (!study_.diagram) return 0;
+  double first_torque(double speed) const try {
     RigidMachine machine(compile_network(network_, scene_, rigid_effects()));
-    const double net = MeanCharacteristic(machine, speed < 0 ? -1 : 1).at(speed).net();
-    return -net / machine.model().node_ratio[at(added_node_)];
+    const int direction = speed < 0 ? -1 : 1;
+    double net =
+        MeanCharacteristic(machine, direction, 1, machine_with_losses(network_, scene_, effects_)).at(speed).net();
+    if (!std::isfinite(net)) net = MeanCharacteristic(machine, direction).at(speed).net();
+    return std::isfinite(net) ? -net / machine.model().node_ratio[at(added_node_)] : 0;
+  } catch (const std::invalid_argument&) {  // one angle and its speed do not describe it
+    return 0;
   }
   void settle(const Eigen::VectorXd& x) {
     const double torque = x[x.size() - 1] * unit_;
@@ -348,7 +373,6 @@ class Search {
 
   Scene scene_;
   Effects effects_;
-  const SteadyStudy& study_;
   const SteadyOptions& options_;
   Network network_;
   std::shared_ptr<ReturnMap> map_;
@@ -363,9 +387,15 @@ class Search {
 
 }  // namespace
 
-SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyStudy& study,
-                         const SteadyOptions& options) {
-  return Search(scene, effects, study, options).run();
+SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyOptions& options) {
+  return Search(scene, effects, options).run();
+}
+
+HeldRegime held_regime(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
+                       const Watch& watch) {
+  SteadyOptions options;
+  options.mid_speed = mid_speed, options.at = at, options.watch = watch;
+  return Search(scene, effects, options).held();
 }
 
 std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,

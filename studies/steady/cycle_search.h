@@ -5,8 +5,15 @@
 
 namespace kurbel {
 
-// `study` holds what is known already: the operating diagram, where there is one.
-SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyStudy& study,
-                         const SteadyOptions& options);
+SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyOptions& options);
+
+// The cycle at a mid speed that is demanded, which a torque added to the drive keeps.
+struct HeldRegime {
+  Regime regime;            // as a machine of its own start has it; failed: its words say what was tried
+  double added_torque = 0;  // [N·m] …
+  std::string added_at;     // … on this component's shaft
+};
+HeldRegime held_regime(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
+                       const Watch& watch);
 
 }  // namespace kurbel

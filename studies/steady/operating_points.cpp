@@ -16,10 +16,12 @@
 namespace kurbel {
 namespace {
 
-constexpr int scan_points = 250;      // over the rated range
-constexpr double scan_beyond = 1.25;  // of the rated speed
-constexpr int most_doublings = 6;     // beyond that: it runs away
+constexpr int scan_points = 250;         // over the rated range
+constexpr int scan_points_moving = 100;  // where each torque is asked of the equations of motion
+constexpr double scan_beyond = 1.25;     // of the rated speed
+constexpr int most_doublings = 6;        // beyond that: it runs away
 constexpr double widest_interval = std::numbers::pi / 12;
+constexpr double rounding_of_tables = 1e-11;  // of the turnover: what tables of mechanisms leave of torques that cancel
 
 // Gauss–Legendre of order 10 on [0, 1].
 constexpr double gauss_node[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
@@ -31,8 +33,23 @@ std::string speed_text(const SpeedUnit& unit, double omega) { return unit.text(s
 
 }  // namespace
 
-MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction, int finer)
-    : machine_(machine), direction_(direction) {
+Effects rigid_with_losses(const Effects& effects) {
+  Effects rigid = rigid_effects();
+  rigid.gear_losses = effects.gear_losses;
+  rigid.joint_friction = effects.joint_friction;
+  rigid.bearing_friction = effects.bearing_friction;
+  return rigid;
+}
+
+std::shared_ptr<const Model> machine_with_losses(const Network& network, const Scene& scene, const Effects& effects) {
+  const Effects rigid = rigid_with_losses(effects);
+  if (rigid.describe() == rigid_effects().describe()) return nullptr;
+  return compile_network(network, scene, rigid);
+}
+
+MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction, int finer,
+                                       const std::shared_ptr<const Model>& lossy)
+    : machine_(machine), moving_(lossy ? std::make_unique<Equations>(lossy, true) : nullptr), direction_(direction) {
   std::vector<double> ends = machine.edges(direction);
   ends.push_back(0);
   ends.push_back(machine.cycle());
@@ -49,20 +66,50 @@ MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction, int
 }
 
 MeanTorques MeanCharacteristic::at(double omega) {
-  const double w = direction_ * std::abs(omega);
-  MeanTorques mean{w, 0, 0};
-  const std::vector<WorkAccount>& accounts = machine_.model().accounts;
-  for (std::size_t i = 0; i < begin_.size(); ++i) {
-    machine_.set_modes(begin_[i] + 0.5 * width_[i], w);
-    for (int k = 0; k < 5; ++k) {
-      const RigidMachine::At here = machine_.at(begin_[i] + gauss_node[k] * width_[i], w, true);
-      const double weight = gauss_weight[k] * width_[i] / machine_.cycle() * direction_;
-      for (std::size_t a = 0; a < accounts.size(); ++a)
-        (accounts[a].kind == Account::driving ? mean.drive : mean.load) +=
-            weight * (accounts[a].kind == Account::driving ? here.share[a] : -here.share[a]);
-    }
-  }
+  MeanTorques mean{direction_ * std::abs(omega), 0, 0, 0};
+  for (std::size_t i = 0; i < begin_.size(); ++i) moving_ ? add_moving(mean, i) : add_static(mean, i);
   return mean;
+}
+
+namespace {
+
+// Shares of the accounts, reduced to the link.
+void add_shares(MeanTorques& mean, const std::vector<WorkAccount>& accounts, std::span<const double> share,
+                double weight) {
+  for (std::size_t a = 0; a < accounts.size(); ++a) {
+    (accounts[a].kind == Account::driving ? mean.drive : mean.load) +=
+        weight * (accounts[a].kind == Account::driving ? share[a] : -share[a]);
+    mean.turnover += std::abs(weight * share[a]);
+  }
+}
+
+}  // namespace
+
+void MeanCharacteristic::add_static(MeanTorques& mean, std::size_t i) {
+  machine_.set_modes(begin_[i] + 0.5 * width_[i], mean.omega);
+  for (int k = 0; k < 5; ++k) {
+    const RigidMachine::At here = machine_.at(begin_[i] + gauss_node[k] * width_[i], mean.omega, true);
+    add_shares(mean, machine_.model().accounts, here.share,
+               gauss_weight[k] * width_[i] / machine_.cycle() * direction_);
+  }
+}
+
+// Powers of the accounts over the link's speed: with the accelerations of the motion, and the flanks that then carry.
+void MeanCharacteristic::add_moving(MeanTorques& mean, std::size_t i) try {
+  const Model& m = moving_->model();
+  std::vector<double> rate(moving_->size()), share(m.accounts.size());
+  for (int k = 0; k < 5; ++k) {
+    StartSettings settings{};
+    settings.angle = begin_[i] + gauss_node[k] * width_[i];
+    settings.speed = mean.omega;
+    std::vector<double> y = moving_->start(0, settings);
+    y.resize(moving_->size(), 0.0);
+    moving_->flow(0, y, rate);
+    for (std::size_t a = 0; a < share.size(); ++a) share[a] = rate[moving_->work_index(a)] / mean.omega;
+    add_shares(mean, m.accounts, share, gauss_weight[k] * width_[i] / machine_.cycle() * direction_);
+  }
+} catch (const std::runtime_error&) {  // joints that jam
+  mean.drive = mean.load = std::nan("");
 }
 
 const OperatingPoint* OperatingDiagram::working_point() const {
@@ -73,9 +120,15 @@ const OperatingPoint* OperatingDiagram::working_point() const {
 }
 
 std::string OperatingDiagram::why_none(const std::string& link) const {
-  if (working_point()) return {};
+  if (working_point() || estimate) return {};
   const auto least =
       std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.net() < b.net(); });
+  if (std::abs(least->net()) <= balance_error)
+    return fmt::format(
+        "the drive's mean torque on \"{}\" just balances the loads' at {} and falls behind at every other speed: "
+        "whether "
+        "the machine keeps that speed is not told by mean torques",
+        link, speed_text(speed_unit, least->omega));
   if (least->net() < 0)
     return fmt::format(
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
@@ -100,8 +153,7 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
 namespace {
 
 // What twice as many intervals say at the same speeds; a speed is off by the rest of the balance over its slope.
-void measure_errors(RigidMachine& machine, OperatingDiagram& found) {
-  MeanCharacteristic finer(machine, found.direction, 2);
+void measure_errors(MeanCharacteristic& finer, OperatingDiagram& found) {
   for (OperatingPoint& point : found.points) {
     const MeanTorques mean = finer.at(point.mean.omega);
     const double slope = std::abs(point.drive_slope - point.load_slope);
@@ -114,16 +166,30 @@ void measure_errors(RigidMachine& machine, OperatingDiagram& found) {
                           1e-9 * std::abs(found.strongest.drive);  // of the golden section
 }
 
+double error_of(MeanCharacteristic& finer, const MeanTorques& mean) {
+  return std::abs(finer.at(mean.omega).net() - mean.net()) + rounding_of_tables * mean.turnover;
+}
+
 }  // namespace
 
-OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
+OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const std::shared_ptr<const Model>& lossy) {
   OperatingDiagram result;
   result.speed_unit = machine.model().scene.speed_unit;
   result.direction = direction;
   result.uses_speed = machine.uses_speed();
-  MeanCharacteristic mean(machine, direction);
-  const double rated = machine.model().speed_scale, step = scan_beyond * rated / scan_points;
-  for (int i = 0; i <= scan_points; ++i) result.curve.push_back(mean.at(i == 0 ? 1e-6 * rated : i * step));
+  MeanCharacteristic mean(machine, direction, 1, lossy), finer(machine, direction, 2, lossy);
+  const double rated = machine.model().speed_scale,
+               step = scan_beyond * rated / (lossy ? scan_points_moving : scan_points);
+  const int points = lossy ? scan_points_moving : scan_points;
+  for (int i = 0; i <= points; ++i) result.curve.push_back(mean.at(i == 0 ? 1e-6 * rated : i * step));
+  const bool known = lossy == nullptr || (lossy->own_states.empty() &&
+                                          std::all_of(result.curve.begin(), result.curve.end(),
+                                                      [](const MeanTorques& m) { return std::isfinite(m.net()); }));
+  if (!known) {
+    result = operating_diagram(machine, direction);
+    result.estimate = true;
+    return result;
+  }
   for (int i = 0; i < most_doublings && result.uses_speed && result.curve.back().net() > 0; ++i) {
     const double from = std::abs(result.curve.back().omega);
     for (int k = 1; k <= 20; ++k) result.curve.push_back(mean.at(from * (1 + k / 20.0)));
@@ -135,6 +201,15 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
   const Maximum highest =
       find_maximum([&](double w) { return mean.at(w).drive; }, std::max(best - step, 1e-6 * rated), best + step, 40);
   if (const MeanTorques peak = mean.at(highest.at); peak.drive > result.strongest.drive) result.strongest = peak;
+  const auto greatest =
+      std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
+  const double error = error_of(finer, result.curve.back());
+  // Losses by inertia torques know the speed, too.
+  if (lossy && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
+        return std::abs(m.net() - result.curve.back().net()) > 10 * error + 1e-9 * m.turnover;
+      }))
+    result.uses_speed = true;
+  result.balance_error = result.uses_speed ? error_of(finer, *greatest) : error;
   if (!result.uses_speed) return result;  // parallel lines: they meet nowhere, or everywhere
   for (std::size_t i = 0; i + 1 < result.curve.size(); ++i) {
     const double n0 = result.curve[i].net(), n1 = result.curve[i + 1].net();
@@ -148,7 +223,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction) {
     point.load_slope = (above.load - below.load) / (2 * h);
     result.points.push_back(point);
   }
-  measure_errors(machine, result);
+  measure_errors(finer, result);
   return result;
 }
 
@@ -239,10 +314,16 @@ std::vector<std::size_t> gears_of(const Network& net, const std::string& compone
 
 class RatioTrial {
  public:
-  RatioTrial(const Scene& scene, std::string gearbox, double target, double limit, const std::atomic<bool>* interrupted)
-      : scene_(scene), gearbox_(std::move(gearbox)), target_(target), limit_(limit), interrupted_(interrupted) {
+  RatioTrial(const Scene& scene, const Effects& effects, std::string gearbox, double target, double limit,
+             const std::atomic<bool>* interrupted)
+      : scene_(scene),
+        effects_(effects),
+        gearbox_(std::move(gearbox)),
+        target_(target),
+        limit_(limit),
+        interrupted_(interrupted) {
     network_ = build_network(scene);
-    const auto model = compile_network(network_, scene, rigid_effects());
+    const auto model = compile_network(network_, scene, effects_);
     node_ = network_.ports.at(gearbox_).out;
     target_ *= model->node_ratio[at(node_)];
     present_ = 1;
@@ -255,7 +336,7 @@ class RatioTrial {
   double present() const { return present_; }
   // Start time with another ratio of the last stage; HUGE_VAL: never.
   double operator()(double ratio) {
-    const auto model = compile_network(with(ratio), scene_, rigid_effects());
+    const auto model = compile_network(with(ratio), scene_, effects_);
     const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_, false);
     const double time = run.reached ? run.time : HUGE_VAL;
     tried_.emplace_back(ratio, time);
@@ -273,13 +354,14 @@ class RatioTrial {
     return net;
   }
   bool turns_with(double ratio) const try {
-    compile_network(with(ratio), scene_, rigid_effects());
+    compile_network(with(ratio), scene_, effects_);
     return true;
   } catch (const SceneError&) {
     return false;
   }
 
   const Scene& scene_;
+  const Effects& effects_;
   std::string gearbox_;
   double target_, limit_;
   const std::atomic<bool>* interrupted_;
@@ -295,12 +377,12 @@ constexpr int fine_ratios = 22;    // steps of the golden section, to 1e-5 of th
 
 }  // namespace
 
-std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, double limit,
+std::vector<RatioSearch> fastest_ratios(const Scene& scene, const Effects& effects, double target, double limit,
                                         const std::atomic<bool>* interrupted) {
   std::vector<RatioSearch> found;
   for (const Section& component : scene.components) {
     if (component.kind->name != "gearbox") continue;
-    RatioTrial trial(scene, component.name, target, limit, interrupted);
+    RatioTrial trial(scene, effects, component.name, target, limit, interrupted);
     if (!trial.has_gears()) continue;
     RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, false};
     const double reached = trial(trial.present());

@@ -2,6 +2,8 @@
 //
 //     M̄(ω) = (1/Φ) ∮ M(φ, ω) dφ at constant ω;  operating points M̄_d(ω) = M̄_c(ω), stable where dM̄_d/dω < dM̄_c/dω
 //                                                                                                 (theory 4.15)
+// Losses that depend on what is carried (gears, joints, bearings) belong to the torques at φ and ω: those that the machine's
+// own equations of motion have there, with its acceleration.
 #pragma once
 
 #include <atomic>
@@ -12,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/events/equations.h"
 #include "engine/rigid/rigid_machine.h"
 
 namespace kurbel {
@@ -20,18 +23,31 @@ namespace kurbel {
 struct MeanTorques {
   double omega = 0;            // of the link [rad/s]
   double drive = 0, load = 0;  // M̄_d, M̄_c [N·m]
+  double turnover = 0;         // mean of Σ|M| over all that drives or brakes: what rounding is measured by [N·m]
   double net() const { return drive - load; }
 };
+
+// The rigid machine with what it loses by its loads.
+Effects rigid_with_losses(const Effects& effects);
+// Its equations of motion; null where the effects bring no such losses.
+std::shared_ptr<const Model> machine_with_losses(const Network& network, const Scene& scene, const Effects& effects);
 
 // Gauss–Legendre between the load edges.
 class MeanCharacteristic {
  public:
-  // direction: ±1, of the link's rotation; finer: so many times as many intervals.
-  MeanCharacteristic(RigidMachine& machine, int direction, int finer = 1);
-  MeanTorques at(double omega);  // |omega| > 0
+  // direction: ±1, of the link's rotation; finer: so many times as many intervals; lossy: the same machine with its
+  // losses, or null.
+  MeanCharacteristic(RigidMachine& machine, int direction, int finer = 1,
+                     const std::shared_ptr<const Model>& lossy = nullptr);
+  // |omega| > 0. No numbers where the machine jams, or has states besides angle and speed.
+  MeanTorques at(double omega);
 
  private:
+  void add_static(MeanTorques& mean, std::size_t interval);
+  void add_moving(MeanTorques& mean, std::size_t interval);
+
   RigidMachine& machine_;
+  std::unique_ptr<Equations> moving_;  // with losses
   int direction_;
   std::vector<double> begin_, width_;  // intervals of the cycle that no edge divides [rad]
 };
@@ -48,7 +64,10 @@ struct OperatingDiagram {
   std::vector<OperatingPoint> points;
   MeanTorques strongest;       // where the drive's mean torque is greatest (breakdown; of a shunt motor: at standstill)
   double strongest_error = 0;  // of its torque [N·m]
+  double balance_error = 0;    // of the net torque where the speed does not matter, or where it is greatest [N·m]
   bool uses_speed = true;
+  // Losses or states of the machine are left out: an estimate, which has no error and decides nothing.
+  bool estimate = false;
   int direction = 1;
   SpeedUnit speed_unit;
 
@@ -59,12 +78,15 @@ struct OperatingDiagram {
   double margin_error(const OperatingPoint& point) const {
     return (strongest_error + std::abs(margin(point)) * point.torque_error) / std::abs(point.mean.load);
   }
-  // Why there is no working point: stall (and by how much the drive is too weak) or runaway. Empty where there is one.
+  // Why there is no working point: stall (and by how much the drive is too weak) or runaway. Empty where there is one, and
+  // for an estimate.
   std::string why_none(const std::string& link) const;
+  std::optional<double> told(double error) const { return estimate ? std::nullopt : std::optional(error); }
 };
 
 // Scans the speeds up to 1.25 × the rated one, and on while the drive is still stronger.
-OperatingDiagram operating_diagram(RigidMachine& machine, int direction);
+OperatingDiagram operating_diagram(RigidMachine& machine, int direction,
+                                   const std::shared_ptr<const Model>& lossy = nullptr);
 
 // A source or a load goes on or off at a time.
 bool is_switched(const Network& network);
@@ -76,7 +98,7 @@ struct StartRun {
   std::vector<double> t, w;  // the link's speed on the way [s, rad/s]
   std::string why;           // where it was not reached
 };
-// A rigid model from rest at the scene's start angle until a node (−1: the link) turns at `target` [rad/s].
+// A machine without elasticity from rest at the scene's start angle until a node (−1: the link) turns at `target` [rad/s].
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
                          const std::atomic<bool>* interrupted = nullptr, int node = -1, bool with_error = true);
 
@@ -97,7 +119,7 @@ struct RatioSearch {
 // For every gearbox of the scene: until its driven shaft has the speed that belongs to `target` of the link as the
 // scene is. Tried from an eighth to eight times the present ratio; empty where there is no gearbox or no ratio starts
 // it.
-std::vector<RatioSearch> fastest_ratios(const Scene& scene, double target, double limit,
+std::vector<RatioSearch> fastest_ratios(const Scene& scene, const Effects& effects, double target, double limit,
                                         const std::atomic<bool>* interrupted = nullptr);
 
 }  // namespace kurbel

@@ -9,8 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
+#include "engine/run/run.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/steady/cycle_search.h"
@@ -18,16 +21,70 @@
 namespace kurbel {
 namespace {
 
+// Angles at which the link turns back on its way from the scene's own start [rad].
+class TurningPoints final : public Observer {
+ public:
+  explicit TurningPoints(const Model& m) : link_(m.angles[at(m.reduction_angle)]), tracked_(at(m.reduction_angle)) {}
+  void step(StepView& view) override {
+    const std::size_t speed = view.equations().speed_index(link_.shaft);
+    const auto at_time = [&](double t) { return view.at(t, speed); };
+    const double before = at_time(view.t_previous()), now = at_time(view.t());
+    if (!(before * now < 0)) return;
+    const double t = find_root(at_time, view.t_previous(), before, view.t(), now);
+    angles.push_back(view.equations().angle_with_turns(tracked_, view.at(t)));
+  }
+  std::vector<double> angles;
+
+ private:
+  TrackedAngle link_;
+  std::size_t tracked_;
+};
+
+// "it swings between …": a member of no family of cycles. Empty where the link comes round.
+std::string swing_text(const std::shared_ptr<const Model>& rigid, double cycle, const std::string& link) {
+  const Model& m = *rigid;
+  const std::size_t tracked = at(m.reduction_angle);
+  double time = 2 * cycle / std::max(std::abs(m.scene.run.start.speed), 0.05 * m.speed_scale);
+  for (int k = 0; k < 6; ++k, time *= 2) {
+    Equations equations(rigid, false);
+    TurningPoints points(m);
+    RunOptions run{.tolerance = 1e-10,
+                   .method = "auto",
+                   .until = time,
+                   .budget = m.scene.run.budget,
+                   .interrupted = nullptr,
+                   .progress = {}};
+    run.from = {0, equations.start(0)};
+    const double begin = equations.angle_with_turns(tracked, run.from->y);
+    run.stop = [&](double, std::span<const double> y) {
+      return std::min(1.0, cycle - std::abs(equations.angle_with_turns(tracked, y) - begin));
+    };
+    const RunOutcome outcome = integrate(equations, run, {&points});
+    if (!outcome.complete || outcome.stopped) return {};
+    if (points.angles.size() < 2) continue;
+    const auto [low, high] = std::minmax(points.angles[0], points.angles[1]);
+    return fmt::format(". From the scene's own start \"{}\" does not come round: it swings between {:.5g}° and {:.5g}°",
+                       link, low * in_degrees, high * in_degrees);
+  }
+  return {};
+}
+
+// What a cycle gains or loses is told only beyond the error of the balance.
+bool is_balanced(const OperatingDiagram& d) {
+  const MeanTorques& m = d.curve.back();
+  const double scale = std::max({std::abs(m.drive), std::abs(m.load), 1e-300});
+  return std::abs(m.net()) <= std::max(1e-9 * scale, d.balance_error);
+}
+
 // Steady motion of a family: constant drive torque and loads of the angle alone.
 std::string family_text(const OperatingDiagram& d, double cycle, const std::string& link) {
   const double net = d.curve.back().net();
-  const double scale = std::max({std::abs(d.curve.back().drive), std::abs(d.curve.back().load), 1e-300});
   const std::string why = fmt::format(
       "no torque of this machine depends on the speed, so no speed is preferred: what a cycle gains or loses is the "
       "same "
       "at every speed of \"{}\"",
       link);
-  if (std::abs(net) <= 1e-9 * scale)
+  if (is_balanced(d))
     return fmt::format(
         "{}, here nothing. Steady motion is a family of cycles, one for every mid speed (multiplier exactly 1); say "
         "which one: --mid-speed \"60 rpm\"",
@@ -81,13 +138,16 @@ class Study {
       rigid_.reset();
       return;
     }
-    out_.diagram = operating_diagram(*machine, sense());
+    lossy_ = machine_with_losses(build_network(scene_), scene_, effects_.back());
+    out_.diagram = operating_diagram(*machine, sense(), lossy_);
     log(fmt::format("operating points: {} of {} speeds scanned", out_.diagram->points.size(),
                     out_.diagram->curve.size()));
-    if (model.has_contacts() || !model.own_states.empty())
+    out_.diagram->estimate = out_.diagram->estimate || !model.own_states.empty();
+    if (out_.diagram->estimate)
       out_.notes.push_back(
-          "operating points are those of the rigid machine by its static torques: losses that hang on the load, and "
-          "states of its own, are left out of them and of the start from rest; the steady cycle has them");
+          "operating points are estimates, by the static torques of the rigid machine: losses that depend on the load, "
+          "or "
+          "states of its own, are left out of them; the steady cycle and the start from rest have them");
   }
   std::string why_no_diagram(const Model& m) const {
     if (!scene_.sequence.steps.empty()) return "the operating sequence sets what drives and brakes";
@@ -109,8 +169,12 @@ class Study {
     return speed / rigid_->node_ratio[at(on)] < 0 ? -1 : 1;
   }
   void refuse_family() const {
-    if (out_.diagram && !out_.diagram->uses_speed && !options_.mid_speed)
-      throw std::invalid_argument(family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link));
+    if (!out_.diagram || out_.diagram->uses_speed || out_.diagram->estimate || options_.mid_speed) return;
+    // Where losses are what balances it, the scene's own start says which member of the family is meant.
+    if (!(lossy_ && is_balanced(*out_.diagram)))
+      throw std::invalid_argument(
+          family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link) +
+          (is_balanced(*out_.diagram) ? swing_text(rigid_, periodicity_of(*rigid_).angle, out_.link) : ""));
   }
 
   // A simpler machine to compare with may leave a torque open that the scene's own has: a loop that is then rigid.
@@ -128,7 +192,7 @@ class Study {
     const bool stopped = options_.watch.stopped();
     if (stopped) return incomplete("interrupted");
     progress("steady cycle with effects: " + effects.describe(), 0);
-    SteadyCycle cycle = search_cycle(scene_, effects, out_, options_);
+    SteadyCycle cycle = search_cycle(scene_, effects, options_);
     log(
         fmt::format("{}: {} unknowns; {} after a run of {} rounds and {} of Newton's, {} with derivative; cost {:.1f} "
                     "cycles, {:.0f} "
@@ -193,9 +257,13 @@ class Study {
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
-    out_.start = start_from_rest(rigid_, target, limit, options_.watch.interrupted);
+    // Of the machine that has this cycle, with its losses and its own states.
+    Effects effects = *std::find_if(effects_.begin(), effects_.end(),
+                                    [&](const Effects& e) { return e.describe() == rigid->effects; });
+    effects.locked = true;
+    out_.start = start_from_rest(compile(scene_, effects), target, limit, options_.watch.interrupted);
     const double search_limit = out_.start->reached ? 4 * out_.start->time : limit;
-    out_.ratios = fastest_ratios(scene_, target, search_limit, options_.watch.interrupted);
+    out_.ratios = fastest_ratios(scene_, effects, target, search_limit, options_.watch.interrupted);
   }
 
   void conclude() {
@@ -224,7 +292,7 @@ class Study {
   const Scene& scene_;
   const std::vector<Effects>& effects_;
   const SteadyOptions& options_;
-  std::shared_ptr<const Model> rigid_;
+  std::shared_ptr<const Model> rigid_, lossy_;  // lossy: with losses by the load; null: none
   SteadyStudy out_;
 };
 

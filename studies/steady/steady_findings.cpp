@@ -28,11 +28,6 @@ SpeedUnit speed_unit_of(const SteadyStudy& s) {
 
 Role role_of(const SteadyCycle& c) { return !is_elastic(*c.model) ? Role::rigid : Role::elastic; }
 
-std::string complex_text(std::complex<double> z) {
-  if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
-  return fmt::format("{:.6g} {} {:.6g} i", z.real(), z.imag() < 0 ? "−" : "+", std::abs(z.imag()));
-}
-
 // --- figures and multipliers ---
 
 std::vector<std::string> names_of_figures(const SteadyStudy& s) {
@@ -147,9 +142,15 @@ Record cycle_record(const SteadyCycle& c) {
 }
 
 Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  return {{"speed", p.mean.omega},        {"torque", p.mean.load},          {"drive_slope", p.drive_slope},
-          {"load_slope", p.load_slope},   {"stable", p.stable()},           {"margin", d.margin(p)},
-          {"speed_error", p.speed_error}, {"torque_error", p.torque_error}, {"margin_error", d.margin_error(p)}};
+  return {{"speed", p.mean.omega},
+          {"torque", p.mean.load},
+          {"drive_slope", p.drive_slope},
+          {"load_slope", p.load_slope},
+          {"stable", p.stable()},
+          {"margin", d.margin(p)},
+          {"speed_error", d.told(p.speed_error)},
+          {"torque_error", d.told(p.torque_error)},
+          {"margin_error", d.told(d.margin_error(p))}};
 }
 
 Record ratio_record(const RatioSearch& r) {
@@ -250,13 +251,14 @@ std::optional<Plot> power_over_angle(const SteadyStudy& s, const std::string& mo
 Plot diagram_plot(const SteadyStudy& s) {
   const OperatingDiagram& d = *s.diagram;
   const auto speed = [&d](const MeanTorques& m) { return d.speed_unit.of(m.omega); };
-  Plot plot{
-      .title = "Operating points: where the drive's mean torque meets the loads'",
-      .x = {"speed of " + s.link, d.speed_unit.name},
-      .y = {"mean torque over a cycle", ""},
-      .series = {series_of("drive M_d", Role::green, d.curve, speed, &MeanTorques::drive),
-                 series_of("loads M_c", Role::orange, d.curve, speed, &MeanTorques::load)},
-      .note = "Mean over a cycle at constant speed, reduced to " + s.link + "; stable where the drive's falls below."};
+  Plot plot{.title = "Operating points: where the drive's mean torque meets the loads'",
+            .x = {"speed of " + s.link, d.speed_unit.name},
+            .y = {"mean torque over a cycle", ""},
+            .series = {series_of("drive M_d", Role::green, d.curve, speed, &MeanTorques::drive),
+                       series_of("loads M_c", Role::orange, d.curve, speed, &MeanTorques::load)},
+            .note = "Mean over a cycle at constant speed, reduced to " + s.link +
+                    "; stable where the drive's falls below." +
+                    (d.estimate ? " An estimate: losses by the load, or states of the machine, are left out." : "")};
   const double largest = largest_of(plot);
   for (const bool stable : {true, false}) {
     std::vector<MeanTorques> points;

@@ -23,6 +23,11 @@ std::string beside(double value, double other) {
 
 }  // namespace
 
+std::string complex_text(std::complex<double> z) {
+  if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
+  return fmt::format("{:.6g} {} {:.6g} i", z.real(), z.imag() < 0 ? "−" : "+", std::abs(z.imag()));
+}
+
 std::vector<std::string> words_of(const SteadyCycle& c) {
   std::vector<std::string> words;
   if (!c.found) return {fmt::format("NOT found: {}", c.why)};
@@ -59,16 +64,16 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
-    words.push_back(
-        fmt::format("Operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                    with_error(d.speed_unit.of(p.mean.omega), d.speed_unit.of(p.speed_error), d.speed_unit.name),
-                    with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
-                    beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
+    words.push_back(fmt::format(
+        "Operating point {}{} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad", d.estimate ? "about " : "",
+        with_error(d.speed_unit.of(p.mean.omega), d.told(d.speed_unit.of(p.speed_error)), d.speed_unit.name),
+        with_error(p.mean.load, d.told(p.torque_error), "N*m"), p.stable() ? "stable" : "unstable",
+        beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
     words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
                                 with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
                                 std::isfinite(d.margin(*p))
-                                    ? with_error(d.margin(*p), d.margin_error(*p), "") + " times what it needs"
+                                    ? with_error(d.margin(*p), d.told(d.margin_error(*p)), "") + " times what it needs"
                                     : "and it needs nothing"));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;

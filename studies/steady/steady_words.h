@@ -1,6 +1,7 @@
 // steady_words.h — what is said of steady cycles, operating points and starts in sentences.
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,6 @@ namespace kurbel {
 std::vector<std::string> words_of(const SteadyCycle& cycle);
 std::vector<std::string> words_of_diagram(const SteadyStudy& study);
 std::vector<std::string> words_of_start(const SteadyStudy& study);
+std::string complex_text(std::complex<double> z);  // "0.3 + 0.4 i"
 
 }  // namespace kurbel

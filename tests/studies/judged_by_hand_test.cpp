@@ -209,7 +209,7 @@ motor = { kind = "torque source", torque = "40 N*m", inertia = "0.2 kg*m2" }
 gear = { kind = "gearbox", stages = [{ teeth = [20, 30] }, { teeth = [25, 50] }] }
 fan = { kind = "inertia", inertia = "5 kg*m2" }
 )"),
-                                    60, 100);
+                                    rigid_effects(), 60, 100);
   ASSERT_EQ(found.size(), 1u);
   const auto time = [](double i) { return 60 / 3.0 * i * (0.2 + 5 / (i * i)) / 40; };  // the fan turns at 60/3 now
   EXPECT_NEAR(found[0].present, 3, 1e-12);

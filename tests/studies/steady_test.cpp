@@ -335,7 +335,7 @@ TEST(Starts, SimulatedSearchFindsTheClosedFormsRatio) {
       "motor = { kind = \"torque source\", torque = \"100 N*m\", inertia = \"2 kg*m2\" }\n"
       "gear = { kind = \"gearbox\", stages = [{ teeth = [20, 60] }] }\n"
       "load = { kind = \"load\", torque = \"1e-6 N*m\", inertia = \"32 kg*m2\" }\n");
-  const std::vector<RatioSearch> found = fastest_ratios(scene, 10, 1000);
+  const std::vector<RatioSearch> found = fastest_ratios(scene, rigid_effects(), 10, 1000);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].present, 3, 1e-12);
   EXPECT_NEAR(found[0].best, 4, 1e-3);

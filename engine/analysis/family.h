@@ -1,0 +1,32 @@
+// family.h — solutions that are one of a family, as motions with a conserved quantity are, and Newton's method that keeps to
+// one of them.
+#pragma once
+
+#include <optional>
+
+#include "engine/analysis/return_map.h"
+
+namespace kurbel {
+
+// Of a family x(s) of solutions of r(x) = 0: its tangent, and the slope of the quantity Q that tells its members apart and
+// that x ↦ x + r(x) keeps; scaled so that quantity · tangent = 1. Steps with quantity · Δx = 0 stay with one member.
+struct Family {
+  Eigen::VectorXd tangent, quantity;
+};
+// Null vectors of a derivative ∂r/∂x whose entries are good to `uncertain`; none where it has none, or where Q is stationary
+// along them.
+std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncertain);
+
+// solve(), where r may know a family: a member is kept, since Newton's own step along it is round-off. `uncertain`: what the
+// entries of the last derivative are good for.
+NewtonOutcome solve_in_family(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough,
+                              std::function<double()> uncertain);
+
+// Whether a fixed point of a family is the member that the section's run belongs to. to_come of the point then says by how
+// much it may be another: what is left to the run's own, and what a run with looser steps comes to.
+bool is_member_of_run(const ReturnMap& map, SteadyPoint& point);
+
+// What is said of a search whose last trial had no residual: `why` tells of that trial, not of the machine.
+std::string trial_ended(const NewtonOutcome& search, const std::string& why);
+
+}  // namespace kurbel
