@@ -89,6 +89,7 @@ struct TorqueJoint {
   std::string component;
   int joint = 0;
   int elastic = -1;         // index of the elastic joint; −1: merged, torque by d'Alembert
+  int first = -1, last = -1;  // elastic joints whose twists together are the component's
   double torque_scale = 1;  // [N·m]
 };
 

@@ -15,6 +15,8 @@ int Network::add_node(const std::string& component, const std::string& label, do
   return static_cast<int>(nodes.size()) - 1;
 }
 
+double Network::Chain::wave_rate() const { return std::sqrt(stiffness / inertia); }
+
 void Network::join(int a, int b, double ratio, const std::string& component) {
   joints.push_back({.a = a, .b = b, .ratio = ratio, .component = component});
 }
