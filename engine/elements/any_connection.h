@@ -28,8 +28,9 @@ class AnyConnection {
   double capacity = 0;             // of one that slips [N·m]
   bool knows_torque_rate = false;  // the torque hangs on the twist and its mode alone
   std::vector<OwnState> own_states = {};
-  std::shared_ptr<const SpringRow> row = {};  // of springs in a row that hang on each other (coupled_springs.h), else null
-  int row_part = 0;                           // which of them
+  std::shared_ptr<const SpringRow> row =
+      {};            // of springs in a row that hang on each other (coupled_springs.h), else null
+  int row_part = 0;  // which of them
 
   // --- laws ---
   virtual double twist_at(double torque) const = 0;                                      // 0 without a spring
@@ -39,7 +40,7 @@ class AnyConnection {
   virtual std::string describe() const = 0;                                              // empty: nothing to say
   virtual ConnectionForm settled(double inertia) const = 0;                              // J_red [kg·m²]
   virtual bool damping_hangs_on_inertia() const = 0;  // of a specification: settled(0) has no damping, and should
-  virtual ConnectionForm form_under(const Effects&) const = 0;                           // null: this one
+  virtual ConnectionForm form_under(const Effects&) const = 0;  // null: this one
   virtual void place(PoolSet&, const ConnectionPorts&, const ConnectionExtras&) const = 0;
 };
 

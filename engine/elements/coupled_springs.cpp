@@ -92,8 +92,9 @@ void SpringRowPool::add_torque_slopes(const Instant&, std::vector<TorqueSlope>& 
 double SpringRowPool::energy(const Instant& now) const {
   double sum = 0;
   for (const Placed& row : rows_)
-    for_parts(row, now,
-              [&](const ConnectionPorts&, double twist, double, double spring, double) { sum += 0.5 * spring * twist; });
+    for_parts(row, now, [&](const ConnectionPorts&, double twist, double, double spring, double) {
+      sum += 0.5 * spring * twist;
+    });
   return sum;
 }
 
@@ -128,9 +129,8 @@ class RowPart final : public AnyConnection {
   double rest_ratio(double) const override { return 1; }
   std::string describe() const override {
     const std::size_t parts = shape_->share.size();
-    return row_part > 0 || parts == 1
-               ? std::string()
-               : fmt::format("of a continuous shaft: a spectral element of degree {}", parts);
+    return row_part > 0 || parts == 1 ? std::string()
+                                      : fmt::format("of a continuous shaft: a spectral element of degree {}", parts);
   }
   bool damping_hangs_on_inertia() const override { return shape_->whole->damping_hangs_on_inertia(); }
   ConnectionForm settled(double inertia) const override {

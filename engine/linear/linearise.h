@@ -37,9 +37,9 @@ struct LinearDrive {
   std::vector<Joint> joints;      // per elastic joint of the model
   // What springs in a row that hang on each other do beyond that, by twists and rates of all joints; empty: there are none.
   SparseRows row_stiffness, row_damping;
-  SparseRows twists;              // T: joints × coordinates
-  Eigen::VectorXd inertia;        // M, diagonal [kg·m²]
-  SparseMatrix stiffness;         // Tᵀ k T of the springs, symmetric
+  SparseRows twists;        // T: joints × coordinates
+  Eigen::VectorXd inertia;  // M, diagonal [kg·m²]
+  SparseMatrix stiffness;   // Tᵀ k T of the springs, symmetric
   SparseMatrix
       other_stiffness;   // of K, what is not: losses by torque; what depends on the angle, with the link held at one
   SparseMatrix damping;  // C

@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double farthest = 2 * pi;  // x up to which a shaft follows what swings faster than itself
 constexpr int step = 2;              // odd degrees have a part in the middle, whose torque is the shaft's
 
-// First root of tan x = (r_a + r_b) x/(r_a r_b x² − 1), r = J/J_shaft (theory 9.2); it lies in 0 … π.
+// First root of tan x = (r_a + r_b) x/(r_a r_b x² − 1), r = J/J_shaft (theory 5.19); it lies in 0 … π.
 double first_root(double a, double b) {
   constexpr double heavy = 1e12;
   a = std::min(a, heavy), b = std::min(b, heavy);

@@ -1,4 +1,4 @@
-// continuous_shafts.h — shafts that are given by their dimensions, cut into one spectral element each (theory 9).
+// continuous_shafts.h — shafts that are given by their dimensions, cut into one spectral element each (theory 5.20).
 #pragma once
 
 #include "engine/model/network.h"

@@ -22,7 +22,8 @@ SeenInertias::SeenInertias(const Network& network) : net_(network) {
   for (const Network::Chain& chain : net_.chains)
     for (std::size_t i = 1; i + 1 < chain.nodes.size(); ++i) {
       within[at(chain.nodes[i])] = 1;
-      for (const int end : {chain.nodes.front(), chain.nodes.back()}) add(end, 0.5 * net_.nodes[at(chain.nodes[i])].inertia);
+      for (const int end : {chain.nodes.front(), chain.nodes.back()})
+        add(end, 0.5 * net_.nodes[at(chain.nodes[i])].inertia);
     }
   for (std::size_t n = 0; n < net_.nodes.size(); ++n)
     if (!within[n]) add(static_cast<int>(n), net_.nodes[n].prescribed >= 0 ? HUGE_VAL : net_.nodes[n].inertia);

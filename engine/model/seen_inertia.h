@@ -30,7 +30,7 @@ class SeenInertias {
 
   const Network& net_;
   std::vector<int> group_;
-  std::vector<double> gain_, inertia_;  // of a node by its group's first; of a group
+  std::vector<double> gain_, inertia_;               // of a node by its group's first; of a group
   std::vector<std::vector<std::size_t>> joints_at_;  // elastic ones, of a group
 };
 

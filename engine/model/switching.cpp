@@ -20,13 +20,16 @@ bool stays_elastic(const Effects& effects, const Network::Joint& joint) {
 }
 
 void refuse_undefined_damping(Compilation& c, const std::string& component, double a, double b) {
-  const std::string why = a > 0 && b > 0 ? "both of its shafts turn at given speeds"
-                                         : fmt::format("on its {} side there is no inertia at all",
-                                                       a > 0 ? "driven" : b > 0 ? "driving" : "driving and driven");
-  c.refuse(component,
-           fmt::format("\"{}\": its damping is given in relation to the natural frequency of the inertias that it joins, "
-                       "and {}; give damping in N*m*s/rad, or damping_frequency besides",
-                       component, why));
+  const std::string why =
+      a > 0 && b > 0 ? "both of its shafts turn at given speeds"
+                     : fmt::format("on its {} side there is no inertia at all", a > 0   ? "driven"
+                                                                                : b > 0 ? "driving"
+                                                                                        : "driving and driven");
+  c.refuse(
+      component,
+      fmt::format("\"{}\": its damping is given in relation to the natural frequency of the inertias that it joins, "
+                  "and {}; give damping in N*m*s/rad, or damping_frequency besides",
+                  component, why));
 }
 
 // Which joints stay elastic, and what is told of those that do not.

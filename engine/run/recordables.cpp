@@ -127,9 +127,8 @@ void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyCo
                        ExtremeOf& spring) {
   const SpringRow* row = part.row.get();
   const int k = part.row_part, first = joint.first;
-  spring.slope = spring.rate = [row, k, first](const Snapshot& s) {
-    return row->spring_torque(k, s.sums.twist_rate + first);
-  };
+  spring.slope =
+      spring.rate = [row, k, first](const Snapshot& s) { return row->spring_torque(k, s.sums.twist_rate + first); };
   const auto* const elastic = model.elastic.data() + first;
   transmitted.slope = transmitted.rate = [row, k, first, elastic](const Snapshot& s) {
     double damper = 0;

@@ -146,8 +146,7 @@ std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omeg
   if (x.own.size() > 0) torque += drive_.joint_by_own * x.own;
   torque += drive_.spring_torques(twist);
   std::vector<JointSwing> all;
-  for (Index j = 0; j < twist.size(); ++j)
-    all.push_back({torque[j], twist[j]});
+  for (Index j = 0; j < twist.size(); ++j) all.push_back({torque[j], twist[j]});
   return all;
 }
 
