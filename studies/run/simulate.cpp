@@ -67,7 +67,7 @@ class Simulation {
       confirm();
       note_interrupt();
       state_errors();
-      if (model_->has_continuous_shafts()) add_errors_of_shafts();
+      if (result_.errors_measured && model_->has_continuous_shafts() && !interrupted()) add_errors_of_shafts();
     }
     if (options_.timed && fine_->outcome.complete) time_again();
     fill(*fine_, tolerance_);
@@ -237,7 +237,6 @@ class Simulation {
   }
 
   void add_errors_of_shafts() {
-    if (!result_.errors_measured || interrupted()) return;
     double change = 0;
     std::string why = "nothing computes the machine cut finer from where this run begins";
     if (const auto finer = checkpoint_ ? nullptr : with_finer_shafts(*model_)) {
@@ -247,8 +246,7 @@ class Simulation {
       if (run->outcome.complete)
         change = add_shaft_errors(fine_->figures, fine_->last_state, run->figures, run->last_state), why.clear();
     }
-    for (std::string& note : shaft_error_notes(change, settings_.accuracy, why))
-      result_.notes.push_back(std::move(note));
+    for (auto& note : shaft_error_notes(change, settings_.accuracy, why)) result_.notes.push_back(note);
   }
 
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
