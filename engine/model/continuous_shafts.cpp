@@ -5,20 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "engine/elements/coupled_springs.h"
 #include "engine/model/seen_inertia.h"
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/lobatto_element.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double farthest = 2 * pi;  // x up to which a shaft follows what swings faster than itself
-constexpr int step = 2;              // odd degrees have a part in the middle, whose torque is the shaft's
+constexpr int next_odd = 2;              // odd degrees have a part in the middle, whose torque is the shaft's
 
 // First root of tan x = (r_a + r_b) x/(r_a r_b x² − 1), r = J/J_shaft (theory 5.19); it lies in 0 … π.
 double first_root(double a, double b) {
@@ -37,7 +36,7 @@ double first_root(double a, double b) {
 
 int degree_for(double x) {
   int degree = 1;
-  while (degree + step <= highest_lobatto_degree - step && dispersion(degree, x) > resolved) degree += step;
+  while (degree + next_odd <= highest_lobatto_degree - next_odd && dispersion(degree, x) > resolved_within) degree += next_odd;
   return degree;
 }
 
@@ -109,7 +108,7 @@ void cut_continuous_shafts(Network& net, int finer) {
       continue;
     }
     const double most = std::max(x[at(joint.chain)], std::min(highest / chain->wave_rate(), farthest));
-    chain->degree = std::min(degree_for(most) + step * finer, highest_lobatto_degree);
+    chain->degree = std::min(degree_for(most) + next_odd * finer, highest_lobatto_degree);
     for (Network::Joint& part : parts_of(net, *chain, joint)) joints.push_back(std::move(part));
   }
   place.push_back(joints.size());

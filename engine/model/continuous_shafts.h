@@ -15,9 +15,9 @@ void add_continuous_shaft(Network& network, const std::string& component, const 
 
 // Chooses each shaft's degree by the highest frequency that matters, and cuts it: the machine as it is computed by every
 // command. That frequency is the highest of the shafts' own first ones, each between the inertias that it joins; there a
-// shaft is off by no more than `resolved`. `finer`: so many steps finer, to see what the degree leaves open.
+// shaft is off by no more than `resolved_within`. `finer`: so many steps finer, to see what the degree leaves open.
 void cut_continuous_shafts(Network& network, int finer = 0);
 
-constexpr double resolved = 1e-5;  // of a frequency
+constexpr double resolved_within = 1e-5;  // of a frequency
 
 }  // namespace kurbel

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "engine/linear/shaft_waves.h"
@@ -21,12 +20,12 @@ namespace {
 using test::figure;
 using test::run;
 
-constexpr double pi = std::numbers::pi, shear = 79.3e9, density = 7850;
+constexpr double shear = 79.3e9, density = 7850;
 
 // A round steel shaft, its inertia and its exact 2 × 2 transfer of (φ, M) along it.
 struct Steel {
   double length, diameter;
-  double polar() const { return pi / 32 * std::pow(diameter, 4); }
+  double polar() const { return M_PI / 32 * std::pow(diameter, 4); }
   double inertia() const { return density * polar() * length; }
   double stiffness() const { return shear * polar() / length; }
 };
@@ -132,7 +131,7 @@ TEST(LobattoElement, converges_as_known) {
     return low;
   };
   const double first = root(exact_stiffness, 1, 2), second = root(exact_stiffness, 3.5, 4.5);
-  EXPECT_NEAR(first * std::sqrt(shear / density) / 40 / (2 * pi), 20.0461, 1e-4);
+  EXPECT_NEAR(first * std::sqrt(shear / density) / 40 / (2 * M_PI), 20.0461, 1e-4);
   const auto off = [&](int p, double x, double low, double high) {
     return std::abs(root([p](double at) { return element_stiffness(p, at); }, low, high) / x - 1);
   };
@@ -152,7 +151,7 @@ TEST(ContinuousShaft, modes_of_the_case_lie_within_their_errors) {
     EXPECT_LE(std::abs(study.modes[k].omega - roots[k]), study.modes[k].error) << k;
     EXPECT_LE(study.modes[k].error, worst[k] * roots[k]) << k;
   }
-  EXPECT_NEAR(study.modes[0].omega / (2 * pi), 20.0461, 1e-4);
+  EXPECT_NEAR(study.modes[0].omega / (2 * M_PI), 20.0461, 1e-4);
 }
 
 // Random trains, stepped and geared, some without an inertia between: every mode that is listed is one, within its error,
@@ -255,7 +254,7 @@ effects = { elasticity = true }
   ModesOptions options;
   options.speed = 10;
   const ModesStudy study = find_modes(scene, scene.effects, options);
-  const double omega = 2 * pi * 12;
+  const double omega = 2 * M_PI * 12;
   const Steel half{20, 0.4}, whole{40, 0.4};
   // From the free end at the propeller back to the engine.
   State s;
