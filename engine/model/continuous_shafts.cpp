@@ -17,7 +17,7 @@ namespace kurbel {
 namespace {
 
 constexpr double farthest = 2 * pi;  // x up to which a shaft follows what swings faster than itself
-constexpr int next_odd = 2;              // odd degrees have a part in the middle, whose torque is the shaft's
+constexpr int next_odd = 2;          // odd degrees have a part in the middle, whose torque is the shaft's
 
 // First root of tan x = (r_a + r_b) x/(r_a r_b x² − 1), r = J/J_shaft (theory 5.19); it lies in 0 … π.
 double first_root(double a, double b) {
@@ -36,7 +36,8 @@ double first_root(double a, double b) {
 
 int degree_for(double x) {
   int degree = 1;
-  while (degree + next_odd <= highest_lobatto_degree - next_odd && dispersion(degree, x) > resolved_within) degree += next_odd;
+  while (degree + next_odd <= highest_lobatto_degree - next_odd && dispersion(degree, x) > resolved_within)
+    degree += next_odd;
   return degree;
 }
 

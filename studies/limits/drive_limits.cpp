@@ -44,7 +44,8 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.turns = std::abs(model.node_ratio[at(joint.a)]);
     one.loss_account = e.loss_account;
-    if (const Section* s = model.scene.find(joint.component)) {
+    const bool beside = joint.element->row && one.name != one.component;  // a continuous shaft is judged in its middle
+    if (const Section* s = model.scene.find(joint.component); s && !beside) {
       one.limits = stated_limits(*s);
       one.has_play = s->number_or("backlash", 0) > 0 || s->number_or("mesh_backlash", 0) > 0;
     }
