@@ -72,8 +72,8 @@ std::vector<Network::Joint> parts_of(Network& net, Network::Chain& chain, const 
 }  // namespace
 
 void add_continuous_shaft(Network& net, const std::string& component, const ContinuousShaft& shaft) {
-  const int in = net.add_node(component, "in", 0), first = net.add_node(component, "first", shaft.inertia / 2),
-            last = net.add_node(component, "last", shaft.inertia / 2), out = net.add_node(component, "out", 0);
+  const int in = net.add_node(component, "in_end", 0), first = net.add_node(component, "in", shaft.inertia / 2),
+            last = net.add_node(component, "out", shaft.inertia / 2), out = net.add_node(component, "out_end", 0);
   net.ports[component] = {in, out, {}};
   const auto end = [&](int a, int b, const char* label) {
     net.joints.push_back({.a = a, .b = b, .component = component, .label = label, .told = true});
