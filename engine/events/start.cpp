@@ -20,15 +20,6 @@ std::size_t shaft_of(const ShaftGain& g) { return index(g.shaft); }
 
 constexpr double at_rest = 1e-14;  // of the speed scale
 
-// Of the twist of a shaft that is cut into parts: as all carry the same torque at rest.
-double share_of_twist(const Model& m, std::size_t part) {
-  const Network::Joint& joint = m.network.joints[part];
-  if (joint.chain < 0) return 1;
-  const Network::Chain& chain = m.network.chains[index(joint.chain)];
-  return chain.degree > 0 ? chain.stiffness / joint.element->stiffness
-                          : 1 / static_cast<double>(chain.nodes.size() - 1);
-}
-
 // What a scene's start says of angles and twists; given angles of components stand beside the others' usual ones.
 KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
   KnownMotion known{.shaft = m.shaft_of_node[index(on)], .angle = start.angle / m.gain_of_node[index(on)]};
@@ -36,7 +27,7 @@ KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const auto c = start.components.find(m.network.joints[index(m.elastic[i].joint)].component);
     if (c == start.components.end() || !c->second.twist) continue;
-    known.twists[i] = *c->second.twist * share_of_twist(m, index(m.elastic[i].joint));
+    known.twists[i] = *c->second.twist * m.network.share_of_twist(m.network.joints[index(m.elastic[i].joint)]);
   }
   const double reduction_angle = start.angle / m.node_ratio[index(on)];
   for (const auto& [component, c] : start.components) {

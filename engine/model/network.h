@@ -101,6 +101,9 @@ class Network {
   void put(int node, const std::string& component, ShaftForm element, Window window, double phase);
   void prescribe(int node, PrescribedSpeed speed);
 
+  // Of the twist of a shaft that is cut into parts, where all carry the same torque at rest; of any other joint 1.
+  double share_of_twist(const Joint& joint) const;
+
   std::vector<Node> nodes;
   std::vector<Joint> joints;
   std::vector<Relation> relations;
