@@ -91,10 +91,10 @@ void SpringRowPool::add_torque_slopes(const Instant&, std::vector<TorqueSlope>& 
 
 double SpringRowPool::energy(const Instant& now) const {
   double sum = 0;
-  for (const Placed& row : rows_)
-    for_parts(row, now, [&](const ConnectionPorts&, double twist, double, double spring, double) {
-      sum += 0.5 * spring * twist;
-    });
+  for (const Placed& row : rows_) {
+    const double* const twist = now.twist + row.at.front().id;
+    for (int k = 0; k < row.law->size; ++k) sum += 0.5 * row.law->spring_torque(k, twist) * twist[k];
+  }
   return sum;
 }
 

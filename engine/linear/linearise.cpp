@@ -113,7 +113,7 @@ class Lineariser {
     SparseMatrix rates(joints, shafts), of_shafts(joints, shafts);
     rates.setFromTriplets(of_rate.begin(), of_rate.end());
     of_shafts.setFromTriplets(of_speed.begin(), of_speed.end());
-    of_shafts += torque_by_rate * rates;
+    of_shafts += SparseMatrix(torque_by_rate * rates);
     if (rows) drive_.row_stiffness = beyond_diagonal(torque_by_twist, &LinearDrive::Joint::stiffness);
     if (rows) drive_.row_damping = beyond_diagonal(torque_by_rate, &LinearDrive::Joint::damping);
     drive_.joint_by_speed = of_shafts * base_.coordinates().motion;

@@ -95,7 +95,7 @@ void settle_relative_damping(Compilation& c) {
     if (reduced == 0 && joint.element->damping_hangs_on_inertia() && stays_elastic(c.model.effects, joint) &&
         refused.insert(joint.component).second)
       refuse_undefined_damping(c, joint.component, seen.on_side_a(j), seen.on_side_b(j));
-    // Each of n equal springs in a row is n times as stiff, and between n times the inertia as often in its swing.
+    // Each of n equal springs in a row is n times as stiff, and with n times the inertia n times as damped.
     if (auto settled = joint.element->settled(reduced * parts)) joint.element = std::move(settled);
   }
 }

@@ -91,7 +91,7 @@ void add_wave_errors(ModesStudy& found) {
   for (Mode& mode : found.modes) {
     const double error = wave_error(found.drive, mode.shape, mode.omega);
     mode.error += error;
-    if (error <= carried * mode.omega) kept.push_back(std::move(mode));
+    if (error <= carried * mode.omega || kept.empty()) kept.push_back(std::move(mode));
   }
   found.modes = std::move(kept);
   for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
