@@ -165,6 +165,7 @@ struct BacklashData {
   Backlash contact;
   Damping given;  // in any of its forms; of Hunt–Crossley unused
 
+  bool damping_hangs_on_inertia() const { return contact.law != ContactLaw::hunt_crossley && given.hangs_on_inertia(); }
   Backlash settled(double inertia) const;
   CouplingData without_gap() const;
 };

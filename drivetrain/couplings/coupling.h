@@ -20,6 +20,7 @@ struct Damping {
   As as = As::viscous;
   double value = 0;      // c [N·m·s/rad] or ζ, ψ, η [1]; ≥ 0
   double frequency = 0;  // ω_ref [rad/s]; 0: the natural frequency above
+  bool hangs_on_inertia() const { return as != As::viscous && value > 0 && frequency == 0; }
 };
 
 struct Coupling {
@@ -43,6 +44,7 @@ struct CouplingData {
   double stiffness = 0;  // k [N·m/rad], > 0
   Damping damping;
 
+  bool damping_hangs_on_inertia() const { return damping.hangs_on_inertia(); }
   // inertia: J_red [kg·m²]; 0: none is known (both ends held), and then only c or a given frequency define the damping.
   Coupling settled(double inertia) const {
     if (damping.as == Damping::As::viscous) return {stiffness, damping.value};

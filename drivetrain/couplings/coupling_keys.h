@@ -36,7 +36,7 @@ struct ShaftKeys {
   std::optional<double> stiffness, length, diameter;  // k [N·m/rad], L, D [m]
   double bore = 0, shear_modulus = 0, density = 0;    // d [m], G [Pa], ρ [kg/m³]
   std::optional<double> inertia;                      // [kg·m²]
-  int segments = 1;
+  std::optional<int> segments;
   std::optional<double> allowable_shear_stress;  // [Pa]
   ShaftRating rating;
   Damping damping;

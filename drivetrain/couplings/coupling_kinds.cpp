@@ -9,6 +9,7 @@
 
 #include "drivetrain/couplings/backlash.h"
 #include "drivetrain/couplings/coupling.h"
+#include "engine/model/continuous_shafts.h"
 #include "engine/model/network.h"
 
 namespace kurbel {
@@ -122,7 +123,8 @@ void check_shaft(const Reading<ShaftKeys>& shaft) {
   }
 }
 
-// k = G J_p/L, J = ρ J_p L; cut into n equal springs with the inertia between and at the ends.
+// k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are told, it is cut into
+// equal springs with the inertia between and at the ends.
 void build_shaft(const Section& s, Network& net, Messages& messages) {
   const std::size_t before = messages.all().size();
   const auto shaft = shaft_fields().read(s, messages);
@@ -130,18 +132,24 @@ void build_shaft(const Section& s, Network& net, Messages& messages) {
   const double stiffness = shaft.length ? shaft.shear_modulus * shaft.polar_moment() / *shaft.length : *shaft.stiffness;
   const double inertia =
       shaft.inertia.value_or(shaft.length ? shaft.density * shaft.polar_moment() * *shaft.length : 0);
+  if (shaft.length && !shaft.segments && inertia > 0)
+    return add_continuous_shaft(net, s.name,
+                                {stiffness, inertia, connection_form(CouplingData{stiffness, shaft.damping})});
   // Springs and dampers in series: n of them, each n times as stiff and as damped.
-  const int segments = shaft.segments;
+  const int segments = shaft.segments.value_or(1);
   Damping part = shaft.damping;
   if (part.as == Damping::As::viscous) part.value *= segments;
   int node = net.add_node(s.name, "in", inertia / (2 * segments));
   net.ports[s.name].in = node;
+  Network::Chain chain{.component = s.name, .nodes = {node}};
   for (int i = 1; i <= segments; ++i) {
     const bool last = i == segments;
     const int next = net.add_node(s.name, last ? "out" : fmt::format("{}", i), inertia / segments * (last ? 0.5 : 1));
     net.connect(node, next, 1, s.name, CouplingData{stiffness * segments, part});
-    node = next;
+    if (segments > 1) net.joints.back().chain = static_cast<int>(net.chains.size());
+    chain.nodes.push_back(node = next);
   }
+  if (segments > 1) net.chains.push_back(std::move(chain));
   net.ports[s.name].out = node;
 }
 
@@ -188,9 +196,9 @@ const Fields<ShaftKeys>& shaft_fields() {
                 .doc = "of the whole shaft; default: from its dimensions, else 0"},
                &ShaftKeys::inertia)
           .add({.name = "segments",
-                .fallback = "1",
                 .domain = {.low = 1, .high = 100000},
-                .doc = "number of equal springs that it is cut into"},
+                .doc = "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
+                       "stiffness one spring"},
                &ShaftKeys::segments)
           .add({.name = "allowable_shear_stress",
                 .unit = "Pa",

@@ -77,6 +77,7 @@ struct ProgressiveCouplingData {
   ProgressiveCoupling spring;
   Damping given;
 
+  bool damping_hangs_on_inertia() const { return given.hangs_on_inertia(); }
   ProgressiveCoupling settled(double inertia) const {
     ProgressiveCoupling element = spring;
     element.set_damping(CouplingData{spring.stiffness_at_rest(), given}.settled(inertia).damping);

@@ -69,6 +69,7 @@ struct StaticRubberData {
   CouplingData spring;
   std::vector<MaxwellBranch> branch;
 
+  bool damping_hangs_on_inertia() const { return spring.damping_hangs_on_inertia(); }
   Coupling settled(double inertia) const {
     Coupling element = spring.settled(inertia);
     const double given = spring.damping.frequency;
@@ -87,6 +88,7 @@ struct RubberCouplingData {
   CouplingData spring;
   std::array<MaxwellBranch, branches> branch{};
 
+  bool damping_hangs_on_inertia() const { return spring.damping_hangs_on_inertia(); }
   RubberCoupling<branches> settled(double inertia) const {
     const Coupling plain = spring.settled(inertia);
     return {plain.stiffness, plain.damping, branch};

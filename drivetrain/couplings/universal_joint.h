@@ -104,6 +104,7 @@ struct UniversalJointData {
   HookeJoint joint;
   double phase = 0;
 
+  bool damping_hangs_on_inertia() const { return spring.damping_hangs_on_inertia(); }
   UniversalJoint settled(double inertia) const {
     const Coupling plain = spring.settled(inertia);
     return {plain.stiffness, plain.damping, joint, phase};

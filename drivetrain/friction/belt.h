@@ -117,6 +117,7 @@ struct BeltData {
   double axial_stiffness = 0;       // EA [N], 0: not known
   Damping damping;
 
+  bool damping_hangs_on_inertia() const { return damping.hangs_on_inertia(); }
   Belt settled(double inertia) const {
     const double scale = inertia > 0 ? limit / std::sqrt(stiffness * inertia) : limit / stiffness;
     return {stiffness, CouplingData{stiffness, damping}.settled(inertia).damping, limit, scale, describe()};

@@ -90,6 +90,7 @@ struct MeshData {
   Data contact;
   MeshVariation variation;
 
+  bool damping_hangs_on_inertia() const { return contact.damping_hangs_on_inertia(); }
   Element settled(double inertia) const { return {contact.settled(inertia), variation}; }
 };
 template <class Data>

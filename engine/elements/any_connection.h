@@ -14,6 +14,8 @@
 
 namespace kurbel {
 
+struct SpringRow;
+
 // Never changes after it is made: networks that are compiled several times share it.
 class AnyConnection {
  public:
@@ -26,6 +28,9 @@ class AnyConnection {
   double capacity = 0;             // of one that slips [N·m]
   bool knows_torque_rate = false;  // the torque hangs on the twist and its mode alone
   std::vector<OwnState> own_states = {};
+  std::shared_ptr<const SpringRow> row =
+      {};            // of springs in a row that hang on each other (coupled_springs.h), else null
+  int row_part = 0;  // which of them
 
   // --- laws ---
   virtual double twist_at(double torque, double turn = 0) const = 0;                     // 0 without a spring
@@ -36,7 +41,8 @@ class AnyConnection {
   virtual double share_of_a(double torque, double turn) const = 0;                       // on a over τ, at rest
   virtual std::string describe() const = 0;                                              // empty: nothing to say
   virtual ConnectionForm settled(double inertia) const = 0;                              // J_red [kg·m²]
-  virtual ConnectionForm form_under(const Effects&) const = 0;                           // null: this one
+  virtual bool damping_hangs_on_inertia() const = 0;  // of a specification: settled(0) has no damping, and should
+  virtual ConnectionForm form_under(const Effects&) const = 0;  // null: this one
   virtual void place(PoolSet&, const ConnectionPorts&, const ConnectionExtras&) const = 0;
 };
 
@@ -121,6 +127,12 @@ class ConnectionOf final : public AnyConnection {
       return nullptr;
     else
       return std::make_shared<ConnectionOf>(given_, given_.settled(inertia));
+  }
+  bool damping_hangs_on_inertia() const override {
+    if constexpr (is_given)
+      return false;
+    else
+      return given_.damping_hangs_on_inertia();
   }
   ConnectionForm form_under([[maybe_unused]] const Effects& effects) const override {
     if constexpr (has_other_forms)

@@ -79,6 +79,7 @@
 // A connection whose damping hangs on the inertias that it joins is given as a **specification** that becomes one:
 //   using Element = E;
 //   E settled(double inertia) const;                         J_red [kg·m²]; 0: none is known
+//   bool damping_hangs_on_inertia() const;                   so that without one it is not defined
 //   static constexpr bool other_forms = true;                if so; as above
 #pragma once
 

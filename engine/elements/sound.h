@@ -291,6 +291,7 @@ template <class S>
 concept SoundSpecification = requires(const S& given) {
   typename S::Element;
   { given.settled(1.0) } -> std::same_as<typename S::Element>;
+  { given.damping_hangs_on_inertia() } -> std::same_as<bool>;
 }
 &&sound::FindsForms<S, ConnectionForm> == requires { requires S::other_forms; };
 
@@ -365,8 +366,8 @@ consteval bool demand_sound_shaft_element() {
 template <class S>
 consteval bool demand_sound_specification() {
   static_assert(SoundSpecification<S>,
-                "a specification has using Element = E, E settled(double) const, and with "
-                "other_forms = true ConnectionForm under(const S&, const Effects&)");
+                "a specification has using Element = E, E settled(double) const, bool "
+                "damping_hangs_on_inertia() const, and with other_forms = true ConnectionForm under(const S&, const Effects&)");
   return true;
 }
 

@@ -54,7 +54,7 @@ void JointTorques::lock_in_twists_of_the_start() {
   for (std::size_t j = 0; j < net.joints.size(); ++j) {
     const auto given = start.find(net.joints[j].component);
     if (given != start.end() && net.joints[j].element && !net.joints[j].elastic)
-      twist[j] = given->second.twist.value_or(0);
+      twist[j] = given->second.twist.value_or(0) * net.share_of_twist(net.joints[j]);
   }
   loops_.lock_in(twist);
 }

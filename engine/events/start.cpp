@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/elements/coupled_springs.h"
 #include "engine/events/unloaded_motion.h"
 
 namespace kurbel {
@@ -25,7 +26,8 @@ KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
   known.twists.resize(m.elastic.size());
   for (std::size_t i = 0; i < m.elastic.size(); ++i) {
     const auto c = start.components.find(m.network.joints[index(m.elastic[i].joint)].component);
-    if (c != start.components.end()) known.twists[i] = c->second.twist;
+    if (c == start.components.end() || !c->second.twist) continue;
+    known.twists[i] = *c->second.twist * m.network.share_of_twist(m.network.joints[index(m.elastic[i].joint)]);
   }
   const double reduction_angle = start.angle / m.node_ratio[index(on)];
   for (const auto& [component, c] : start.components) {
@@ -266,8 +268,11 @@ void Start::balance_twists(std::span<double> y, double t) {
     largest = 0;
     for (std::size_t i = 0; i < joints; ++i) {
       const int j = m.elastic[i].joint;
-      const double turn = turn_of(j, y),
-                   target = element(i).twist_at(torque[index(j)], turn) + element(i).rest_twist(turn);
+      const double turn = turn_of(j, y);
+      const AnyConnection& e = element(i);
+      const double loaded = e.row ? e.row->twist_at(e.row_part, &torque[index(j) - index(e.row_part)])
+                                  : e.twist_at(torque[index(j)], turn);
+      const double target = loaded + e.rest_twist(turn);
       const double step = (target - twist[i]) / (1 + (element(i).rest_ratio(turn) - 1) * by_own_twist[i]);
       twist[i] = element(i).is.uses_angle ? twist[i] + step : target;
       largest = std::max(largest, std::abs(step));

@@ -81,15 +81,9 @@ MatrixXd rigid_motions(const LinearDrive& drive) {
   return orthonormalised(motions);
 }
 
-VectorXd stiffnesses(const LinearDrive& drive) {
-  VectorXd k(static_cast<Index>(drive.joints.size()));
-  for (Index j = 0; j < k.size(); ++j) k[j] = drive.joints[at(j)].stiffness;
-  return k;
-}
-
 // ω² = Σ k θ²/Σ J q²: the energies know low frequencies beside stiff springs to more digits than the matrix does.
 double frequency(const LinearDrive& drive, const VectorXd& q) {
-  const double potential = stiffnesses(drive).dot((drive.twists * q).cwiseAbs2());
+  const double potential = drive.spring_work(drive.twists * q).sum();
   return std::sqrt(std::max(0.0, potential) / drive.inertia.dot(q.cwiseAbs2()));
 }
 
@@ -300,7 +294,7 @@ EnergyShares energy_shares(const LinearDrive& drive, const VectorXd& shape) {
     for (double& s : share) s = sum > 0 ? s / sum : 0;
     return share;
   };
-  return {shares(stiffnesses(drive).cwiseProduct((drive.twists * shape).cwiseAbs2())),
+  return {shares(drive.spring_work(drive.twists * shape)),
           shares(drive.shaft_inertia.cwiseProduct((drive.motion * shape).cwiseAbs2()))};
 }
 

@@ -77,7 +77,7 @@ class Lineariser {
     using By = TorqueSlope::By;
     drive_.joints.resize(m_.elastic.size());
     std::vector<TorqueSlope> slopes;
-    Triplets by_speed, by_own;
+    Triplets by_twist, by_rate, by_own;
     std::vector<double> of_a(m_.elastic.size(), 0.0);
     const double share = 1.0 / static_cast<double>(base_.positions().size());
     for (const BaseMotion::Position& position : base_.positions()) {
@@ -85,26 +85,51 @@ class Lineariser {
       slopes.clear();
       for (const auto& pool : m_.pools) pool->add_torque_slopes(now, slopes);
       for (const TorqueSlope& slope : slopes) {
-        LinearDrive::Joint& joint = drive_.joints[at(slope.connection)];
         const double value = share * slope.value;
-        if (slope.by == By::twist) joint.stiffness += value;
-        if (slope.by == By::rate) joint.damping += value;
+        if (slope.by == By::twist) by_twist.emplace_back(slope.connection, slope.index, value);
+        if (slope.by == By::rate) by_rate.emplace_back(slope.connection, slope.index, value);
         if (slope.by == By::own && value != 0) by_own.emplace_back(slope.connection, slope.index, value);
         if (slope.by == By::speed_of_a) of_a[at(slope.connection)] += value;
       }
     }
     const auto joints = static_cast<Index>(m_.elastic.size()), shafts = static_cast<Index>(m_.shafts.size());
+    SparseMatrix torque_by_twist(joints, joints), torque_by_rate(joints, joints);
+    torque_by_twist.setFromTriplets(by_twist.begin(), by_twist.end());
+    torque_by_rate.setFromTriplets(by_rate.begin(), by_rate.end());
+    bool rows = false;
+    Triplets of_rate, of_speed;
     for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
       const ElasticJoint& e = m_.elastic[j];
-      const double c = drive_.joints[j].damping;
-      by_speed.emplace_back(static_cast<int>(j), e.shaft_a, e.gain_a * (c + of_a[j]));
-      by_speed.emplace_back(static_cast<int>(j), e.shaft_b, -e.gain_b * c);
+      const AnyConnection& element = *m_.network.joints[at(e.joint)].element;
+      const auto i = static_cast<Index>(j);
+      // A part of a row by itself: as all parts carry the same torque at rest.
+      drive_.joints[j].stiffness = element.row ? element.stiffness : torque_by_twist.coeff(i, i);
+      drive_.joints[j].damping = element.row ? element.damping : torque_by_rate.coeff(i, i);
+      rows = rows || element.row;
+      of_rate.emplace_back(static_cast<int>(j), e.shaft_a, e.gain_a);
+      of_rate.emplace_back(static_cast<int>(j), e.shaft_b, -e.gain_b);
+      of_speed.emplace_back(static_cast<int>(j), e.shaft_a, e.gain_a * of_a[j]);
     }
-    SparseMatrix of_shafts(joints, shafts);
-    of_shafts.setFromTriplets(by_speed.begin(), by_speed.end());
+    SparseMatrix rates(joints, shafts), of_shafts(joints, shafts);
+    rates.setFromTriplets(of_rate.begin(), of_rate.end());
+    of_shafts.setFromTriplets(of_speed.begin(), of_speed.end());
+    of_shafts += SparseMatrix(torque_by_rate * rates);
+    if (rows) drive_.row_stiffness = beyond_diagonal(torque_by_twist, &LinearDrive::Joint::stiffness);
+    if (rows) drive_.row_damping = beyond_diagonal(torque_by_rate, &LinearDrive::Joint::damping);
     drive_.joint_by_speed = of_shafts * base_.coordinates().motion;
     drive_.joint_by_own = SparseMatrix(joints, static_cast<Index>(m_.own_states.size()));
     drive_.joint_by_own.setFromTriplets(by_own.begin(), by_own.end());
+  }
+
+  SparseRows beyond_diagonal(const SparseMatrix& all, double LinearDrive::Joint::*own) const {
+    Triplets entries;
+    for (std::size_t j = 0; j < drive_.joints.size(); ++j)
+      entries.emplace_back(static_cast<int>(j), static_cast<int>(j), drive_.joints[j].*own);
+    SparseMatrix diagonal(all.rows(), all.cols());
+    diagonal.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix rest = all - diagonal;
+    rest.prune(0.0);
+    return rest;
   }
 
   void take_torques() {
@@ -130,6 +155,8 @@ class Lineariser {
     Eigen::VectorXd k(t.rows());
     for (Index i = 0; i < k.size(); ++i) k[i] = drive_.joints[at(i)].stiffness;
     drive_.stiffness = SparseMatrix(t.transpose()) * k.asDiagonal() * t;
+    if (drive_.row_stiffness.nonZeros() > 0)
+      drive_.stiffness += SparseMatrix(SparseMatrix(t.transpose()) * SparseMatrix(drive_.row_stiffness) * t);
     drive_.damping = -j.torque_by_speed;
     drive_.torque_by_twist = std::move(j.torque_by_twist);
     SparseMatrix rest = -(drive_.torque_by_twist * t) - drive_.stiffness;
@@ -189,6 +216,37 @@ class Lineariser {
 };
 
 }  // namespace
+
+namespace {
+
+Eigen::VectorXcd torques(const std::vector<LinearDrive::Joint>& joints, double LinearDrive::Joint::*own,
+                         const SparseRows& rows, const Eigen::VectorXcd& motion) {
+  Eigen::VectorXcd torque(motion.size());
+  for (Index j = 0; j < motion.size(); ++j) torque[j] = joints[at(j)].*own * motion[j];
+  if (rows.nonZeros() > 0) torque += rows * motion;
+  return torque;
+}
+
+}  // namespace
+
+Eigen::VectorXcd LinearDrive::spring_torques(const Eigen::VectorXcd& twist) const {
+  return torques(joints, &Joint::stiffness, row_stiffness, twist);
+}
+
+Eigen::VectorXcd LinearDrive::damper_torques(const Eigen::VectorXcd& rate) const {
+  return torques(joints, &Joint::damping, row_damping, rate);
+}
+
+Eigen::VectorXd LinearDrive::spring_work(const Eigen::VectorXd& twist) const {
+  return twist.cwiseProduct(spring_torques(twist.cast<std::complex<double>>()).real());
+}
+
+void LinearDrive::stiffen(double factor) {
+  for (Joint& joint : joints) joint.stiffness *= factor;
+  row_stiffness *= factor;
+  stiffness *= factor;
+  torque_by_twist *= factor;
+}
 
 LinearDrive linearise(BaseMotion& base) {
   refuse_what_cannot_swing(base.model(), base.point());

@@ -35,9 +35,11 @@ struct LinearDrive {
   Eigen::VectorXd shaft_inertia;  // of them [kg·m²]
   std::vector<double> ratio;      // of them: speed over the reduction link's when all turns as geared
   std::vector<Joint> joints;      // per elastic joint of the model
-  SparseRows twists;              // T: joints × coordinates
-  Eigen::VectorXd inertia;        // M, diagonal [kg·m²]
-  SparseMatrix stiffness;         // Tᵀ k T of the springs, symmetric
+  // What springs in a row that hang on each other do beyond that, by twists and rates of all joints; empty: there are none.
+  SparseRows row_stiffness, row_damping;
+  SparseRows twists;        // T: joints × coordinates
+  Eigen::VectorXd inertia;  // M, diagonal [kg·m²]
+  SparseMatrix stiffness;   // Tᵀ k T of the springs, symmetric
   SparseMatrix
       other_stiffness;   // of K, what is not: losses by torque; what depends on the angle, with the link held at one
   SparseMatrix damping;  // C
@@ -51,6 +53,11 @@ struct LinearDrive {
   Eigen::Index size() const { return inertia.size(); }
   Eigen::Index own_states() const { return own_scale.size(); }
   bool is_symmetric() const { return other_stiffness.nonZeros() == 0 && own_states() == 0; }
+  // Of the springs by the twists, of the dampers by their rates.
+  Eigen::VectorXcd spring_torques(const Eigen::VectorXcd& twist) const;
+  Eigen::VectorXcd damper_torques(const Eigen::VectorXcd& rate) const;
+  Eigen::VectorXd spring_work(const Eigen::VectorXd& twist) const;  // twice their energy, by joints
+  void stiffen(double factor);                                      // all springs
   double twist(std::size_t joint, const Eigen::VectorXd& q) const {
     return twists.row(static_cast<Eigen::Index>(joint)).dot(q);
   }

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 
+#include "engine/model/continuous_shafts.h"
 #include "engine/model/model.h"
 #include "engine/numerics/deadline.h"
 
@@ -55,6 +56,7 @@ Network build_network(const Scene& scene) {
     }
     if (!line.to.empty()) network.join(end, port_named(network, line.to), 1, "");
   }
+  cut_continuous_shafts(network, scene.finer_shafts);
   return network;
 }
 

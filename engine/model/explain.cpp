@@ -1,6 +1,8 @@
 // explain.cpp — what a model says of itself: what was merged, its coordinates, their inertias, and why.
 #include <fmt/format.h>
 
+#include <map>
+
 #include <algorithm>
 
 #include "engine/model/model.h"
@@ -53,6 +55,29 @@ std::string merged_lines(const Model& m) {
 }
 
 }  // namespace
+
+bool Model::has_continuous_shafts() const {
+  return std::any_of(elastic.begin(), elastic.end(), [this](const ElasticJoint& e) {
+    const int chain = network.joints[static_cast<std::size_t>(e.joint)].chain;
+    return chain >= 0 && network.chains[static_cast<std::size_t>(chain)].degree > 0;
+  });
+}
+
+std::vector<std::string> Model::joint_names() const {
+  std::map<std::string, int> total, seen;
+  const auto joint_of = [this](const ElasticJoint& e) -> const Network::Joint& {
+    return network.joints[static_cast<std::size_t>(e.joint)];
+  };
+  for (const ElasticJoint& e : elastic) ++total[joint_of(e).component];
+  std::vector<std::string> names;
+  for (const ElasticJoint& e : elastic) {
+    const std::string& component = joint_of(e).component;
+    const int parts = total[component], part = ++seen[component];
+    const bool middle = joint_of(e).element->row && 2 * part == parts + 1;
+    names.push_back(parts == 1 || middle ? component : fmt::format("{}.{}", component, part));
+  }
+  return names;
+}
 
 std::string Model::node_label(int node) const {
   const Network::Node& n = network.nodes[static_cast<std::size_t>(node)];

@@ -88,8 +88,9 @@ struct TrackedAngle {
 struct TorqueJoint {
   std::string component;
   int joint = 0;
-  int elastic = -1;         // index of the elastic joint; −1: merged, torque by d'Alembert
-  double torque_scale = 1;  // [N·m]
+  int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
+  int first = -1, last = -1;  // elastic joints whose twists together are the component's
+  double torque_scale = 1;    // [N·m]
 };
 
 // A motor: the elements of a component that drive and tell a rated torque and speed. Or what turns a shaft whose speed is
@@ -165,7 +166,11 @@ struct Model {
   std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
   // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
   bool has_contacts() const;
+  bool has_continuous_shafts() const;  // that are elastic: cut_continuous_shafts says how well they are resolved
   std::string node_label(int node) const;
+  // For people, of all elastic joints: the component, of several of its parts with their number; the middle one of a
+  // continuous shaft stands for the shaft.
+  std::vector<std::string> joint_names() const;
   // What was merged, the coordinates, their inertias, and why.
   std::string explain() const;
 };

@@ -15,6 +15,15 @@ int Network::add_node(const std::string& component, const std::string& label, do
   return static_cast<int>(nodes.size()) - 1;
 }
 
+double Network::Chain::wave_rate() const { return std::sqrt(stiffness / inertia); }
+
+double Network::share_of_twist(const Joint& joint) const {
+  if (joint.chain < 0) return 1;
+  const Chain& shaft = chains[static_cast<std::size_t>(joint.chain)];
+  return shaft.degree > 0 ? shaft.stiffness / joint.element->stiffness
+                          : 1 / static_cast<double>(shaft.nodes.size() - 1);
+}
+
 void Network::join(int a, int b, double ratio, const std::string& component) {
   joints.push_back({.a = a, .b = b, .ratio = ratio, .component = component});
 }

@@ -46,6 +46,16 @@ class Network {
     ConnectionForm element = nullptr;  // null: always rigid
     bool elastic = false;              // by the effects that are on
     std::string label = {};            // tells several joints of a component apart
+    bool told = false;                 // rigid always, and its torque is a result
+    int chain = -1;                    // of which it is a part
+  };
+  // A shaft that is cut into parts: joints in a row, in the network one after the other.
+  struct Chain {
+    std::string component;
+    std::vector<int> nodes;             // from its one end to the other
+    double stiffness = 0, inertia = 0;  // of the whole, where it is one spectral element [N·m/rad, kg·m²]
+    int degree = 0;                     // of that element; 0: equal springs
+    double wave_rate() const;           // ω at x = β L = 1: √(k/J) [rad/s]
   };
   struct ShaftElement {
     int node = 0;
@@ -91,9 +101,13 @@ class Network {
   void put(int node, const std::string& component, ShaftForm element, Window window, double phase);
   void prescribe(int node, PrescribedSpeed speed);
 
+  // Of the twist of a shaft that is cut into parts, where all carry the same torque at rest; of any other joint 1.
+  double share_of_twist(const Joint& joint) const;
+
   std::vector<Node> nodes;
   std::vector<Joint> joints;
   std::vector<Relation> relations;
+  std::vector<Chain> chains;
   std::vector<ShaftElement> elements;
   std::vector<PrescribedSpeed> prescribed;
   std::map<std::string, Ports> ports;   // of each component

@@ -232,14 +232,24 @@ void list_torque_joints(Compilation& c) {
   int elastic = 0;
   for (std::size_t j = 0; j < m.network.joints.size(); ++j) {
     const Network::Joint& joint = m.network.joints[j];
-    if (!joint.element) continue;
-    const int index = joint.elastic ? elastic++ : -1;
-    const int total = segments[joint.component], k = ++seen[joint.component];
-    if (total > 20 && k != 1 && k != total) continue;  // both ends of a long chain
-    const std::string name = !joint.label.empty() ? joint.component + "." + joint.label
-                             : total == 1         ? joint.component
-                                                  : fmt::format("{}.{}", joint.component, k);
-    m.torque_joints.push_back({name, static_cast<int>(j), index, m.torque_scale / m.scale_ratio[at(joint.a)]});
+    if (!joint.element && !joint.told) continue;
+    TorqueJoint listed{.component = joint.component,
+                       .joint = static_cast<int>(j),
+                       .torque_scale = m.torque_scale / m.scale_ratio[at(joint.a)]};
+    if (!joint.label.empty()) listed.component += "." + joint.label;
+    if (joint.element) {
+      if (joint.elastic) listed.first = listed.last = listed.elastic = elastic++;
+      const int total = segments[joint.component], k = ++seen[joint.component];
+      if (joint.chain >= 0 && m.network.chains[at(joint.chain)].degree > 0) {
+        if (2 * k != total + 1) continue;  // the torque of a continuous shaft is that in its middle
+        if (joint.elastic) listed.first -= k - 1, listed.last += total - k;
+      } else if (total > 20 && k != 1 && k != total) {
+        continue;  // both ends of a long chain
+      } else if (joint.label.empty() && total > 1) {
+        listed.component += fmt::format(".{}", k);
+      }
+    }
+    m.torque_joints.push_back(std::move(listed));
   }
 }
 

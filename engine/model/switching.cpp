@@ -1,19 +1,39 @@
 // switching.cpp — the network under the effects that are on: what is elastic, what is merged, what is left out.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <set>
 
 #include "engine/elements/no_element.h"
 #include "engine/model/compile_steps.h"
+#include "engine/model/seen_inertia.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
 
+// Of a joint that could be.
+bool stays_elastic(const Effects& effects, const Network::Joint& joint) {
+  if (joint.element->is.slips || joint.element->is.springless) return !effects.locked;
+  return effects.all_elastic ||
+         std::find(effects.elastic.begin(), effects.elastic.end(), joint.component) != effects.elastic.end();
+}
+
+void refuse_undefined_damping(Compilation& c, const std::string& component, double a, double b) {
+  const std::string why =
+      a > 0 && b > 0 ? "both of its shafts turn at given speeds"
+                     : fmt::format("on its {} side there is no inertia at all", a > 0   ? "driven"
+                                                                                : b > 0 ? "driving"
+                                                                                        : "driving and driven");
+  c.refuse(
+      component,
+      fmt::format("\"{}\": its damping is given in relation to the natural frequency of the inertias that it joins, "
+                  "and {}; give damping in N*m*s/rad, or damping_frequency besides",
+                  component, why));
+}
+
 // Which joints stay elastic, and what is told of those that do not.
 void switch_joints(Model& m) {
-  const std::set<std::string> elastic(m.effects.elastic.begin(), m.effects.elastic.end());
   for (Network::Joint& joint : m.network.joints) {
     if (joint.element && (joint.element->is.slips || joint.element->is.springless)) {
       joint.elastic = !m.effects.locked;
@@ -21,7 +41,7 @@ void switch_joints(Model& m) {
         m.merged.push_back(fmt::format("\"{}\" counts as locked; the shafts on either side are one", joint.component));
       continue;
     }
-    joint.elastic = joint.element && (m.effects.all_elastic || elastic.count(joint.component) > 0);
+    joint.elastic = joint.element && stays_elastic(m.effects, joint);
     if (joint.element && !joint.elastic &&
         (m.merged.empty() || m.merged.back().find("\"" + joint.component + "\"") == std::string::npos))
       m.merged.push_back(fmt::format("\"{}\" is rigid because its elasticity is off; the shafts on either side are one",
@@ -61,26 +81,22 @@ void switch_connections(Compilation& c) {
 }
 
 // A damping ratio refers to the two inertias that the element joins when every elastic element is flexible, whatever
-// effects are on: 1/J_red = 1/J_a + i²/J_b.
+// effects are on: 1/J_red = 1/J_a + i²/J_b. Parts of a shaft have its damping as a whole, however many they are.
 void settle_relative_damping(Compilation& c) {
   Network& net = c.net();
-  const Merging finest = merge(
-      net, [](const Network::Joint& joint) { return !joint.element; }, Through::turning);
-  std::vector<double> inertia(at(finest.groups), 0.0);
-  for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    inertia[at(finest.group[n])] +=
-        net.nodes[n].prescribed >= 0 ? HUGE_VAL : net.nodes[n].inertia * finest.gain[n] * finest.gain[n];
-  for (const Network::ShaftElement& e : net.elements)
-    inertia[at(finest.group[at(e.node)])] +=
-        e.element->mean_inertia * finest.gain[at(e.node)] * finest.gain[at(e.node)];
-  for (Network::Joint& joint : net.joints) {
+  const SeenInertias seen(net);
+  std::set<std::string> refused;
+  for (std::size_t j = 0; j < net.joints.size(); ++j) {
+    Network::Joint& joint = net.joints[j];
     if (!joint.element) continue;
-    const auto own = [&](int node) {
-      return inertia[at(finest.group[at(node)])] / (finest.gain[at(node)] * finest.gain[at(node)]);
-    };
-    const double compliance = 1 / own(joint.a) + joint.ratio * joint.ratio / own(joint.b);
-    const double reduced = compliance > 0 && std::isfinite(compliance) ? 1 / compliance : 0.0;
-    if (auto settled = joint.element->settled(reduced)) joint.element = std::move(settled);
+    const bool cut = joint.chain >= 0 && net.chains[at(joint.chain)].degree == 0;
+    const double parts = cut ? static_cast<double>(net.chains[at(joint.chain)].nodes.size() - 1) : 1;
+    const double reduced = seen.reduced(j);
+    if (reduced == 0 && joint.element->damping_hangs_on_inertia() && stays_elastic(c.model.effects, joint) &&
+        refused.insert(joint.component).second)
+      refuse_undefined_damping(c, joint.component, seen.on_side_a(j), seen.on_side_b(j));
+    // Each of n equal springs in a row is n times as stiff, and with n times the inertia n times as damped.
+    if (auto settled = joint.element->settled(reduced * parts)) joint.element = std::move(settled);
   }
 }
 

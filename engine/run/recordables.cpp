@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/elements/coupled_springs.h"
 #include "engine/numerics/index.h"
 #include "engine/run/recorders.h"
 
@@ -121,13 +122,36 @@ class ChannelList {
     }
     add(Name::make(QuantityKind::spring_torque, joint.component), "N*m",
         [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
-    add(Name::make(QuantityKind::twist, joint.component), "rad", [e](const Snapshot& s) { return s.now.twist[e]; });
+    const int first = joint.first, last = joint.last;
+    add(Name::make(QuantityKind::twist, joint.component), "rad", [first, last](const Snapshot& s) {
+      double twist = 0;
+      for (int k = first; k <= last; ++k) twist += s.now.twist[k];
+      return twist;
+    });
   }
 
   const Model& model_;
   std::vector<std::string> wanted_;
   std::vector<Channel> channels_;
 };
+
+// A part of a row: its torque follows the twists and their rates of all parts.
+void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyConnection& part, ExtremeOf& transmitted,
+                       ExtremeOf& spring) {
+  const SpringRow* row = part.row.get();
+  const int k = part.row_part, first = joint.first;
+  spring.slope =
+      spring.rate = [row, k, first](const Snapshot& s) { return row->spring_torque(k, s.sums.twist_rate + first); };
+  const auto* const elastic = model.elastic.data() + first;
+  transmitted.slope = transmitted.rate = [row, k, first, elastic](const Snapshot& s) {
+    double damper = 0;
+    for (int l = 0; l < row->size; ++l) {
+      const ElasticJoint& e = elastic[l];
+      damper += row->stiffness[at(k * row->size + l)] * (e.gain_a * s.alpha[e.shaft_a] - e.gain_b * s.alpha[e.shaft_b]);
+    }
+    return row->spring_torque(k, s.sums.twist_rate + first) + row->retardation * damper;
+  };
+}
 
 // What a joint transmits and what its spring does of that; no spring: the torque alone. The model outlives the run.
 void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<ExtremeOf>& wanted) {
@@ -141,6 +165,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
     wanted.push_back(std::move(transmitted));
     return;
   }
+  if (!model.network.joints[at(j)].element) return wanted.push_back(std::move(transmitted));  // no spring at all
   ExtremeOf spring = transmitted;
   spring.name = Name::make(QuantityKind::peak_spring_torque, joint.component);
   if (e >= 0) {
@@ -163,6 +188,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
     }
     // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
     if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
+    if (element->row) tell_rates_of_row(model, joint, *element, transmitted, spring);
   }
   wanted.push_back(std::move(transmitted));
   wanted.push_back(std::move(spring));

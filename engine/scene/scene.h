@@ -75,6 +75,7 @@ struct Scene {
   Sequence sequence;
   RunSettings run;
   SpeedUnit speed_unit;  // of the first speed in the file
+  int finer_shafts = 0;  // steps by which continuous shafts are cut finer than they need: told by no key
 
   const Section* find(const std::string& name) const;
   // Its title, else its file, and what was set beside it.

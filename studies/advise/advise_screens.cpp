@@ -153,7 +153,7 @@ class Screening {
   void find_quasi_static() {
     LinearDrive stiff = modes_->drive;
     constexpr double factor = 1e4;
-    stiff.stiffness *= factor;
+    stiff.stiffness *= factor, stiff.row_stiffness *= factor;
     for (LinearDrive::Joint& joint : stiff.joints) joint.stiffness *= factor;
     try {
       quasi_static_ = respond(stiff, modes_->excitations);

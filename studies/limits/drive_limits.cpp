@@ -35,18 +35,17 @@ DriveLimits stated_limits(const Section& s) {
 }  // namespace
 
 std::vector<LimitedJoint> limited_joints(const Model& model) {
-  std::map<std::string, int> total, seen;
-  for (const ElasticJoint& e : model.elastic) ++total[model.network.joints[at(e.joint)].component];
+  const std::vector<std::string> names = model.joint_names();
   std::vector<LimitedJoint> joints;
   for (const ElasticJoint& e : model.elastic) {
     const Network::Joint& joint = model.network.joints[at(e.joint)];
-    LimitedJoint one{.name = joint.component, .component = joint.component, .joint = e.joint};
-    if (total[joint.component] > 1) one.name += fmt::format(".{}", ++seen[joint.component]);
+    LimitedJoint one{.name = names[joints.size()], .component = joint.component, .joint = e.joint};
     one.stands = model.node_ratio[at(joint.a)] == 0;
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.turns = std::abs(model.node_ratio[at(joint.a)]);
     one.loss_account = e.loss_account;
-    if (const Section* s = model.scene.find(joint.component)) {
+    const bool beside = joint.element->row && one.name != one.component;  // a continuous shaft is judged in its middle
+    if (const Section* s = model.scene.find(joint.component); s && !beside) {
       one.limits = stated_limits(*s);
       one.has_play = s->number_or("backlash", 0) > 0 || s->number_or("mesh_backlash", 0) > 0;
     }

@@ -16,6 +16,12 @@
 namespace kurbel {
 namespace {
 
+// A component's own, or that of one of its segments; a continuous shaft is judged by the torque in its middle.
+bool is_joint_of(const std::string& joint, const std::string& component) {
+  if (joint == component) return true;
+  return joint.starts_with(component + ".") && !joint.ends_with(".in") && !joint.ends_with(".out");
+}
+
 bool rates_heat(const Section& s) { return s.has("allowable_heat") || s.has("allowable_heat_power"); }
 // Watched all the same: what slips by its nature.
 bool makes_heat(const Section& s) {
@@ -169,10 +175,7 @@ class Rater {
       add(requirement::yield, {rating.safety * peak / modulus, rating.safety * error / modulus},
           rating.yield_in_shear(), "Pa", thicker);
   }
-  // Its own, or that of one of its segments.
-  bool is_of(const std::string& joint) const {
-    return joint == section_.name || joint.starts_with(section_.name + ".");
-  }
+  bool is_of(const std::string& joint) const { return is_joint_of(joint, section_.name); }
 
   void rim() {
     const RimRating rating = rim_rating_fields().read(section_);
@@ -254,9 +257,8 @@ std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
   if (rated.empty()) return wanted;
   for (const ExtremeOf& peak : extremes_of(model)) {
     if (peak.name.what != QuantityKind::peak_torque) continue;
-    if (std::none_of(rated.begin(), rated.end(), [&](const std::string& shaft) {
-          return peak.name.of == shaft || peak.name.of.starts_with(shaft + ".");
-        }))
+    if (std::none_of(rated.begin(), rated.end(),
+                     [&](const std::string& shaft) { return is_joint_of(peak.name.of, shaft); }))
       continue;
     for (const auto& [words, which] :
          {std::pair("greatest_torque", ExtremeOf::Which::maximum), {"least_torque", ExtremeOf::Which::minimum}}) {

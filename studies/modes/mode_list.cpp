@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/linear/shaft_waves.h"
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
@@ -81,6 +82,32 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
   for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
 }
 
+// What the elements of continuous shafts leave open is part of each mode's error; modes that they do not carry are left
+// out, and whether any is missing is counted by the exact stiffness.
+void add_wave_errors(ModesStudy& found) {
+  constexpr double carried = 0.1;             // of the frequency: more than that is no mode of the shaft
+  constexpr Eigen::Index most_counted = 300;  // coordinates
+  std::vector<Mode> kept;
+  for (Mode& mode : found.modes) {
+    const double error = wave_error(found.drive, mode.shape, mode.omega);
+    mode.error += error;
+    if (error <= carried * mode.omega || kept.empty()) kept.push_back(std::move(mode));
+  }
+  found.modes = std::move(kept);
+  for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
+  const bool springs_alone =
+      std::none_of(found.modes.begin(), found.modes.end(), [](const Mode& mode) { return mode.of_own_states; });
+  if (found.modes.empty() || !springs_alone || !found.drive.is_symmetric() || found.drive.size() > most_counted) return;
+  const Mode& last = found.modes.back();
+  const double above = last.omega + last.error + 1e-9 * last.omega;
+  const int really = continuous_modes_below(found.drive, above) - found.undamped.rigid;
+  if (really > static_cast<int>(found.modes.size()))
+    found.notes.push_back(fmt::format(
+        "up to {:.5g} Hz continuous shafts have {} modes by their exact dynamic stiffness, and {} are listed: "
+        "the others swing within shafts whose elements follow no such waves; give those shafts segments",
+        above / (2 * pi), really, found.modes.size()));
+}
+
 }  // namespace
 
 void list_modes(int count, ModesStudy& found) {
@@ -100,6 +127,7 @@ void list_modes(int count, ModesStudy& found) {
   }
   const std::vector<char> used = pair_damped(found);
   add_swings_of_own_states(count, used, found);
+  if (found.drive.model->has_continuous_shafts()) add_wave_errors(found);
   for (const DampedMode& d : found.damped)
     if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
       found.notes.push_back(

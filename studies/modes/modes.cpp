@@ -215,12 +215,7 @@ class Study {
       }
       found_.shaft_names.push_back(name);
     }
-    std::map<std::string, int> total, seen;
-    for (const ElasticJoint& e : model_->elastic) ++total[model_->network.joints[at(e.joint)].component];
-    for (const ElasticJoint& e : model_->elastic) {
-      const std::string& name = model_->network.joints[at(e.joint)].component;
-      found_.joint_names.push_back(total[name] == 1 ? name : fmt::format("{}.{}", name, ++seen[name]));
-    }
+    found_.joint_names = model_->joint_names();
   }
 
   void choose_range() {

@@ -292,9 +292,7 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
 
 FormulaCard rayleigh(const ModesStudy& m) {
   const Mode& first = m.modes.front();
-  double potential = 0;
-  for (std::size_t j = 0; j < m.drive.joints.size(); ++j)
-    potential += m.drive.joints[j].stiffness * std::pow(m.drive.twist(j, first.shape), 2);
+  const double potential = m.drive.spring_work(m.drive.twists * first.shape).sum();
   const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
   return {.title = "First mode by its energies (Rayleigh, theory 12.4)",
           .symbols = "ω² = Σ k θ² / Σ J φ²",

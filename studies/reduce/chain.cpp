@@ -16,11 +16,15 @@ double Chain::total() const {
 Chain elastic_chain(const Model& model, int node) {
   const Network& net = model.network;
   const double target = model.node_ratio[at(node)];
+  // A continuous shaft is drawn as one spring between its halves.
+  std::vector<const Network::Chain*> within(net.nodes.size(), nullptr);
+  for (const Network::Chain& shaft : net.chains)
+    for (std::size_t i = 1; shaft.degree > 0 && i + 1 < shaft.nodes.size(); ++i) within[at(shaft.nodes[i])] = &shaft;
   // Nodes that no elastic element parts are one inertia; it is counted on its first node.
   std::vector<int> group(net.nodes.size(), -1);
   Chain chain;
   for (std::size_t first = 0; first < net.nodes.size(); ++first) {
-    if (group[first] >= 0) continue;
+    if (group[first] >= 0 || within[first]) continue;
     const int number = static_cast<int>(chain.inertias.size());
     chain.inertias.push_back({"", 0, model.node_ratio[first] / target, 0, false});
     group[first] = number;
@@ -42,7 +46,11 @@ Chain elastic_chain(const Model& model, int node) {
     if (inertia > 0 && i.name.find(label) == std::string::npos) i.name += (i.name.empty() ? "" : ", ") + label;
   };
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
-    add(n, net.nodes[n].inertia, model.node_label(static_cast<int>(n)));
+    if (!within[n])
+      add(n, net.nodes[n].inertia, model.node_label(static_cast<int>(n)));
+    else
+      for (const int end : {within[n]->nodes.front(), within[n]->nodes.back()})
+        add(at(end), 0.5 * net.nodes[n].inertia, model.node_label(end));
   for (const Network::ShaftElement& e : net.elements)
     if (e.element->cycle > 0) {
       add(at(e.node), e.element->mean_inertia, e.component);
@@ -51,11 +59,14 @@ Chain elastic_chain(const Model& model, int node) {
   for (ChainInertia& i : chain.inertias)
     if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);
   for (const Network::Joint& joint : net.joints) {
-    if (!joint.element) continue;
-    const double ratio = model.node_ratio[at(joint.a)] / target, k = joint.element->stiffness,
-                 c = joint.element->damping;
-    chain.springs.push_back({joint.component, at(group[at(joint.a)]), at(group[at(joint.b)]), k, c, ratio,
-                             k * ratio * ratio, c * ratio * ratio});
+    if (!joint.element || within[at(joint.a)]) continue;
+    const bool whole = joint.chain >= 0 && net.chains[at(joint.chain)].degree > 0;
+    const double share = whole ? net.chains[at(joint.chain)].stiffness / joint.element->stiffness : 1;
+    const double ratio = model.node_ratio[at(joint.a)] / target, k = share * joint.element->stiffness,
+                 c = share * joint.element->damping;
+    const int b = whole ? net.chains[at(joint.chain)].nodes.back() : joint.b;
+    chain.springs.push_back(
+        {joint.component, at(group[at(joint.a)]), at(group[at(b)]), k, c, ratio, k * ratio * ratio, c * ratio * ratio});
   }
   return chain;
 }

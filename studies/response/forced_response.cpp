@@ -105,9 +105,7 @@ std::optional<LinearDrive> as_if_rigid(LinearDrive drive) {
     return joint.state == LinearDrive::Joint::State::spring && joint.stiffness > 0;
   });
   if (!springs_alone || drive.other_stiffness.nonZeros() > 0 || drive.own_by_twist.nonZeros() > 0) return {};
-  for (LinearDrive::Joint& joint : drive.joints) joint.stiffness *= stiffer;
-  drive.stiffness *= stiffer;
-  drive.torque_by_twist *= stiffer;
+  drive.stiffen(stiffer);
   return drive;
 }
 
@@ -143,9 +141,9 @@ std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omeg
   const Eigen::VectorXcd twist = drive_.twists * x.q + f.twist;
   Eigen::VectorXcd torque = f.joint_torque + Complex(0, omega) * (drive_.joint_by_speed * x.q);
   if (x.own.size() > 0) torque += drive_.joint_by_own * x.own;
+  torque += drive_.spring_torques(twist);
   std::vector<JointSwing> all;
-  for (Index j = 0; j < twist.size(); ++j)
-    all.push_back({torque[j] + drive_.joints[static_cast<std::size_t>(j)].stiffness * twist[j], twist[j]});
+  for (Index j = 0; j < twist.size(); ++j) all.push_back({torque[j], twist[j]});
   return all;
 }
 
@@ -190,11 +188,19 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
 
 namespace {
 
-// What a joint dissipates at one frequency: by its damping, or with states of its own by all that it does.
-double dissipated(const LinearDrive& drive, std::size_t j, const FrequencyResponse::JointSwing& swing, double omega) {
-  if (drive.own_states() > 0 && drive.joint_by_own.row(static_cast<Index>(j)).norm() > 0)
-    return 0.5 * (swing.torque * std::conj(Complex(0, omega) * swing.twist)).real();
-  return 0.5 * drive.joints[j].damping * std::norm(omega * swing.twist);
+// What joints dissipate at one frequency: by their damping, or with states of their own by all that they do.
+std::vector<double> dissipated(const LinearDrive& drive, const std::vector<FrequencyResponse::JointSwing>& swings,
+                               double omega) {
+  Eigen::VectorXcd rate(static_cast<Index>(swings.size()));
+  for (std::size_t j = 0; j < swings.size(); ++j) rate[static_cast<Index>(j)] = Complex(0, omega) * swings[j].twist;
+  const Eigen::VectorXcd damper = drive.damper_torques(rate);
+  std::vector<double> power;
+  for (std::size_t j = 0; j < swings.size(); ++j) {
+    const auto i = static_cast<Index>(j);
+    const bool states = drive.own_states() > 0 && drive.joint_by_own.row(i).norm() > 0;
+    power.push_back(0.5 * ((states ? swings[j].torque : damper[i]) * std::conj(rate[i])).real());
+  }
+  return power;
 }
 
 // Counts what one frequency does to one joint.
@@ -252,9 +258,10 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     const FrequencyResponse::Motion motion = response.motion(omega, forcing);
     if (link.size() > 0) speeds[r] = Complex(0, omega) * link.conjugate().dot(motion.q);
     const auto swings = response.swings(omega, forcing, motion);
+    const std::vector<double> power = dissipated(drive, swings, omega);
     for (std::size_t j = 0; j < swings.size(); ++j) {
       result.orders[j][r] = swings[j].torque;
-      count(result.joints[j], swings[j], dissipated(drive, j, swings[j], omega), omega, r);
+      count(result.joints[j], swings[j], power[j], omega, r);
     }
   }
   if (const Extremes swing = extremes_of_sum(speeds); std::isfinite(swing.greatest))
@@ -272,8 +279,9 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     for (; i < sources.size() && sources[i].omega == omega; ++i)
       forcing.add(sources[i].kind, sources[i].index, sources[i].amplitude);
     const auto swings = response.swings(omega, forcing);
+    const std::vector<double> power = dissipated(drive, swings, omega);
     for (std::size_t j = 0; j < swings.size(); ++j) {
-      count(result.joints[j], swings[j], dissipated(drive, j, swings[j], omega), omega, 0);
+      count(result.joints[j], swings[j], power[j], omega, 0);
       beside[j] += std::abs(swings[j].torque);
     }
   }

@@ -130,6 +130,7 @@ class Figures {
       for (const bool spring : {false, true}) {
         const int elastic = model_.torque_joints[i].elastic;
         if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
+        if (spring && !model_.network.joints[at(model_.torque_joints[i].joint)].element) continue;
         const double square = run_.outcome.state[equations_.square_index(i, spring)];
         add(spring ? QuantityKind::rms_spring_torque : QuantityKind::rms_torque, model_.torque_joints[i].component,
             std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
@@ -393,7 +394,7 @@ std::vector<Figure> figure_list(const Model& model) {
   for (const ExtremeOf& e : extremes_of(model)) list.push_back(Figure::of_name(e.name, 0, e.unit));
   for (const TorqueJoint& joint : model.torque_joints) {
     add(QuantityKind::rms_torque, joint.component, "N*m");
-    add(QuantityKind::rms_spring_torque, joint.component, "N*m");
+    if (model.network.joints[at(joint.joint)].element) add(QuantityKind::rms_spring_torque, joint.component, "N*m");
   }
   for (const std::string& component : model.network.components) {
     if (model.network.components.size() > 60 && component != link) continue;

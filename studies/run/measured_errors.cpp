@@ -62,4 +62,18 @@ double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& 
   return worst;
 }
 
+double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& finer) {
+  double worst = 0;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    Figure& figure = figures[k];
+    const Figure* other = find(finer, figure, k);
+    if (!figure.error || !other) continue;
+    const double off = difference(figure, *other);
+    *figure.error += off;
+    if (figure.at && other->at && figure.at_error) *figure.at_error += std::abs(*figure.at - *other->at);
+    if (figure.scale > 0) worst = std::max(worst, off / figure.scale);
+  }
+  return worst;
+}
+
 }  // namespace kurbel

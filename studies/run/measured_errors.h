@@ -23,4 +23,8 @@ struct Witness {
 // scale, of figures that are judged.
 double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses);
 
+// What a machine that is cut finer does otherwise is an error, too, beside that of integration: adds the differences to
+// the errors that are known. Returns the largest over its scale.
+double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& finer);
+
 }  // namespace kurbel

@@ -21,6 +21,7 @@
 #include "studies/limits/ratings.h"
 #include "studies/run/event_match.h"
 #include "studies/run/figures.h"
+#include "studies/run/finer_shafts.h"
 #include "studies/run/measured_errors.h"
 #include "studies/run/multibody.h"
 #include "studies/run/run_findings.h"
@@ -67,6 +68,7 @@ class Simulation {
       confirm();
       note_interrupt();
       state_errors();
+      if (result_.errors_measured && model_->has_continuous_shafts() && !interrupted()) add_errors_of_shafts();
     }
     if (options_.timed && fine_->outcome.complete) time_again();
     fill(*fine_, tolerance_);
@@ -235,8 +237,23 @@ class Simulation {
                                                  : unconfirmed_);
   }
 
+  void add_errors_of_shafts() {
+    double change = 0;
+    std::string why = "nothing computes the machine cut finer from where this run begins";
+    if (const auto finer = checkpoint_ ? nullptr : with_finer_shafts(*model_)) {
+      Equations equations(finer, true);
+      const std::unique_ptr<OneRun> run = one_run(std::max(tolerance_, settings_.accuracy / 10), equations);
+      why = run->outcome.diagnosis;
+      if (run->outcome.complete)
+        change = add_shaft_errors(fine_->figures, fine_->last_state, run->figures, run->last_state), why.clear();
+    }
+    for (auto& note : shaft_error_notes(change, settings_.accuracy, why)) result_.notes.push_back(note);
+  }
+
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
-    Equations& equations = elsewhere ? equations_elsewhere() : equations_;
+    return one_run(tolerance, elsewhere ? equations_elsewhere() : equations_, elsewhere);
+  }
+  std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere = false) {
     const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
     run->trajectory =
@@ -420,23 +437,6 @@ class Simulation {
 };
 
 }  // namespace
-
-const Figure* Result::find(const std::string& name) const {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
-  return found == figures.end() ? nullptr : &*found;
-}
-
-const Figure* Result::find(QuantityKind what, const std::string& of) const {
-  const auto found =
-      std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.what == what && f.of == of; });
-  return found == figures.end() ? nullptr : &*found;
-}
-
-std::string Result::accuracy_in_words() const {
-  return fmt::format(
-      "accuracy {:.1e} was asked for, {}", accuracy,
-      errors_measured ? fmt::format("{:.1e} measured", measured_accuracy) : "errors could not be measured");
-}
 
 Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options) {
   if (model->scene.run.model == "multibody") return simulate_multibody(std::move(model), label, options);

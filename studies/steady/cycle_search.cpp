@@ -15,6 +15,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
 #include "studies/run/compare.h"
+#include "studies/run/measured_errors.h"
 #include "studies/steady/round_figures.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
@@ -303,12 +304,12 @@ class Search {
       out_.why = fine.failed;
       return;
     }
-    measure_errors(fine);
+    if (scene_.finer_shafts == 0) measure_errors(fine);
     out_.figures = std::move(fine.figures);
     out_.shafts = std::move(fine.shafts);
     out_.motors = std::move(fine.motors);
     out_.work_residual = fine.work_residual;
-    out_.notes = static_curve_notes(*map_, out_.point);
+    for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
     find_loads();
     if (options_.traces) follow();
@@ -352,6 +353,20 @@ class Search {
           // Below what the steps resolve of the rated quantity nothing is told from zero.
           if (std::abs(f.value) <= map_tolerance * f.scale) f.error = std::max(*f.error, std::abs(f.value));
         }
+    if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
+  }
+
+  // The same search with continuous shafts cut finer: what changes is their part of the errors.
+  void add_errors_of_shafts(Round& fine) {
+    Scene finer = scene_;
+    ++finer.finer_shafts;
+    SteadyOptions options = options_;
+    options.traces = false;
+    const SteadyCycle other = Search(finer, effects_, study_, options).run();
+    if (other.found)
+      add_differences(fine.figures, other.figures);
+    else
+      out_.notes.push_back("what the cut of continuous shafts leaves open is not in the errors: " + other.why);
   }
 
   // Two rounds, so that one whole cycle from the link's zero is among them.

@@ -173,6 +173,7 @@ inertia = "1 kg*m2"
 kind = "shaft"
 length = "1 m"
 diameter = "50 mm"
+segments = 1
 [b]
 kind = "inertia"
 inertia = "1 kg*m2"

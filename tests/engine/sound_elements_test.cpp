@@ -237,6 +237,7 @@ static_assert(!SoundConnection<MemberOfAShaftElement>);
 // --- specifications ---
 struct Settles {
   using Element = Spring;
+  bool damping_hangs_on_inertia() const { return false; }
   Spring settled(double) const { return {}; }
 };
 struct MisspeltSettled {

@@ -1,0 +1,20 @@
+// shaft_waves.h — what the elements of continuous shafts leave open in the modes, by their exact dynamic stiffness
+// (theory 5.18).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/linear/linearise.h"
+
+namespace kurbel {
+
+// By how much the frequency of a mode is off, the shape being that of the coordinates: one step of Newton's method,
+//     δω = Σ uᵀ (D_exact − D_element) u/(2 ω qᵀ M q)                                       (theory 5.21)
+// over the ends u of all continuous shafts that are elastic. [rad/s]
+double wave_error(const LinearDrive& drive, const Eigen::VectorXd& shape, double omega);
+
+// Undamped modes below ω of the drive with continuous shafts, rigid motions counted (Wittrick and Williams 1971):
+// negative eigenvalues of D_exact(ω), and modes below ω of the shafts with both ends held.
+int continuous_modes_below(const LinearDrive& drive, double omega);
+
+}  // namespace kurbel
