@@ -75,15 +75,16 @@ class Network {
     enum class Over { time, speed, size_of_speed, channel };
     std::string component, of;  // "torque", in the scene's words
     Over over = Over::speed;
-    int node = 0;                          // whose speed
-    std::string channel = {};              // or whose channel, plus `offset`
-    double offset = 0, low = 0, high = 0;  // in SI
-    std::string unit = {};                 // SI, of these
+    int node = 0;                                    // whose speed
+    std::string channel = {};                        // or a channel: offset + sign · its value
+    double sign = 1, offset = 0, low = 0, high = 0;  // in SI
+    std::string unit = {};                           // SI, of these
     Beyond below = Beyond::unsaid, above = Beyond::unsaid;
-    std::string goes_on = "its end values hold";  // where nothing is said
+    bool line_below = false, line_above = false;  // its slope goes on there; else its value holds
   };
   // Of a curve without a period; nothing where it says how it goes on at both ends.
-  void limit(DataRange range, const Curve& curve);
+  // Mirrored: points of positive quantities count for both signs.
+  void limit(DataRange range, const Curve& curve, bool mirrored = false);
 
   struct Ports {
     int in = -1, out = -1;

@@ -124,8 +124,8 @@ double Curve::last_slope() const {
 
 void Curve::go_on(Beyond before, Beyond after) {
   if (period_ > 0) return;
-  beyond_first_ = before, beyond_last_ = after;
-  slope_before_ = before == Beyond::line ? c1_.front() : 0;
+  say(before, after);
+  slope_before_ = before == Beyond::line ? first_slope() : 0;
   slope_after_ = after == Beyond::line ? last_slope() : 0;
 }
 

@@ -35,11 +35,15 @@ class Curve {
 
   // From here on; at first nothing is said, and the end values hold.
   void go_on(Beyond before, Beyond after);
-  // Behind the last point its slope goes on, although nobody said so.
+  void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // its values stay
+  // Beyond an end its slope goes on, although nobody said so.
+  void follow_first_slope() { slope_before_ = first_slope(); }
   void follow_last_slope() { slope_after_ = last_slope(); }
   Beyond beyond_first() const { return beyond_first_; }
   Beyond beyond_last() const { return beyond_last_; }
-  double last_slope() const;  // at the last point, of the piece before it
+  double first_slope() const { return c1_.front(); }  // at the first and the last point, within the data
+  double last_slope() const;
+  bool follows_slope(bool after) const { return (after ? slope_after_ : slope_before_) != 0; }
 
   bool empty() const { return x_.empty(); }
   Form form() const { return form_; }

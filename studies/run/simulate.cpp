@@ -24,6 +24,7 @@
 #include "studies/run/multibody.h"
 #include "studies/run/run_findings.h"
 #include "studies/validity/idle_effects.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
 
@@ -87,7 +88,6 @@ class Simulation {
   }
 
   void log(const std::string& text) const { options_.watch.say(text); }
-
   // Work and edges over the angle, made once for all runs of the ladder.
   std::shared_ptr<WorkTables> work_tables() {
     const bool asked = settings_.method == "auto" || settings_.method == "work";
@@ -241,14 +241,14 @@ class Simulation {
     run->trajectory =
         std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
     std::vector<ExtremeOf> extremes = extremes_of(model);
-    for (ExtremeOf& rim : rim_speeds_of(model)) extremes.push_back(std::move(rim));
-    for (ExtremeOf& torque : shaft_torques_of(model)) extremes.push_back(std::move(torque));
-    for (ExtremeOf& held : held_torques_of(model)) extremes.push_back(std::move(held));
+    for (auto* more : {&rim_speeds_of, &shaft_torques_of, &held_torques_of})
+      for (ExtremeOf& wanted : (*more)(model)) extremes.push_back(std::move(wanted));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
     run->falls = std::make_unique<FlywheelFalls>(model);
     run->currents = std::make_unique<MotorCurrents>(model);
+    run->ranges = std::make_unique<DataRangeRecorder>(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -266,8 +266,8 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
-                                        run->energy.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
+                                        run->speed.get(),      run->energy.get(),   run->ranges.get()};
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
@@ -363,10 +363,11 @@ class Simulation {
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     judge_motion(run.outcome);
+    tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     note_arcs(m.network);
-    for (const std::string& note : substitutes(m)) result_.notes.push_back(note);
-    for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
+    for (auto* of : {&substitutes, &idle_effects})
+      for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
@@ -427,8 +428,7 @@ const Figure* Result::find(const std::string& name) const {
 }
 
 const Figure* Result::find(QuantityKind what, const std::string& of) const {
-  const auto found =
-      std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.what == what && f.of == of; });
+  const auto found = std::ranges::find_if(figures, [&](const Figure& f) { return f.what == what && f.of == of; });
   return found == figures.end() ? nullptr : &*found;
 }
 

@@ -40,6 +40,7 @@ struct OperatingPoint {
   MeanTorques mean;
   double drive_slope = 0, load_slope = 0;    // dM̄/d|ω| [N·m·s/rad]
   double speed_error = 0, torque_error = 0;  // against twice as many intervals [rad/s], [N·m]
+  bool beyond_data = false;                  // at a speed beyond the end of a table
   bool stable() const { return drive_slope < load_slope; }
 };
 

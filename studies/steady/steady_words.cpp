@@ -58,12 +58,15 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   if (!s.diagram) return {"No operating diagram: " + s.no_diagram};
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
+  const auto error = [](const OperatingPoint& p, double found) {
+    return p.beyond_data ? std::nullopt : std::optional(found);
+  };
   for (const OperatingPoint& p : d.points)
-    words.push_back(
-        fmt::format("Operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                    with_error(d.speed_unit.of(p.mean.omega), d.speed_unit.of(p.speed_error), d.speed_unit.name),
-                    with_error(p.mean.load, p.torque_error, "N*m"), p.stable() ? "stable" : "unstable",
-                    beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
+    words.push_back(fmt::format(
+        "Operating point {} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+        with_error(d.speed_unit.of(p.mean.omega), error(p, d.speed_unit.of(p.speed_error)), d.speed_unit.name),
+        with_error(p.mean.load, error(p, p.torque_error), "N*m"), p.stable() ? "stable" : "unstable",
+        beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
     words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
                                 with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
