@@ -124,7 +124,8 @@ class CurveReader {
     }
     unit = wanted_as(*unit, wanted);
     if (unit->dimension != wanted)
-      error = {fmt::format(" is the unit of {}; must be one of {}", name_of(unit->dimension), name_of(wanted))};
+      error = {fmt::format(" is the unit of {}; must be one of {}{}", name_of(unit->dimension), name_of(wanted),
+                           force_meant(text, unit->dimension, wanted))};
     else if (!std::isfinite(unit->factor) || unit->factor == 0)
       error = {" is out of range"};
     else

@@ -55,7 +55,11 @@ Dimension dimension_of(const std::string& si_unit) {
 class Reader {
  public:
   Reader(const MeasurementRequest& request, const std::vector<KnownChannel>& channels)
-      : request_(request), channels_(channels), file_(request.file), headings_(file_.headings()), messages_(request.file) {}
+      : request_(request),
+        channels_(channels),
+        file_(request.file),
+        headings_(file_.headings()),
+        messages_(request.file) {}
 
   Measurement read() {
     out_.file = request_.file;
@@ -120,10 +124,11 @@ class Reader {
     const Dimension wanted = dimension_of(si_unit);
     if (unit) *unit = wanted_as(*unit, wanted);
     if (unit && unit->dimension == wanted) return Source{heading.column, unit->factor};
-    messages_.add(heading.at,
-                  fmt::format("unit [{}] of column {} {}, but {} is {}; units of it: {}", text, in_quotes(heading.text),
-                              unit ? "is " + name_of(unit->dimension) : "is not known (" + error.text + ")", channel,
-                              name_of(wanted), examples_of(si_unit)));
+    messages_.add(
+        heading.at,
+        fmt::format("unit [{}] of column {} {}, but {} is {}; units of it: {}{}", text, in_quotes(heading.text),
+                    unit ? "is " + name_of(unit->dimension) : "is not known (" + error.text + ")", channel,
+                    name_of(wanted), examples_of(si_unit), unit ? force_meant(text, unit->dimension, wanted) : ""));
     return {};
   }
 
@@ -164,8 +169,7 @@ class Reader {
     const auto source = source_of(*heading, map, channel->name, channel->unit);
     if (!source) return;
     sources_.push_back(*source);
-    out_.signals.push_back(
-        {.column = heading->name, .channel = channel->name, .unit = channel->unit, .values = {}});
+    out_.signals.push_back({.column = heading->name, .channel = channel->name, .unit = channel->unit, .values = {}});
   }
 
   void read_numbers() {

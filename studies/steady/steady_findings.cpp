@@ -146,19 +146,6 @@ Record cycle_record(const SteadyCycle& c) {
   return r;
 }
 
-Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  const auto bar = [&](double error) { return p.beyond_data ? Value() : Value(error); };
-  return {{"speed", p.mean.omega},
-          {"torque", p.mean.load},
-          {"drive_slope", p.drive_slope},
-          {"load_slope", p.load_slope},
-          {"stable", p.stable()},
-          {"margin", d.margin(p)},
-          {"speed_error", bar(p.speed_error)},
-          {"torque_error", bar(p.torque_error)},
-          {"margin_error", bar(d.margin_error(p))}};
-}
-
 Record ratio_record(const RatioSearch& r) {
   return {{"gearbox", r.gearbox},
           {"ratio", r.best},
