@@ -78,6 +78,8 @@ Json used_table() {
 Json curve(const Key& key) {
   const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
   const Json points = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  Json correction = quantity("m", any_number);  // of whatever unit, or of none
+  correction["anyOf"].push_back({{"type", "number"}});
   const Json properties = {
       {"over", {{"enum", key.choices}, {"description", "what the first column is"}}},
       {"unit",
@@ -86,13 +88,25 @@ Json curve(const Key& key) {
         {"minItems", 2},
         {"maxItems", 2},
         {"description",
-         fmt::format("units of both columns; the second in the dimension of {}", pretty_unit(key.unit))}}},
+         fmt::format(
+             "units of both columns; the second in the dimension of {}; a file's heading may say them in its place",
+             pretty_unit(key.unit))}}},
       {"points", points},
-      {"file", {{"type", "string"}, {"description", "CSV file beside the scene, in place of the points"}}},
+      {"file", {{"type", "string"}, {"description", ".csv or .xlsx file beside the scene, in place of the points"}}},
       {"return_points", points},
       {"return_file", text()},
       {"columns",
-       {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 1}}}, {"minItems", 2}, {"maxItems", 2}}},
+       {{"type", "array"},
+        {"items", {{"anyOf", {{{"type", "integer"}, {"minimum", 1}}, text()}}}},
+        {"minItems", 2},
+        {"maxItems", 2},
+        {"description", "of the file: by numbers from 1, or by the names of its heading"}}},
+      {"sheet", {{"type", "string"}, {"description", "of an .xlsx file; default: the first"}}},
+      {"decimal", {{"enum", {",", "."}}, {"description", "of the file's numbers; default: as they show it"}}},
+      {"gain", quantity("", any_number)},
+      {"offset", correction},
+      {"shift", correction},
+      {"beyond", {{"enum", {"hold", "line", "refuse"}}, {"description", "how it goes on beyond its ends"}}},
       {"interpolation", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}},
       {"period", given_quantity()},
       {"formula", {{"type", "string"}, {"description", "in place of the points; its variable is what it is over"}}},

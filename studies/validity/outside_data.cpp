@@ -144,6 +144,12 @@ void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
     if (result.events[i].t > *since) result.event_errors[i].reset();
 }
 
+std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point) {
+  DataRangeRecorder recorder(map.model());
+  if (!recorder.empty()) map.image(point.z, false, {&recorder});
+  return recorder.sentences();
+}
+
 bool lies_beyond_a_table(const Model& model, double link_speed) {
   return std::any_of(model.network.ranges.begin(), model.network.ranges.end(), [&](const Range& range) {
     const double speed = model.node_ratio[at(range.node)] * link_speed;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/analysis/return_map.h"
 #include "engine/model/model.h"
 #include "engine/run/run.h"
 #include "studies/findings/result.h"
@@ -48,6 +49,9 @@ void drop_errors(std::vector<Figure>& figures, double since);
 
 // Says it among a run's answers; what hangs on it loses its error.
 void tell_outside_data(const DataRangeRecorder& ranges, Result& result);
+
+// Of the steady motion from the map's fixed point: a round more, only where there are such tables. A sentence each.
+std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point);
 
 // Whether this speed of the link lies beyond a table over the speed [rad/s].
 bool lies_beyond_a_table(const Model& model, double link_speed);
