@@ -78,8 +78,6 @@ Json used_table() {
 Json curve(const Key& key) {
   const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
   const Json points = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
-  Json correction = quantity("m", any_number);  // of whatever unit, or of none
-  correction["anyOf"].push_back({{"type", "number"}});
   const Json properties = {
       {"over", {{"enum", key.choices}, {"description", "what the first column is"}}},
       {"unit",
@@ -103,9 +101,9 @@ Json curve(const Key& key) {
         {"description", "of the file: by numbers from 1, or by the names of its heading"}}},
       {"sheet", {{"type", "string"}, {"description", "of an .xlsx file; default: the first"}}},
       {"decimal", {{"enum", {",", "."}}, {"description", "of the file's numbers; default: as they show it"}}},
-      {"gain", quantity("", any_number)},
-      {"offset", correction},
-      {"shift", correction},
+      {"gain", reference("gain")},
+      {"offset", reference("correction")},
+      {"shift", reference("correction")},
       {"beyond", {{"enum", {"hold", "line", "refuse"}}, {"description", "how it goes on beyond its ends"}}},
       {"interpolation", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}},
       {"period", given_quantity()},
@@ -249,6 +247,9 @@ std::string scene_schema() {
 
   Json definitions = Json::object(), kinds = Json::array();
   definitions["with_tolerance"] = with_tolerance();
+  definitions["gain"] = quantity("", any_number);
+  definitions["correction"] = quantity("m", any_number);  // of a table: of whatever unit, or of none
+  definitions["correction"]["anyOf"].push_back({{"type", "number"}});
   for (const Kind& kind : all_kinds()) {
     definitions[kind.name] = kind_schema(kind, true);
     kinds.push_back(reference(kind.name));
