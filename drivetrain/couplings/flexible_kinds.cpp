@@ -55,7 +55,16 @@ void build_progressive(const Section& s, Network& net, Messages& messages) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   const CurveData& table = coupling.table;
   if (table.period > 0) coupling.refuse(&ProgressiveKeys::table, "a table over the twist has no period; drop it");
+  if (table.beyond == Beyond::hold)
+    coupling.refuse(&ProgressiveKeys::table, "beyond = \"hold\" makes no spring, whose torque rises; give \"line\"");
   try {
+    net.limit({.component = s.name,
+               .of = "table",
+               .over = Network::DataRange::Over::channel,
+               .node = in,
+               .channel = "twist." + s.name,
+               .unit = "rad"},
+              table.curve(), table.x.front() >= 0);
     net.connect(in, out, 1, s.name,
                 ProgressiveCouplingData{table.by_formula.empty() ? ProgressiveCoupling(table.x, table.y, table.form)
                                                                  : ProgressiveCoupling(table.by_formula),

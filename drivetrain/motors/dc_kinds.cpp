@@ -227,6 +227,13 @@ const Fields<ShuntKeys>& shunt_fields() {
 template <FieldOver over>
 void put_weakened(const Reading<ShuntKeys>& m, const std::string& name, Network& net, int node) {
   const FieldPart<over> field{m.field->curve()};
+  using Over = Network::DataRange::Over;
+  net.limit({.component = name,
+             .of = "field",
+             .over = over == FieldOver::time ? Over::time : Over::size_of_speed,
+             .node = node,
+             .unit = over == FieldOver::time ? "s" : "rad/s"},
+            field.curve);
   const WeakenedShuntMotor<over> line{field, *m.voltage, *m.resistance, *m.constant, m.rated_torque};
   if (m.circuit.inductance)
     net.put(node, name, WeakenedShuntCircuit<over>{field, line, *m.circuit.inductance, m.circuit.initial_current},

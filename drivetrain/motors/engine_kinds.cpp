@@ -14,15 +14,20 @@
 #include "engine/model/network.h"
 #include "engine/numerics/angles.h"
 #include "engine/reading/mirrored.h"
+#include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
+
+// Top dead centre that a diagram counts from.
+enum class Zero { firing, gas_exchange };
 
 struct EngineKeys {
   std::vector<int> firing_order;
   std::optional<std::vector<double>> firing_intervals;  // [rad]
   double phase = 0;                                     // [rad]
   int strokes = 4;
+  Zero zero = Zero::firing;                   // of the diagrams
   std::optional<CurveData> torque, pressure;  // of one cylinder [N·m], [Pa]
   std::optional<std::vector<int>> misfire;    // numbers of cylinders
   std::optional<CurveData> motored_torque, motored_pressure;
@@ -54,10 +59,14 @@ const Fields<EngineKeys>& engine_fields() {
                &Keys::phase)
           .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
                &Keys::strokes, {{"four", 4}, {"two", 2}})
+          .add({.name = "zero",
+                .fallback = "\"firing\"",
+                .doc = "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
+                       "whose peak or whose work speaks against it"},
+               &Keys::zero, {{"firing", Zero::firing}, {"gas exchange", Zero::gas_exchange}})
           .add({.name = "torque",
                 .unit = "N*m",
-                .doc = "of one cylinder over the crank angle, 0 = top dead centre at firing: tangential force times "
-                       "radius",
+                .doc = "of one cylinder over the crank angle, from `zero` on: tangential force times radius",
                 .choices = {"angle"}},
                &Keys::torque)
           .add({.name = "pressure",
@@ -155,8 +164,60 @@ std::optional<CylinderGeometry> geometry_of(const Reading<EngineKeys>& e) {
 
 using Diagram = std::optional<CurveData> EngineKeys::*;
 
-// Adds a diagram over the cycle; false, with a message, where it does not fit.
-bool put_diagram(const Reading<EngineKeys>& e, Diagram key, const CurveData& data, std::vector<Curve>& diagrams) {
+// Where a diagram is greatest, as an angle from firing, −c/2 … c/2: of several places the nearest to it.
+double peak_of(const Curve& diagram, double cycle) {
+  constexpr int samples = 1440;
+  double most = -HUGE_VAL, at = 0;
+  const auto see = [&](double x) {
+    const double value = diagram.value(x), angle = std::remainder(x, cycle);
+    const double same = 1e-9 * diagram.max_abs();
+    if (value > most + same || (value > most - same && std::abs(angle) < std::abs(at)))
+      most = std::max(most, value), at = angle;
+  };
+  for (const double x : diagram.x()) see(x);
+  for (int k = 0; k < samples; ++k) see(cycle * k / samples);
+  return at;
+}
+
+// Where the scene does not say what its diagrams count from, they must show it: a cylinder's pressure peaks near firing,
+// its torque within the half turn behind, and over a cycle it gives work. False, with what it looks like.
+bool shows_its_zero(const Reading<EngineKeys>& e, Diagram key, const Curve& diagram, const CylinderGeometry& geometry) {
+  if (e.given(&EngineKeys::zero)) return true;
+  const double cycle = e.cycle(), peak = peak_of(diagram, cycle);
+  const double from_firing = e.pressure ? std::abs(peak) : std::abs(peak - 0.25 * std::numbers::pi);
+  const std::string seen =
+      fmt::format("its peak, {}, stands at {:.4g} deg", with_unit(diagram.value(peak), e.pressure ? "Pa" : "N*m", 4),
+                  (peak < 0 ? peak + cycle : peak) * in_degrees);
+  const bool motored = key != &EngineKeys::pressure && key != &EngineKeys::torque;
+  if (e.strokes == 4 && from_firing > 0.25 * cycle)
+    return e.refuse(key,
+                    fmt::format("{}, as where 0 deg is the dead centre of gas exchange; say zero = \"gas exchange\", "
+                                "or zero = \"firing\" where 0 deg is firing all the same",
+                                seen));
+  if (e.pressure && std::abs(peak) > 0.5 * std::numbers::pi)
+    return e.refuse(key,
+                    fmt::format("{}, near no top dead centre; bring it there by a shift, e.g. shift = \"180 deg\", or "
+                                "say zero = \"firing\" where 0 deg is firing all the same",
+                                seen));
+  if (motored) return true;
+  constexpr int samples = 1440;
+  double work = 0, size = 0;
+  for (int k = 0; k < samples; ++k) {
+    const double phi = cycle * (k + 0.5) / samples, read = diagram.value(phi);
+    const double part = (e.pressure ? geometry.torque(read, phi) : read) * cycle / samples;
+    work += part, size += std::abs(part);
+  }
+  return work >= -1e-3 * size ||
+         e.refuse(key,
+                  fmt::format("over a cycle it takes {:.4g} J, as where its angle counts backwards or from another "
+                              "dead centre; turn it round, or say zero = \"firing\" or \"gas exchange\" where it "
+                              "brakes all the same",
+                              -work));
+}
+
+// Adds a diagram over the cycle, counted from firing; false, with a message, where it does not fit.
+bool put_diagram(const Reading<EngineKeys>& e, Diagram key, CurveData data, const CylinderGeometry& geometry,
+                 std::vector<Curve>& diagrams) {
   const double cycle = e.cycle();
   if (data.period > 0 && std::abs(data.period - cycle) > 1e-9 * cycle)
     return e.refuse(key, fmt::format("period of {:.6g} deg; a {}-stroke engine repeats after {:.6g} deg",
@@ -165,8 +226,13 @@ bool put_diagram(const Reading<EngineKeys>& e, Diagram key, const CurveData& dat
   if (span > cycle * (1 + 1e-9))
     return e.refuse(key, fmt::format("the diagram spans {:.6g} deg, more than the cycle of {:.6g} deg",
                                      span * in_degrees, cycle * in_degrees));
+  if (e.zero == Zero::gas_exchange) {
+    if (!data.by_formula.empty()) return e.refuse(key, "a formula is not moved to firing; write it so, or give points");
+    for (double& x : data.x) x += 2 * std::numbers::pi;
+  }
   try {
     diagrams.push_back(data.curve(cycle));
+    if (!shows_its_zero(e, key, diagrams.back(), geometry)) return false;
   } catch (const std::invalid_argument& error) {
     return e.refuse(key, error.what());
   }
@@ -174,8 +240,8 @@ bool put_diagram(const Reading<EngineKeys>& e, Diagram key, const CurveData& dat
 }
 
 // The cylinders that do not fire take the motored diagram, the second one.
-bool let_misfire(const Reading<EngineKeys>& e, Diagram fired, std::vector<EngineTorque::Cylinder>& cylinders,
-                 std::vector<Curve>& diagrams) {
+bool let_misfire(const Reading<EngineKeys>& e, Diagram fired, const CylinderGeometry& geometry,
+                 std::vector<EngineTorque::Cylinder>& cylinders, std::vector<Curve>& diagrams) {
   using Keys = EngineKeys;
   const auto motored = e.pressure ? &Keys::motored_pressure : &Keys::motored_torque;
   const auto other = e.pressure ? &Keys::motored_torque : &Keys::motored_pressure;
@@ -190,9 +256,12 @@ bool let_misfire(const Reading<EngineKeys>& e, Diagram fired, std::vector<Engine
                                                   e.firing_order.size()));
     cylinders[static_cast<std::size_t>(at - e.firing_order.begin())].diagram = 1;
   }
-  if (e.*motored) return put_diagram(e, motored, *(e.*motored), diagrams);
+  if (e.*motored) return put_diagram(e, motored, *(e.*motored), geometry, diagrams);
   try {
-    diagrams.push_back(first_half_turn_mirrored(*(e.*fired), e.cycle(), !e.pressure).curve());
+    CurveData from_firing = *(e.*fired);
+    if (e.zero == Zero::gas_exchange)
+      for (double& x : from_firing.x) x += 2 * std::numbers::pi;
+    diagrams.push_back(first_half_turn_mirrored(from_firing, e.cycle(), !e.pressure).curve());
   } catch (const std::invalid_argument& error) {
     return e.refuse(&Keys::misfire, error.what());
   }
@@ -207,10 +276,13 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
   if (!geometry || angles.empty()) return;
   const auto fired = e.pressure ? &EngineKeys::pressure : &EngineKeys::torque;
   std::vector<Curve> diagrams;
-  if (!put_diagram(e, fired, *(e.*fired), diagrams)) return;
+  if (e.zero == Zero::gas_exchange && e.strokes != 4)
+    return static_cast<void>(
+        e.refuse(&EngineKeys::zero, "a two-stroke engine exchanges its gas at bottom dead centre"));
+  if (!put_diagram(e, fired, *(e.*fired), *geometry, diagrams)) return;
   std::vector<EngineTorque::Cylinder> cylinders;
   for (std::size_t k = 0; k < angles.size(); ++k) cylinders.push_back({angles[k], 0});
-  if (!let_misfire(e, fired, cylinders, diagrams)) return;
+  if (!let_misfire(e, fired, *geometry, cylinders, diagrams)) return;
   std::string substitute;
   if (diagrams.size() > 1 && !e.motored_torque && !e.motored_pressure)
     substitute = words_of_mirrored(s.name, e.pressure ? "motored_pressure" : "motored_torque");

@@ -123,6 +123,8 @@ void build_prescribed_speed(const Section& s, Network& net, Messages& messages) 
       source.refuse(&SourceKeys::table, error.what());
       return;
     }
+    net.limit({.component = s.name, .of = "speed", .over = Network::DataRange::Over::time, .node = node, .unit = "s"},
+              given.law);
     if (given.law.jumps()) {
       source.refuse(&SourceKeys::table, "a speed that jumps would take an infinite torque; let it rise within a time");
       return;

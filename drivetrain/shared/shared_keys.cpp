@@ -39,14 +39,42 @@ const std::vector<std::string>& any_abscissa() {
   return names;
 }
 
+namespace {
+
+// What drives goes on beyond its table along the last slope, where that falls and still drives; else nobody knows how it
+// goes on, and a motion that gets there is refused.
+void go_on_as_drive(Curve& curve) {
+  const double first = curve.x().front(), last = curve.x().back();
+  Beyond before = curve.beyond_first(), after = curve.beyond_last();
+  if (last > 0 && curve.y().back() > 0 && after == Beyond::unsaid) {
+    if (curve.last_slope() < 0)
+      curve.follow_last_slope();
+    else
+      after = Beyond::refuse;
+  }
+  if (first < 0 && curve.before() < 0 && before == Beyond::unsaid) {
+    if (curve.first_slope() < 0)
+      curve.follow_first_slope();
+    else
+      before = Beyond::refuse;
+  }
+  curve.say(before, after);
+}
+
+}  // namespace
+
 void put_curve(Network& net, int node, const std::string& component, const TorqueCurve& torque,
                const std::function<void(const std::string&)>& refuse) {
   const auto& [data, sign, account, window] = torque;
-  const Curve curve = data.curve();
+  Curve curve = data.curve();
+  using Over = Network::DataRange::Over;
   if (data.over == "time") {
+    net.limit({.component = component, .of = "torque", .over = Over::time, .node = node, .unit = "s"}, curve);
     net.put(node, component, TorqueOverTime{account, curve, sign}, window);
   } else if (data.over == "speed") {
     if (data.period > 0) refuse("a table over speed has no period");
+    if (account == Account::driving) go_on_as_drive(curve);
+    net.limit({.component = component, .of = "torque", .over = Over::speed, .node = node, .unit = "rad/s"}, curve);
     net.put(node, component, TorqueOverSpeed{account, curve, sign}, window);
   } else {
     CurveData closed = data;

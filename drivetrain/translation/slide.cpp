@@ -193,7 +193,17 @@ void put_slide(const SlideKeys& s, const std::string& name, int node, double k, 
     put(OpposingLoad{s.work, k * s.force, viscous, quadratic, 0});
   }
   if (!s.table) return;
-  if (s.table->over == "time")
+  const bool over_time = s.table->over == "time";
+  using Over = Network::DataRange::Over;
+  net.limit({.component = name,
+             .of = "force",
+             .over = over_time ? Over::time : Over::channel,
+             .node = node,
+             .channel = "travelled." + name,
+             .offset = s.start,
+             .unit = over_time ? "s" : "m"},
+            s.table->curve());
+  if (over_time)
     put(TorqueOverTime{s.work, s.table->curve(), -k});
   else
     put(ForceOverTravel{s.work, s.table->curve(), s.table->x_back.empty() ? Curve() : s.table->back(), k, s.start});

@@ -102,4 +102,13 @@ double PrescribedSpeed::next_edge(double t) const {
   return after == time.end() ? std::numeric_limits<double>::infinity() : *after;
 }
 
+void Network::limit(DataRange range, const Curve& curve, bool mirrored) {
+  const auto is_said = [](Beyond beyond) { return beyond == Beyond::hold || beyond == Beyond::line; };
+  if (curve.empty() || curve.period() > 0 || (is_said(curve.beyond_first()) && is_said(curve.beyond_last()))) return;
+  range.low = mirrored ? -curve.x().back() : curve.x().front(), range.high = curve.x().back();
+  range.below = curve.beyond_first(), range.above = curve.beyond_last();
+  range.line_below = curve.follows_slope(false), range.line_above = curve.follows_slope(true);
+  ranges.push_back(std::move(range));
+}
+
 }  // namespace kurbel

@@ -79,6 +79,23 @@ class Network {
     std::size_t joints_before = 0;  // its place among the joints, where it becomes one
     int members() const { return node[2] >= 0 ? 3 : 2; }
   };
+  // Where a characteristic is given over a quantity; what a motion takes from elsewhere is no datum of the scene, unless
+  // that says how it goes on.
+  struct DataRange {
+    enum class Over { time, speed, size_of_speed, channel };
+    std::string component, of;  // "torque", in the scene's words
+    Over over = Over::speed;
+    int node = 0;                                    // whose speed
+    std::string channel = {};                        // or a channel: offset + sign · its value
+    double sign = 1, offset = 0, low = 0, high = 0;  // in SI
+    std::string unit = {};                           // SI, of these
+    Beyond below = Beyond::unsaid, above = Beyond::unsaid;
+    bool line_below = false, line_above = false;  // its slope goes on there; else its value holds
+  };
+  // Of a curve without a period; nothing where it says how it goes on at both ends.
+  // Mirrored: points of positive quantities count for both signs.
+  void limit(DataRange range, const Curve& curve, bool mirrored = false);
+
   struct Ports {
     int in = -1, out = -1;
     std::map<std::string, int> others = {};  // further shafts, by name
@@ -110,6 +127,7 @@ class Network {
   std::vector<Chain> chains;
   std::vector<ShaftElement> elements;
   std::vector<PrescribedSpeed> prescribed;
+  std::vector<DataRange> ranges;
   std::map<std::string, Ports> ports;   // of each component
   std::vector<std::string> components;  // canonical order
 };

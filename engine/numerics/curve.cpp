@@ -116,6 +116,19 @@ Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, do
   programs_ = std::make_shared<const std::vector<FormulaProgram>>(std::move(programs));
 }
 
+double Curve::last_slope() const {
+  if (programs_) return c3_.back();
+  const double s = x_.back() - x_[x_.size() - 2];
+  return (3 * c3_.back() * s + 2 * c2_.back()) * s + c1_.back();
+}
+
+void Curve::go_on(Beyond before, Beyond after) {
+  if (period_ > 0) return;
+  say(before, after);
+  slope_before_ = before == Beyond::line ? first_slope() : 0;
+  slope_after_ = after == Beyond::line ? last_slope() : 0;
+}
+
 bool Curve::jumps() const {
   if (before_ != y_.front()) return true;
   for (std::size_t i = 0; i + 1 < x_.size(); ++i)

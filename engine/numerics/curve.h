@@ -16,8 +16,11 @@ namespace kurbel {
 
 // Piecewise polynomial through the points (x, y), x ascending: straight between points, or smooth (monotone cubic:
 // Fritsch & Carlson 1980, no overshoot). Two points at one x are a jump, which at x itself has happened. Outside the
-// points the end values hold, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2, n−1 (after the
+// points the end values hold, or the end's slope goes on, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2, n−1 (after the
 // last), points at one x counted once. Of a formula the places between its pieces take the part of the points.
+// How a curve goes on beyond its data, where its scene says so: then that is data, too. Refuse: it does not.
+enum class Beyond { unsaid, hold, line, refuse };
+
 class Curve {
  public:
   enum class Form { linear, smooth, formula };
@@ -29,6 +32,18 @@ class Curve {
   // A program for each piece between ascending knots, which span the period where there is one. Throws
   // std::invalid_argument where a value or a slope at the end of a piece is not finite.
   Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period = 0);
+
+  // From here on; at first nothing is said, and the end values hold.
+  void go_on(Beyond before, Beyond after);
+  void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // its values stay
+  // Beyond an end its slope goes on, although nobody said so.
+  void follow_first_slope() { slope_before_ = first_slope(); }
+  void follow_last_slope() { slope_after_ = last_slope(); }
+  Beyond beyond_first() const { return beyond_first_; }
+  Beyond beyond_last() const { return beyond_last_; }
+  double first_slope() const { return c1_.front(); }  // at the first and the last point, within the data
+  double last_slope() const;
+  bool follows_slope(bool after) const { return (after ? slope_after_ : slope_before_) != 0; }
 
   bool empty() const { return x_.empty(); }
   Form form() const { return form_; }
@@ -63,8 +78,9 @@ class Curve {
   // Value of one piece, continued beyond its ends: between events a right-hand side stays smooth.
   template <class T>
   T value_in(int piece, const T& x) const {
-    if (piece < 0) return T(before_);
-    if (piece + 1 >= static_cast<int>(x_.size())) return T(y_.back());
+    if (piece < 0) return slope_before_ == 0 ? T(before_) : T(before_ + slope_before_ * (x - x_.front()));
+    if (piece + 1 >= static_cast<int>(x_.size()))
+      return slope_after_ == 0 ? T(y_.back()) : T(y_.back() + slope_after_ * (x - x_.back()));
     const auto i = static_cast<std::size_t>(piece);
     if (programs_) return by_formula(i, x);
     const T s = x - x_[i];
@@ -92,6 +108,8 @@ class Curve {
   Form form_ = Form::linear;
   double period_ = 0;
   double before_ = 0, max_abs_ = 0;
+  double slope_before_ = 0, slope_after_ = 0;  // beyond the ends
+  Beyond beyond_first_ = Beyond::unsaid, beyond_last_ = Beyond::unsaid;
   std::shared_ptr<const std::vector<FormulaProgram>> programs_;  // null: by points
 };
 

@@ -11,12 +11,16 @@
 namespace kurbel {
 
 Curve CurveData::curve(double other_period) const {
-  return by_formula.empty() ? Curve(x, y, form, other_period > 0 ? other_period : period) : by_formula;
+  Curve curve = by_formula.empty() ? Curve(x, y, form, other_period > 0 ? other_period : period) : by_formula;
+  curve.go_on(beyond, beyond);
+  return curve;
 }
 
 Curve CurveData::back() const {
   if (x_back.empty()) return {};
-  return by_formula_back.empty() ? Curve(x_back, y_back, form) : by_formula_back;
+  Curve curve = by_formula_back.empty() ? Curve(x_back, y_back, form) : by_formula_back;
+  curve.go_on(beyond, beyond);
+  return curve;
 }
 
 std::string Domain::describe(const std::string& unit) const {

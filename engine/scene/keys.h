@@ -85,6 +85,7 @@ struct CurveData {
   std::vector<double> x_back, y_back;  // branch of the return stroke, where one was given
   Curve::Form form = Curve::Form::linear;
   double period = 0;
+  Beyond beyond = Beyond::unsaid;               // of both ends
   Curve by_formula = {}, by_formula_back = {};  // empty: by points
 
   // Throws std::invalid_argument in words; with another period than its own where one is given.

@@ -32,6 +32,9 @@ constexpr UnitEntry unit_table[] = {
     {"deg",  pi / 180,     {0, 0, 0, 1, 0}, false}, {"°",    pi / 180,    {0, 0, 0, 1, 0}, false},
     {"rev",  2 * pi,       {0, 0, 0, 1, 0}, false}, {"rpm",  pi / 30,     {0, 0, -1, 1, 0}, false},
     {"N",    1,            {1, 1, -2, 0, 0}, true}, {"lbf",  4.4482216152605, {1, 1, -2, 0, 0}, false},
+    {"kgf",  9.80665,      {1, 1, -2, 0, 0}, false},{"kp",   9.80665,     {1, 1, -2, 0, 0}, false},
+    {"gf",   9.80665e-3,   {1, 1, -2, 0, 0}, false},{"ozf",  0.27801385095378125, {1, 1, -2, 0, 0}, false},
+    {"daN",  10,           {1, 1, -2, 0, 0}, false},{"daNm", 10,          {1, 2, -2, 0, 0}, false},
     {"J",    1,            {1, 2, -2, 0, 0}, true}, {"Nm",   1,           {1, 2, -2, 0, 0}, true},
     {"W",    1,            {1, 2, -3, 0, 0}, true}, {"hp",   745.69987158227022, {1, 2, -3, 0, 0}, false},
     {"PS",   735.49875,    {1, 2, -3, 0, 0}, false},{"Pa",   1,           {1, -1, -2, 0, 0}, true},
@@ -297,6 +300,20 @@ Unit wanted_as(Unit unit, const Dimension& wanted) {
 Quantity wanted_as(Quantity quantity, const Dimension& wanted) {
   const Unit unit = wanted_as(Unit{1, quantity.dimension, quantity.counted}, wanted);
   return {unit.factor * quantity.value, unit.dimension};
+}
+
+std::string force_meant(std::string_view unit, const Dimension& got, const Dimension& wanted) {
+  Dimension as_force = got;
+  as_force.exponent[1] += 1, as_force.exponent[2] -= 2;
+  if (as_force != wanted) return {};
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  for (const std::string_view mass : {"lb", "kg", "g"})
+    for (std::size_t at = unit.find(mass); at != std::string_view::npos; at = unit.find(mass, at + 1)) {
+      const std::size_t end = at + mass.size();
+      if ((at > 0 && is_letter(unit[at - 1])) || (end < unit.size() && is_letter(unit[end]))) continue;
+      return fmt::format("; \"{0}\" is a mass — did you mean \"{0}f\"?", mass);
+    }
+  return {};
 }
 
 std::string examples_of(std::string_view si_unit) {

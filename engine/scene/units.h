@@ -51,6 +51,10 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error);
 Quantity wanted_as(Quantity quantity, const Dimension& wanted);
 Unit wanted_as(Unit unit, const Dimension& wanted);
 
+// Where a unit of mass stands in a unit that were the wanted one, if it were a force: "; "lb" is a mass — did you mean
+// "lbf"?". Else nothing.
+std::string force_meant(std::string_view unit, const Dimension& got, const Dimension& wanted);
+
 // A unit in which values of this dimension are commonly written, for messages: "rad/s" → "rpm, rad/s, deg/s".
 std::string examples_of(std::string_view si_unit);
 

@@ -54,7 +54,8 @@ class FormulaCurveReader {
 
   bool refuse_points() {
     bool none = true;
-    for (const char* key : {"unit", "points", "file", "return_points", "return_file", "columns", "interpolation"})
+    for (const char* key : {"unit", "points", "file", "return_points", "return_file", "columns", "interpolation",
+                            "sheet", "decimal", "gain", "offset", "shift"})
       if (const DocumentEntry* entry = table_.find(key))
         none = refuse(entry->at, fmt::format("\"formula\" and \"{}\" both given; {}", key,
                                              key == std::string_view("unit")

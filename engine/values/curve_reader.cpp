@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
-#include "engine/scene/csv.h"
+#include "engine/tables/table_file.h"
 #include "engine/values/quantity_reader.h"
 
 namespace kurbel {
@@ -33,7 +34,8 @@ class CurveReader {
     for (const DocumentEntry& e : table_.entries) {
       static const std::vector<std::string> known = {
           "over",          "unit",   "points",  "file",           "return_points", "return_file", "columns",
-          "interpolation", "period", "formula", "return_formula", "range",         "with"};
+          "interpolation", "period", "formula", "return_formula", "range",         "with",        "sheet",
+          "decimal",       "gain",   "offset",  "shift",          "beyond"};
       if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
       const auto near = nearest(e.key, known);
       if (near) meant_.push_back(*near);
@@ -41,17 +43,18 @@ class CurveReader {
                                near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
     }
     const std::size_t before = messages_.all().size();
-    if (!read_over(curve)) return false;
+    if (!read_over(curve) || !read_beyond(curve)) return false;
     if (table_.find("formula") || table_.find("return_formula"))
       return read_curve_formula(table_, key_, what_, messages_, curve) && messages_.all().size() == before;
     for (const char* key : {"range", "with"})
       if (const DocumentEntry* entry = table_.find(key))
         refuse(entry->at, fmt::format("\"{}\" belongs to \"formula\", which is not given", key));
     // Each says itself what is wrong with it; a mistyped key was named above, and what it should hold is missing.
-    const bool units = read_units(curve.over), form = read_form(curve),
-               points = read_points("points", "file", true, curve.x, curve.y),
-               back = read_points("return_points", "return_file", false, curve.x_back, curve.y_back);
-    return units && form && points && back && messages_.all().size() == before && check_period(curve) &&
+    const bool units = read_units(curve.over), form = read_form(curve), file_form = read_file_form(),
+               points = units && file_form && read_points("points", "file", true, curve.x, curve.y),
+               back =
+                   units && file_form && read_points("return_points", "return_file", false, curve.x_back, curve.y_back);
+    return form && points && back && messages_.all().size() == before && correct(curve) && check_period(curve) &&
            check_points(curve);
   }
 
@@ -79,40 +82,80 @@ class CurveReader {
                               near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(key_.choices)));
   }
 
+  // Of the scene; a file's heading may say them in its place.
   bool read_units(const std::string& over) {
     const DocumentEntry* units = table_.find("unit");
-    const std::string x_unit = unit_over(over);
-    if (!units)
+    wanted_ = {unit_over(over), key_.unit};
+    if (!units) {
+      const bool inline_points = table_.find("points") || table_.find("return_points");
+      if (!inline_points && (table_.find("file") || table_.find("return_file"))) return true;
       return !is_meant("unit") &&
              refuse(table_.at,
                     fmt::format("\"unit\" is missing; say the units of both columns, e.g. unit = [\"{}\", \"{}\"]",
-                                x_unit, key_.unit));
+                                wanted_[0], wanted_[1]));
+    }
     const DocumentValue& list = units->value;
     if (list.type != Type::list || list.items.size() != 2)
       return refuse(list.at, fmt::format("unit = {}; must be a list of two units, e.g. [\"{}\", \"{}\"]",
-                                         list.describe(), x_unit, key_.unit));
-    const bool first = read_unit(list.items[0], x_unit, x_factor_),
-               second = read_unit(list.items[1], key_.unit, y_factor_);
-    if (first) x_unit_ = list.items[0].text;
-    if (second) y_unit_ = list.items[1].text;
-    return first && second;
+                                         list.describe(), wanted_[0], wanted_[1]));
+    bool good = true;
+    for (std::size_t k = 0; k < 2; ++k) good = read_unit(list.items[k], k) && good;
+    units_ = &list;
+    return good;
   }
-  bool read_unit(const DocumentValue& value, const std::string& wanted, double& factor) {
-    UnitError error;
-    const auto target = parse_unit(wanted, error);
+  bool read_unit(const DocumentValue& value, std::size_t k) {
     if (value.type != Type::text)
       return refuse(value.at,
-                    fmt::format("unit = {}; must be a unit in quotes, e.g. \"{}\"", value.describe(), wanted));
-    auto unit = parse_unit(value.text, error);
-    if (!unit)
-      return refuse(place_within(value, error.column), fmt::format("unit = {}: {}", value.describe(), error.text));
-    unit = wanted_as(*unit, target->dimension);
-    if (unit->dimension != target->dimension)
-      return refuse(value.at, fmt::format("unit = {} is the unit of {}; must be one of {}", value.describe(),
-                                          name_of(unit->dimension), name_of(target->dimension)));
-    if (!std::isfinite(unit->factor) || unit->factor == 0)
-      return refuse(value.at, fmt::format("unit = {} is out of range", value.describe()));
-    factor = unit->factor;
+                    fmt::format("unit = {}; must be a unit in quotes, e.g. \"{}\"", value.describe(), wanted_[k]));
+    UnitError error;
+    const auto factor = factor_of(value.text, k, error);
+    if (!factor)
+      return refuse(place_within(value, error.column), fmt::format("unit = {}{}", value.describe(), error.text));
+    factor_[k] = *factor, unit_text_[k] = value.text;
+    return true;
+  }
+  // To SI, of a column's unit; else why it is none.
+  std::optional<double> factor_of(const std::string& text, std::size_t k, UnitError& error) const {
+    const Dimension wanted = parse_unit(wanted_[k], error)->dimension;
+    auto unit = parse_unit(text == "-" ? "" : text, error);
+    if (!unit) {
+      error.text = ": " + error.text;
+      return {};
+    }
+    unit = wanted_as(*unit, wanted);
+    if (unit->dimension != wanted)
+      error = {fmt::format(" is the unit of {}; must be one of {}{}", name_of(unit->dimension), name_of(wanted),
+                           force_meant(text, unit->dimension, wanted))};
+    else if (!std::isfinite(unit->factor) || unit->factor == 0)
+      error = {" is out of range"};
+    else
+      return unit->factor;
+    return {};
+  }
+  // Of a file's column: its heading's unit and the scene's must be the same; one of them is needed.
+  bool take_unit(const TableFile& file, int column, std::size_t k) {
+    const bool named = column <= static_cast<int>(file.headings().size());
+    const TableHeading* heading = named ? &file.headings()[static_cast<std::size_t>(column - 1)] : nullptr;
+    const auto refuse_heading = [&](const std::string& text) {
+      messages_.add_in(file.path(), heading->at,
+                       fmt::format("{}: column {}: {}", what_, in_quotes(heading->text), text));
+      return false;
+    };
+    if (!heading || !heading->unit) {
+      if (units_) return true;
+      return refuse(table_.at, fmt::format("neither \"unit\" nor the heading of column {} of the file says its unit; "
+                                           "give e.g. unit = [\"{}\", \"{}\"]",
+                                           column, wanted_[0], wanted_[1]));
+    }
+    UnitError error;
+    const auto factor = factor_of(*heading->unit, k, error);
+    if (!factor) return refuse_heading(fmt::format("unit [{}]{}", *heading->unit, error.text));
+    if (units_ && std::abs(*factor - factor_[k]) > 1e-12 * std::abs(*factor))
+      return refuse(
+          units_->items[k].at,
+          fmt::format("unit = {}, but the heading {} of the file says {}; drop `unit`, or correct one of them",
+                      units_->items[k].describe(), in_quotes(heading->text), in_quotes(*heading->unit)));
+    factor_[k] = *factor, unit_text_[k] = *heading->unit;
     return true;
   }
 
@@ -126,6 +169,56 @@ class CurveReader {
     const DocumentEntry* period = table_.find("period");
     if (!period) return true;
     return read_quantity(period->value, unit_over(curve.over), positive, what_ + ": period", messages_, curve.period);
+  }
+
+  bool read_beyond(CurveData& curve) {
+    const DocumentEntry* entry = table_.find("beyond");
+    if (!entry) return true;
+    static const std::vector<std::string> allowed = {"hold", "line", "refuse"};
+    const auto found = std::find(allowed.begin(), allowed.end(), entry->value.text);
+    if (found == allowed.end())
+      return refuse(entry->value.at, fmt::format("beyond = {}{}; allowed: {}", entry->value.describe(),
+                                                 suggestion(entry->value.text, allowed), listed(allowed)));
+    curve.beyond = static_cast<Beyond>(found - allowed.begin() + 1);
+    return !table_.find("period") || refuse(entry->at, "\"beyond\" and \"period\" both given; keep one");
+  }
+
+  // What of a file's form the scene says.
+  bool read_file_form() {
+    const bool any_file = table_.find("file") || table_.find("return_file");
+    for (const char* key : {"sheet", "decimal", "columns"})
+      if (const DocumentEntry* entry = table_.find(key); entry && !any_file && !is_meant("file"))
+        return refuse(entry->at, fmt::format("\"{}\" belongs to \"file\", which is not given", key));
+    if (const DocumentEntry* sheet = table_.find("sheet")) {
+      if (sheet->value.type != Type::text || sheet->value.text.empty())
+        return refuse(sheet->value.at,
+                      fmt::format("sheet = {}; must be the name of a sheet in quotes", sheet->value.describe()));
+      form_.sheet = sheet->value.text;
+    }
+    if (const DocumentEntry* decimal = table_.find("decimal")) {
+      if (decimal->value.text != "," && decimal->value.text != ".")
+        return refuse(decimal->value.at,
+                      fmt::format("decimal = {}; allowed: \",\" or \".\"", decimal->value.describe()));
+      form_.decimal = decimal->value.text[0];
+    }
+    return true;
+  }
+
+  // Instruments' corrections: gain · y + offset over x + shift.
+  bool correct(CurveData& curve) {
+    double gain = 1, offset = 0, shift = 0;
+    const auto read = [&](const char* name, const std::string& unit, double& value) {
+      const DocumentEntry* entry = table_.find(name);
+      return !entry ||
+             read_quantity(entry->value, unit == "1" ? "" : unit, any_number, what_ + ": " + name, messages_, value);
+    };
+    if (!read("gain", "", gain) || !read("offset", wanted_[1], offset) || !read("shift", wanted_[0], shift))
+      return false;
+    for (auto* x : {&curve.x, &curve.x_back})
+      for (double& place : *x) place += shift;
+    for (auto* y : {&curve.y, &curve.y_back})
+      for (double& value : *y) value = gain * value + offset;
+    return true;
   }
 
   bool read_points(const char* inline_key, const char* file_key, bool required, std::vector<double>& x,
@@ -168,7 +261,7 @@ class CurveReader {
   // In SI, where both are of a size to be computed with, and the first column still ascends.
   bool add_point(double x, double y, const std::string& file, Location at, std::vector<double>& all_x,
                  std::vector<double>& all_y) {
-    const double x_si = x * x_factor_, y_si = y * y_factor_;
+    const double x_si = x * factor_[0], y_si = y * factor_[1];
     std::string wrong;
     if (!(std::abs(x_si) <= greatest_size) || !(std::abs(y_si) <= greatest_size))
       wrong =
@@ -198,17 +291,6 @@ class CurveReader {
   bool read_file(const DocumentValue& value, std::vector<double>& x, std::vector<double>& y) {
     if (value.type != Type::text)
       return refuse(value.at, fmt::format("file = {}; must be the path of a CSV file in quotes", value.describe()));
-    int column[2] = {1, 2};
-    if (const DocumentEntry* columns = table_.find("columns")) {
-      const auto& items = columns->value.items;
-      const auto is_column = [](const DocumentValue& v) { return is_whole(v) && v.number >= 1 && v.number <= 1000; };
-      if (columns->value.type != Type::list || items.size() != 2 || !is_column(items[0]) || !is_column(items[1]))
-        return refuse(columns->value.at,
-                      fmt::format("columns = {}; must be two column numbers counted from 1, e.g. [1, 2]",
-                                  columns->value.describe()));
-      column[0] = static_cast<int>(items[0].number);
-      column[1] = static_cast<int>(items[1].number);
-    }
     const std::filesystem::path folder = std::filesystem::path(messages_.file()).parent_path();
     const std::filesystem::path path = folder / value.text;
     if (allowed_ == DataFiles::below_the_scene && !lies_below(folder, path))
@@ -216,22 +298,67 @@ class CurveReader {
                                           "you trust the scene, allow it with --allow-files",
                                           value.describe()));
     try {
+      const TableFile file(path.string(), form_);
+      std::vector<int> columns = {1, 2};
+      if (!read_columns(file, columns)) return false;
+      for (std::size_t k = 0; k < 2; ++k)
+        if (!take_unit(file, columns[k], k)) return false;
       const std::size_t before = messages_.all().size();
-      const Columns data = read_csv(path.string(), column[0], column[1], messages_);
+      const TableNumbers data = file.numbers(columns, messages_);
       if (messages_.all().size() > before) return false;
-      if (data.x.size() < 2)
-        return refuse(value.at, fmt::format("file {} has {} row{} of numbers; must be two or more", value.describe(),
-                                            data.x.size(), data.x.size() == 1 ? "" : "s"));
-      for (std::size_t i = 1; i < data.x.size(); ++i)
-        if (const std::string wrong = not_ascending(data.x[i], data.x[i - 1], i > 1 ? data.x[i - 2] : -HUGE_VAL);
-            !wrong.empty()) {
-          messages_.add_in(path.string(), {data.line[i], 1}, wrong);
-          return false;
-        }
-      for (std::size_t i = 0; i < data.x.size(); ++i)
-        if (!add_point(data.x[i], data.y[i], path.string(), {data.line[i], 1}, x, y)) return false;
+      return take_rows(data, value, path.string(), x, y);
     } catch (const SceneError& error) {
-      return refuse(value.at, fmt::format("file {}: {}", value.describe(), error.messages.front().text));
+      const Message& first = error.messages.front();
+      if (first.at.line == 0) return refuse(value.at, fmt::format("file {}: {}", value.describe(), first.text));
+      messages_.add_in(first.file, first.at, fmt::format("{}: {}", what_, first.text));
+      return false;
+    }
+  }
+  bool take_rows(const TableNumbers& data, const DocumentValue& file, const std::string& path, std::vector<double>& x,
+                 std::vector<double>& y) {
+    const std::vector<double>&all_x = data.columns[0], &all_y = data.columns[1];
+    if (all_x.size() < 2)
+      return refuse(file.at, fmt::format("file {} has {} row{} of numbers; must be two or more", file.describe(),
+                                         all_x.size(), all_x.size() == 1 ? "" : "s"));
+    for (std::size_t i = 1; i < all_x.size(); ++i)
+      if (const std::string wrong = not_ascending(all_x[i], all_x[i - 1], i > 1 ? all_x[i - 2] : -HUGE_VAL);
+          !wrong.empty()) {
+        messages_.add_in(path, {data.at[i].line, 1}, wrong);
+        return false;
+      }
+    for (std::size_t i = 0; i < all_x.size(); ++i)
+      if (!add_point(all_x[i], all_y[i], path, {data.at[i].line, 1}, x, y)) return false;
+    return true;
+  }
+  // By their numbers from 1, or by their names in the heading.
+  bool read_columns(const TableFile& file, std::vector<int>& columns) {
+    const DocumentEntry* given = table_.find("columns");
+    if (!given) return true;
+    const auto& items = given->value.items;
+    const auto is_number_of_one = [](const DocumentValue& v) {
+      return is_whole(v) && v.number >= 1 && v.number <= 16384;
+    };
+    const auto is_column = [&](const DocumentValue& v) {
+      return is_number_of_one(v) || (v.type == Type::text && !v.computed);
+    };
+    if (given->value.type != Type::list || items.size() != 2 || !is_column(items[0]) || !is_column(items[1]))
+      return refuse(given->value.at,
+                    fmt::format("columns = {}; must be two columns, by numbers from 1 or by names, e.g. [1, 2] or "
+                                "[\"speed\", \"torque\"]",
+                                given->value.describe()));
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (is_number_of_one(items[k])) {
+        columns[k] = static_cast<int>(items[k].number);
+        continue;
+      }
+      const TableHeading* heading = file.find(items[k].text);
+      if (!heading)
+        return refuse(items[k].at,
+                      file.headings().empty()
+                          ? fmt::format("column {}: the file has no heading; give its number", items[k].describe())
+                          : fmt::format("the file has no column {}{}; there are {}", items[k].describe(),
+                                        suggestion(items[k].text, file.names()), shortened_list(file.names(), "and")));
+      columns[k] = heading->column;
     }
     return true;
   }
@@ -251,7 +378,7 @@ class CurveReader {
   bool check_period(const CurveData& curve) {
     if (!(curve.period > 0)) return true;
     const Location at = table_.find("period")->value.at;
-    const auto in_user_unit = [&](double x) { return with_unit(x / x_factor_, x_unit_); };
+    const auto in_user_unit = [&](double x) { return with_unit(x / factor_[0], unit_text_[0]); };
     if (curve.over == "angle") {
       const double turns = 4 * M_PI / curve.period;
       if (std::abs(turns - std::round(turns)) > 1e-9)
@@ -267,8 +394,8 @@ class CurveReader {
                              1e-9 * std::max(std::abs(curve.y.back()), std::abs(curve.y.front())))
       return refuse(at, fmt::format("the last point lies one period after the first, but {} is not {}; make them "
                                     "equal, drop the last point, or let it jump back: a second point at this place",
-                                    with_unit(curve.y.back() / y_factor_, y_unit_),
-                                    with_unit(curve.y.front() / y_factor_, y_unit_)));
+                                    with_unit(curve.y.back() / factor_[1], unit_text_[1]),
+                                    with_unit(curve.y.front() / factor_[1], unit_text_[1])));
     try {
       Curve(curve.x, curve.y, curve.form, curve.period);
       if (!curve.x_back.empty()) Curve(curve.x_back, curve.y_back, curve.form, curve.period);
@@ -283,9 +410,11 @@ class CurveReader {
   std::string what_;
   Messages& messages_;
   DataFiles allowed_;
-  std::vector<std::string> meant_;  // known keys that unknown ones were taken for
-  std::string x_unit_, y_unit_;
-  double x_factor_ = 1, y_factor_ = 1;
+  std::vector<std::string> meant_;                 // known keys that unknown ones were taken for
+  std::array<std::string, 2> wanted_, unit_text_;  // of the columns: in SI, as given
+  std::array<double, 2> factor_{1, 1};             // of these, to SI
+  const DocumentValue* units_ = nullptr;           // the scene's
+  TableForm form_;                                 // of its files
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// curve_reader.h — a characteristic of a scene file: its points in place or in a CSV file, with their units, or a formula.
+// curve_reader.h — a characteristic of a scene file: its points in place or in a file, with their units, or a formula.
 #pragma once
 
 #include <string>

@@ -35,9 +35,10 @@ std::string wrong_dimension(const DocumentValue& value, const Quantity& got, con
   Dimension without_angle = got.dimension, wanted_without = wanted.dimension;
   without_angle.exponent[3] = wanted_without.exponent[3] = 0;
   return fmt::format(
-      "{} is {}; must be {}, e.g. {}{}", value.describe(), name_of(got.dimension), name_of(wanted.dimension),
+      "{} is {}; must be {}, e.g. {}{}{}", value.describe(), name_of(got.dimension), name_of(wanted.dimension),
       examples_of(unit),
-      without_angle == wanted_without && !unit.empty() ? " (the angle counts as a dimension: rad, deg, rev)" : "");
+      without_angle == wanted_without && !unit.empty() ? " (the angle counts as a dimension: rad, deg, rev)" : "",
+      value.type == Type::text ? force_meant(value.text, got.dimension, wanted.dimension) : "");
 }
 
 }  // namespace

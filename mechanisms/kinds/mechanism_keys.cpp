@@ -95,6 +95,30 @@ Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>
       .add({.name = "load", .doc = load_doc}, &Mounting::loads, loads);
 }
 
+namespace {
+
+// Tables over the travel end somewhere.
+void limit_loads(const Mechanism& mechanism, int node, Network& net) {
+  for (const SliderLoad& load : mechanism.loads)
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          if constexpr (std::is_base_of_v<TravelForce, Law>)
+            for (const Curve* curve : {&law.approach, &law.retreat})
+              net.limit({.component = mechanism.name,
+                         .of = "load",
+                         .over = Network::DataRange::Over::channel,
+                         .node = node,
+                         .channel = Name::make(QuantityKind::position, mechanism.name).text,
+                         .sign = -static_cast<double>(law.end.side),
+                         .offset = law.end.side * law.end.position,
+                         .unit = mechanism.rocks() ? "rad" : "m"},
+                        *curve);
+        },
+        load.law);
+}
+
+}  // namespace
+
 void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
                      Network& net, Messages& messages, std::shared_ptr<const SliderCrankStatics> joints,
                      Deformation deformation) {
@@ -126,6 +150,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
   put_loads(mounting.loads, *mechanism);
+  limit_loads(*mechanism, node, net);
   net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, mounting.phase);
 }
 

@@ -7,30 +7,19 @@
 #include <cctype>
 #include <stdexcept>
 
-#include "engine/scene/csv.h"
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
+#include "engine/tables/heading.h"
+#include "engine/tables/table_file.h"
 
 namespace kurbel {
 namespace {
 
 constexpr std::size_t fewest_rows = 4;
 
-// "torque.main_coupling [kN*m]", "T1 [N*m]"
-struct NameWithUnit {
-  std::string name;
-  std::optional<std::string> unit;
-};
-
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' ');
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
-NameWithUnit name_with_unit(const std::string& text) {
-  const std::size_t open = text.find('[');
-  if (open == std::string::npos || !text.ends_with(']')) return {trimmed(text), {}};
-  return {trimmed(text.substr(0, open)), trimmed(text.substr(open + 1, text.size() - open - 2))};
 }
 
 // An option "COLUMN=…", the column's heading with or without its unit.
@@ -66,7 +55,11 @@ Dimension dimension_of(const std::string& si_unit) {
 class Reader {
  public:
   Reader(const MeasurementRequest& request, const std::vector<KnownChannel>& channels)
-      : request_(request), channels_(channels), headings_(read_headings(request.file)), messages_(request.file) {}
+      : request_(request),
+        channels_(channels),
+        file_(request.file),
+        headings_(file_.headings()),
+        messages_(request.file) {}
 
   Measurement read() {
     out_.file = request_.file;
@@ -93,29 +86,19 @@ class Reader {
     double factor = 1;  // to SI
   };
 
-  std::vector<std::string> column_names() const {
-    std::vector<std::string> names;
-    for (const CsvHeading& h : headings_) names.push_back(name_with_unit(h.text).name);
-    return names;
-  }
-  const CsvHeading* heading_of(const std::string& column) const {
-    for (const CsvHeading& h : headings_)
-      if (h.text == column || name_with_unit(h.text).name == name_with_unit(column).name) return &h;
-    return nullptr;
-  }
-  const CsvHeading* required(const Option& option) {
-    const CsvHeading* heading = heading_of(option.column);
+  const TableHeading* required(const Option& option) {
+    const TableHeading* heading = file_.find(option.column);
     if (!heading)
       messages_.add(headings_.empty() ? Location{} : headings_.front().at,
                     fmt::format("no column {} ({}); columns: {}{}", in_quotes(option.column), option.shown,
-                                quoted_list(column_names()), did_you_mean(option.column, column_names())));
+                                quoted_list(file_.names()), did_you_mean(option.column, file_.names())));
     return heading;
   }
 
   // Of the heading or of the option, one of them; both may say the same.
-  std::optional<Source> source_of(const CsvHeading& heading, const Option& option, const std::string& channel,
+  std::optional<Source> source_of(const TableHeading& heading, const Option& option, const std::string& channel,
                                   const std::string& si_unit) {
-    const auto in_heading = name_with_unit(heading.text).unit, in_option = name_with_unit(option.value).unit;
+    const auto in_heading = heading.unit, in_option = name_with_unit(option.value).unit;
     const std::string example = si_unit.empty() ? "1" : si_unit;
     if (!in_heading && !in_option) {
       if (si_unit.empty()) return Source{heading.column, 1};
@@ -133,7 +116,7 @@ class Reader {
     }
     return in_unit(in_option ? *in_option : *in_heading, heading, channel, si_unit);
   }
-  std::optional<Source> in_unit(const std::string& text, const CsvHeading& heading, const std::string& channel,
+  std::optional<Source> in_unit(const std::string& text, const TableHeading& heading, const std::string& channel,
                                 const std::string& si_unit) {
     UnitError error;
     const std::string plain = text == "-" || text == "1" ? "" : text;
@@ -141,21 +124,22 @@ class Reader {
     const Dimension wanted = dimension_of(si_unit);
     if (unit) *unit = wanted_as(*unit, wanted);
     if (unit && unit->dimension == wanted) return Source{heading.column, unit->factor};
-    messages_.add(heading.at,
-                  fmt::format("unit [{}] of column {} {}, but {} is {}; units of it: {}", text, in_quotes(heading.text),
-                              unit ? "is " + name_of(unit->dimension) : "is not known (" + error.text + ")", channel,
-                              name_of(wanted), examples_of(si_unit)));
+    messages_.add(
+        heading.at,
+        fmt::format("unit [{}] of column {} {}, but {} is {}; units of it: {}{}", text, in_quotes(heading.text),
+                    unit ? "is " + name_of(unit->dimension) : "is not known (" + error.text + ")", channel,
+                    name_of(wanted), examples_of(si_unit), unit ? force_meant(text, unit->dimension, wanted) : ""));
     return {};
   }
 
   void find_time(const Option& map) {
-    if (const CsvHeading* heading = required(map))
+    if (const TableHeading* heading = required(map))
       if (const auto source = source_of(*heading, map, "time", "s")) time_ = *source;
     time_asked_ = true;
   }
   void find_time_by_name() {
-    for (const CsvHeading& h : headings_) {
-      std::string name = name_with_unit(h.text).name;
+    for (const TableHeading& h : headings_) {
+      std::string name = h.name;
       std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
       if (name != "time" && name != "t") continue;
       if (const auto source = source_of(h, {}, "time", "s")) time_ = *source;
@@ -163,7 +147,7 @@ class Reader {
     }
     messages_.add(headings_.empty() ? Location{} : headings_.front().at,
                   fmt::format("no column \"time\" or \"t\"; columns: {}; say which it is: --map \"COLUMN=time [s]\"",
-                              quoted_list(column_names())));
+                              quoted_list(file_.names())));
   }
 
   void add_signal(const Option& map) {
@@ -180,34 +164,34 @@ class Reader {
                        fmt::format("no channel {} is recorded{}{}", in_quotes(asked.name), meant,
                                    meant.empty() ? "; there are " + quoted_list(names) : ""));
     }
-    const CsvHeading* heading = required(map);
+    const TableHeading* heading = required(map);
     if (!channel || !heading) return;
     const auto source = source_of(*heading, map, channel->name, channel->unit);
     if (!source) return;
     sources_.push_back(*source);
-    out_.signals.push_back(
-        {.column = name_with_unit(heading->text).name, .channel = channel->name, .unit = channel->unit, .values = {}});
+    out_.signals.push_back({.column = heading->name, .channel = channel->name, .unit = channel->unit, .values = {}});
   }
 
   void read_numbers() {
-    for (std::size_t k = 0; k < out_.signals.size(); ++k) {
-      Columns columns = read_csv(request_.file, time_.column, sources_[k].column, messages_);
-      messages_.throw_if_any();
-      for (double& value : columns.y) value *= sources_[k].factor;
-      out_.signals[k].values = std::move(columns.y);
-      if (k > 0) continue;
-      require_ascending(columns);
-      for (double& t : columns.x) t *= time_.factor;
-      out_.time = std::move(columns.x);
+    std::vector<int> columns = {time_.column};
+    for (const Source& source : sources_) columns.push_back(source.column);
+    TableNumbers numbers = file_.numbers(columns, messages_);
+    messages_.throw_if_any();
+    require_ascending(numbers);
+    for (double& t : numbers.columns[0]) t *= time_.factor;
+    out_.time = std::move(numbers.columns[0]);
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      for (double& value : numbers.columns[k + 1]) value *= sources_[k].factor;
+      out_.signals[k].values = std::move(numbers.columns[k + 1]);
     }
   }
-  void require_ascending(const Columns& columns) {
-    const std::vector<double>& t = columns.x;
+  void require_ascending(const TableNumbers& numbers) {
+    const std::vector<double>& t = numbers.columns[0];
     if (t.size() < fewest_rows)
       messages_.add({}, fmt::format("{} rows; at least {} are needed", t.size(), fewest_rows));
     for (std::size_t i = 1; i < t.size(); ++i)
       if (!(t[i] > t[i - 1])) {
-        messages_.add({columns.line[i], columns.x_at[i]},
+        messages_.add(numbers.at[i],
                       fmt::format("time {} after {}: times must ascend; sort the rows, and drop what stands twice",
                                   t[i], t[i - 1]));
         return;
@@ -252,7 +236,8 @@ class Reader {
 
   const MeasurementRequest& request_;
   const std::vector<KnownChannel>& channels_;
-  std::vector<CsvHeading> headings_;
+  TableFile file_;
+  const std::vector<TableHeading>& headings_;
   Messages messages_;
   Source time_;
   bool time_asked_ = false;  // by --map

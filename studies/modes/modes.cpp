@@ -18,6 +18,7 @@
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"
 #include "studies/modes/spot_checks.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
@@ -106,6 +107,10 @@ class Study {
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
     for (const std::string& note : substitutes(*model_)) found_.notes.push_back(note);
+    if (!options_.speed && regime_ && regime_->repeats() && regime_->map)
+      found_.outside_data = outside_data(*regime_->map, regime_->point);
+    else if (lies_beyond_a_table(*model_, point.speed))
+      found_.outside_data = {"this speed lies beyond the end of a table over the speed, whose slope there is not known"};
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);

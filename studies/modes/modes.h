@@ -147,6 +147,7 @@ struct ModesStudy {
   std::vector<Verdict> verdicts;
   ShaftStresses stresses;  // where they are judged
   std::optional<TorqueHistory> history;
+  std::vector<std::string> outside_data;  // what the motion takes from beyond the ends of tables
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;

@@ -14,6 +14,7 @@
 #include "studies/findings/trace.h"
 #include "studies/limits/heat_recorder.h"
 #include "studies/run/periods.h"
+#include "studies/validity/outside_data.h"
 
 namespace kurbel {
 
@@ -31,6 +32,7 @@ struct OneRun {
   std::unique_ptr<HeatRecorder> heat;  // null: none is rated
   std::unique_ptr<FlywheelFalls> falls;
   std::unique_ptr<MotorCurrents> currents;
+  std::unique_ptr<DataRangeRecorder> ranges;  // of tables
   std::unique_ptr<TraceRecorder> traces;
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names

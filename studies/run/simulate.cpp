@@ -26,6 +26,7 @@
 #include "studies/run/multibody.h"
 #include "studies/run/run_findings.h"
 #include "studies/validity/idle_effects.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
 
@@ -90,7 +91,6 @@ class Simulation {
   }
 
   void log(const std::string& text) const { options_.watch.say(text); }
-
   // Work and edges over the angle, made once for all runs of the ladder.
   std::shared_ptr<WorkTables> work_tables() {
     const bool asked = settings_.method == "auto" || settings_.method == "work";
@@ -266,6 +266,7 @@ class Simulation {
     run->heat = heat_recorder_of(model);
     run->falls = std::make_unique<FlywheelFalls>(model);
     run->currents = std::make_unique<MotorCurrents>(model);
+    run->ranges = std::make_unique<DataRangeRecorder>(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until);
     run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
     RunOptions options{.tolerance = tolerance,
@@ -283,8 +284,8 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles, run->speed.get(),
-                                        run->energy.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
+                                        run->speed.get(),      run->energy.get(),   run->ranges.get()};
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
@@ -380,10 +381,11 @@ class Simulation {
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     judge_motion(run.outcome);
+    tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     note_arcs(m.network);
-    for (const std::string& note : substitutes(m)) result_.notes.push_back(note);
-    for (std::string& note : idle_effects(m)) result_.notes.push_back(std::move(note));
+    for (auto* of : {&substitutes, &idle_effects})
+      for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));

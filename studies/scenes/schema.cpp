@@ -86,13 +86,25 @@ Json curve(const Key& key) {
         {"minItems", 2},
         {"maxItems", 2},
         {"description",
-         fmt::format("units of both columns; the second in the dimension of {}", pretty_unit(key.unit))}}},
+         fmt::format(
+             "units of both columns; the second in the dimension of {}; a file's heading may say them in its place",
+             pretty_unit(key.unit))}}},
       {"points", points},
-      {"file", {{"type", "string"}, {"description", "CSV file beside the scene, in place of the points"}}},
+      {"file", {{"type", "string"}, {"description", ".csv or .xlsx file beside the scene, in place of the points"}}},
       {"return_points", points},
       {"return_file", text()},
       {"columns",
-       {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 1}}}, {"minItems", 2}, {"maxItems", 2}}},
+       {{"type", "array"},
+        {"items", {{"anyOf", {{{"type", "integer"}, {"minimum", 1}}, text()}}}},
+        {"minItems", 2},
+        {"maxItems", 2},
+        {"description", "of the file: by numbers from 1, or by the names of its heading"}}},
+      {"sheet", {{"type", "string"}, {"description", "of an .xlsx file; default: the first"}}},
+      {"decimal", {{"enum", {",", "."}}, {"description", "of the file's numbers; default: as they show it"}}},
+      {"gain", reference("gain")},
+      {"offset", reference("correction")},
+      {"shift", reference("correction")},
+      {"beyond", {{"enum", {"hold", "line", "refuse"}}, {"description", "how it goes on beyond its ends"}}},
       {"interpolation", {{"enum", {"linear", "smooth"}}, {"default", "linear"}}},
       {"period", given_quantity()},
       {"formula", {{"type", "string"}, {"description", "in place of the points; its variable is what it is over"}}},
@@ -237,6 +249,9 @@ std::string scene_schema() {
 
   Json definitions = Json::object(), kinds = Json::array();
   definitions["with_tolerance"] = with_tolerance();
+  definitions["gain"] = quantity("", any_number);
+  definitions["correction"] = quantity("m", any_number);  // of a table: of whatever unit, or of none
+  definitions["correction"]["anyOf"].push_back({{"type", "number"}});
   for (const Kind& kind : all_kinds()) {
     definitions[kind.name] = kind_schema(kind, true);
     kinds.push_back(reference(kind.name));

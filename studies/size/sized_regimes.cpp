@@ -12,6 +12,7 @@
 #include "studies/cycle/classical.h"
 #include "studies/scenes/kinds.h"
 #include "studies/steady/cycle_search.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
 
 namespace kurbel {
@@ -115,6 +116,7 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
     if (!regime.repeats()) return r;
     fill(r, regime_cycle(regime, {motor}), model->node_ratio[kurbel::at(motor)]);
     r.notes = static_curve_notes(*regime.map, regime.point);
+    for (std::string& sentence : outside_data(*regime.map, regime.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
     if (const auto looser = looser_regime_cycle(regime, {motor})) {
       const double left = regime.point.still_to_come();  // what the run has still to settle

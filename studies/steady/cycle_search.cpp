@@ -17,6 +17,7 @@
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
 #include "studies/steady/round_figures.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
 
@@ -309,6 +310,8 @@ class Search {
     out_.shafts = std::move(fine.shafts);
     out_.motors = std::move(fine.motors);
     out_.work_residual = fine.work_residual;
+    out_.outside_data = std::move(fine.outside_data);
+    if (!out_.outside_data.empty()) drop_errors(out_.figures, -HUGE_VAL);
     for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
     find_loads();

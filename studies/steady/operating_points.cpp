@@ -12,6 +12,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
+#include "studies/validity/outside_data.h"
 
 namespace kurbel {
 namespace {
@@ -162,6 +163,7 @@ void measure_errors(MeanCharacteristic& finer, OperatingDiagram& found) {
     point.torque_error =
         std::abs(mean.load - point.mean.load) + std::abs(point.load_slope) * point.speed_error + rounding;
   }
+  for (OperatingPoint& point : found.points) point.beyond_data = lies_beyond_a_table(machine.model(), point.mean.omega);
   found.strongest_error = std::abs(finer.at(found.strongest.omega).drive - found.strongest.drive) +
                           1e-9 * std::abs(found.strongest.drive);  // of the golden section
 }

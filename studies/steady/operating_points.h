@@ -56,6 +56,7 @@ struct OperatingPoint {
   MeanTorques mean;
   double drive_slope = 0, load_slope = 0;    // dM̄/d|ω| [N·m·s/rad]
   double speed_error = 0, torque_error = 0;  // against twice as many intervals [rad/s], [N·m]
+  bool beyond_data = false;                  // at a speed beyond the end of a table
   bool stable() const { return drive_slope < load_slope; }
 };
 
@@ -81,7 +82,9 @@ struct OperatingDiagram {
   // Why there is no working point: stall (and by how much the drive is too weak) or runaway. Empty where there is one, and
   // for an estimate.
   std::string why_none(const std::string& link) const;
-  std::optional<double> told(double error) const { return estimate ? std::nullopt : std::optional(error); }
+  std::optional<double> told(const OperatingPoint& p, double error) const {
+    return estimate || p.beyond_data ? std::nullopt : std::optional(error);
+  }
 };
 
 // Scans the speeds up to 1.25 × the rated one, and on while the drive is still stronger.

@@ -13,6 +13,7 @@
 #include "studies/findings/report.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/figures.h"
+#include "studies/validity/outside_data.h"
 
 namespace kurbel {
 namespace {
@@ -148,6 +149,7 @@ class RoundFigures {
       : map_(map),
         m_(map.model()),
         extremes_(wanted_of(m_)),
+        ranges_(m_),
         equations_(map.shared_model(), true),
         drives_(equations_, drives_of(m_)) {
     RunOptions run{.tolerance = tolerance,
@@ -162,16 +164,17 @@ class RoundFigures {
     y.resize(drives_.size(), 0.0);
     run.from = {map.start_time(), y};
     run.extension = &drives_;
-    outcome_ = integrate(equations_, run, {&extremes_});
+    outcome_ = integrate(equations_, run, {&extremes_, &ranges_});
     if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 
   Round collect() {
-    if (!outcome_.diagnosis.empty()) return {{}, {}, {}, 0, outcome_.diagnosis};
+    if (!outcome_.diagnosis.empty()) return {.failed = outcome_.diagnosis};
     add_speeds();
     add_torques();
     add_works();
     add_drives();
+    round_.outside_data = ranges_.sentences();
     return std::move(round_);
   }
 
@@ -278,6 +281,7 @@ class RoundFigures {
   const ReturnMap& map_;
   const Model& m_;
   ExtremeRecorder extremes_;
+  DataRangeRecorder ranges_;
   Equations equations_;
   DriveQuadratures drives_;
   RunOutcome outcome_;

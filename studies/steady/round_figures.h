@@ -10,11 +10,12 @@ namespace kurbel {
 
 // All that is told of one round of a fixed point.
 struct Round {
-  std::vector<Figure> figures;
-  std::vector<ShaftFluctuation> shafts;
-  std::vector<MotorUse> motors;
+  std::vector<Figure> figures = {};
+  std::vector<ShaftFluctuation> shafts = {};
+  std::vector<MotorUse> motors = {};
   double work_residual = 0;
-  std::string failed;
+  std::vector<std::string> outside_data = {};  // what it takes from beyond the ends of tables
+  std::string failed = {};
 };
 
 // Goes once round from the map's fixed point, as accurately as told.

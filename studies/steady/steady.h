@@ -79,6 +79,8 @@ struct SteadyCycle {
   std::string added_at;      // on this component's shaft
   std::shared_ptr<const Traces> traces;
   std::vector<std::string> notes;  // how far the model holds in this motion
+  std::vector<std::string> outside_data =
+      {};  // what it takes from beyond the ends of tables: no figure has an error then
   double cpu_seconds = 0;
 
   const Figure* find(const std::string& name) const;

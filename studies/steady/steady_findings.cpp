@@ -141,18 +141,6 @@ Record cycle_record(const SteadyCycle& c) {
   return r;
 }
 
-Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  return {{"speed", p.mean.omega},
-          {"torque", p.mean.load},
-          {"drive_slope", p.drive_slope},
-          {"load_slope", p.load_slope},
-          {"stable", p.stable()},
-          {"margin", d.margin(p)},
-          {"speed_error", d.told(p.speed_error)},
-          {"torque_error", d.told(p.torque_error)},
-          {"margin_error", d.told(d.margin_error(p))}};
-}
-
 Record ratio_record(const RatioSearch& r) {
   return {{"gearbox", r.gearbox},
           {"ratio", r.best},
@@ -402,6 +390,7 @@ Findings findings_of(const SteadyStudy& s) {
     if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
       f.answer(Question::runs,
                fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
+  for (const std::string& sentence : s.cycles.back().outside_data) f.answer(Question::sure, capitalised(sentence), 0.5);
   for (const MotorUse& use : s.cycles.back().motors)
     if (const Section* motor = s.cycles.back().model->scene.find(use.component); motor && use.rated)
       if (std::optional<Answer> answer = overload_answer(*motor, *use.thermal(), true))

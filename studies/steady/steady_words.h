@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "studies/findings/rows.h"
 #include "studies/steady/steady.h"
 
 namespace kurbel {
 
 std::vector<std::string> words_of(const SteadyCycle& cycle);
 std::vector<std::string> words_of_diagram(const SteadyStudy& study);
+Record operating_point(const OperatingDiagram& diagram, const OperatingPoint& point);  // the same for programs
 std::vector<std::string> words_of_start(const SteadyStudy& study);
 std::string complex_text(std::complex<double> z);  // "0.3 + 0.4 i"
 

@@ -22,7 +22,7 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/scene/csv.h"
+#include "engine/tables/table_text.h"
 #include "engine/scene/document.h"
 #include "tests/support/files.h"
 
@@ -378,7 +378,7 @@ TEST_F(Security, LargerFilesAreRefusedAndEndlessOnesNotReadOn) {
   const Ended large = kurbel({"check", "large.toml"}, little), data = kurbel({"check", "s.toml"}, little);
   EXPECT_EQ(large.code, 2);
   const std::string scenes = std::to_string(max_scene_bytes / 1'000'000) + " MB",
-                    tables = std::to_string(max_csv_bytes / 1'000'000) + " MB";
+                    tables = std::to_string(max_table_bytes / 1'000'000) + " MB";
   EXPECT_NE(large.err.find("is larger than " + scenes), std::string::npos) << large.err;
   EXPECT_EQ(data.code, 2);
   EXPECT_NE(data.err.find("is larger than " + tables), std::string::npos) << data.err;

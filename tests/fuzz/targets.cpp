@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "engine/numerics/deadline.h"
-#include "engine/scene/csv.h"
 #include "engine/scene/scene.h"
+#include "engine/tables/table_file.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
 #include "studies/accuracy/accuracy_findings.h"
 #include "studies/advise/advise_findings.h"
@@ -254,12 +254,13 @@ std::string judge_csv(const std::string& text) {
     Messages messages("scene.toml");
     const std::uint64_t number = number_of(text);
     const int x = 1 + static_cast<int>(number % 3), y = 1 + static_cast<int>(number / 3 % 3);
-    const Columns columns = read_csv(path, x, y, messages);
-    if (columns.x.size() != columns.y.size() || columns.x.size() != columns.line.size())
-      return "columns of unequal length";
-    for (std::size_t i = 0; i < columns.x.size(); ++i)
-      if (!std::isfinite(columns.x[i]) || !std::isfinite(columns.y[i])) return fmt::format("row {} is not finite", i);
-    const std::vector<std::size_t> length = bytes_of_lines(text);
+    const TableNumbers numbers = TableFile(path).numbers({x, y}, messages);
+    const std::vector<double>&all_x = numbers.columns[0], &all_y = numbers.columns[1];
+    if (all_x.size() != all_y.size() || all_x.size() != numbers.at.size()) return "columns of unequal length";
+    for (std::size_t i = 0; i < all_x.size(); ++i)
+      if (!std::isfinite(all_x[i]) || !std::isfinite(all_y[i])) return fmt::format("row {} is not finite", i);
+    // As it is read: in UTF-8, whatever it was in.
+    const std::vector<std::size_t> length = bytes_of_lines(read_table_text(path).text);
     for (const Message& m : messages.all())
       if (std::string wrong = fault_of(m, length, path); !wrong.empty()) return wrong;
     return {};

@@ -76,7 +76,7 @@ TEST(GearedForcedChain, TransientFollowsTheModelicaSeries) {
           0, 5e-6);
   is.near("speed of J3", "rad/s",
           test::largest_difference(r, "speed.j3", test::published_series("el04_first.csv", 1, 5)), 0, 3e-4);
-  Columns damper = test::published_series("el04_first.csv", 1, 2);
+  PublishedSeries damper = test::published_series("el04_first.csv", 1, 2);
   for (double& phi : damper.y) phi = -phi;
   is.near("angle of J2", "rad", test::largest_difference(r, "angle.j2", damper), 0, 5e-6);
 }

@@ -12,6 +12,7 @@
 #include "engine/events/equations.h"
 #include "engine/linear/eigen_modes.h"
 #include "engine/matrices/linear_algebra.h"
+#include "engine/tables/table_file.h"
 
 namespace kurbel::test {
 
@@ -98,14 +99,14 @@ void expect_frequencies(const Validation& is, const std::string& text, const std
         << "undamped mode " << i + 1;
 }
 
-Columns published_series(const std::string& file, int x_column, int y_column) {
+PublishedSeries published_series(const std::string& file, int x_column, int y_column) {
   Messages messages(file);
-  const Columns columns = read_csv(source_path("tests/cases/" + file), x_column, y_column, messages);
+  TableNumbers numbers = TableFile(source_path("tests/cases/" + file)).numbers({x_column, y_column}, messages);
   messages.throw_if_any();
-  return columns;
+  return {std::move(numbers.columns[0]), std::move(numbers.columns[1])};
 }
 
-double largest_difference(const Result& result, const std::string& channel, const Columns& published) {
+double largest_difference(const Result& result, const std::string& channel, const PublishedSeries& published) {
   const std::vector<double> x = series(result, channel);
   const std::vector<double>& time = result.trajectory->time();
   double largest = 0;

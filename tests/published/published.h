@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/csv.h"
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
 
@@ -39,11 +38,15 @@ std::vector<double> natural_frequencies(const std::string& text);
 void expect_frequencies(const Validation& is, const std::string& text, const std::vector<double>& expected, double unit,
                         double relative);
 
+struct PublishedSeries {
+  std::vector<double> x, y;
+};
+
 // Two columns of a published series.
-Columns published_series(const std::string& file, int x_column, int y_column);
+PublishedSeries published_series(const std::string& file, int x_column, int y_column);
 
 // Largest difference of a trajectory to a published series; each of its times must be a row of the trajectory.
-double largest_difference(const Result& result, const std::string& channel, const Columns& published);
+double largest_difference(const Result& result, const std::string& channel, const PublishedSeries& published);
 
 // In-line slider-crank by hand, for checks: the rod turns by β with r sin φ = l sin β.
 struct InlineSliderCrank {

@@ -163,7 +163,7 @@ TEST(MarineTurbineSet, FifthOrderIsCriticalWhereTheCurveHasItsPeak) {
 // A point of the figure is met where the curve passes within its reading: 0.3 rpm to either side, 60e3 lbf·in or 5 %.
 TEST(MarineTurbineSet, PropellerShaftFollowsThePublishedCurve) {
   const auto curve = marine_curve(marine_study());
-  const Columns published = published_series("tv01_propeller_shaft.csv", 1, 2);
+  const PublishedSeries published = published_series("tv01_propeller_shaft.csv", 1, 2);
   ASSERT_EQ(published.x.size(), 55u);
   for (std::size_t i = 0; i < published.x.size(); ++i) {
     double low = HUGE_VAL, high = 0;
@@ -182,10 +182,10 @@ struct Crankshaft {
   std::vector<double> k{1.106e6, 1.631e6, 1.253e6, 1.253e6, 1.678e6, 1.253e6, 1.253e6, 1.976e6};
   double radius = 0.137 / 2, rod = 0.207, bore = 0.105, oscillating = 2.521, drag = 2, loss = 0.035;
   double fires_at[6] = {360, 120, 600, 240, 480, 0};  // 1-5-3-6-2-4, here from the sixth cylinder [deg]
-  Columns shape = published_series("tv02_cylinder_pressure.csv", 1, 2),
+  PublishedSeries shape = published_series("tv02_cylinder_pressure.csv", 1, 2),
           peak = published_series("tv02_peak_pressure.csv", 1, 2);
 
-  static double between(const Columns& c, double x) {
+  static double between(const PublishedSeries& c, double x) {
     const auto after = std::upper_bound(c.x.begin() + 1, c.x.end() - 1, x) - c.x.begin();
     const auto b = static_cast<std::size_t>(after), a = b - 1;
     return c.y[a] + (c.y[b] - c.y[a]) * (x - c.x[a]) / (c.x[b] - c.x[a]);

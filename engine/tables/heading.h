@@ -1,0 +1,21 @@
+// heading.h — a column's heading: its name and its unit.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kurbel {
+
+// "speed [rad/s]", "torque (N*m)", "n / min^-1", "time in s"; what stands in [] is a unit, known or not, the others only
+// where they are one. "[-]" and "[1]" are of a plain number.
+struct NameWithUnit {
+  std::string name;
+  std::optional<std::string> unit;
+};
+NameWithUnit name_with_unit(std::string_view heading);
+
+// A cell of a line of units: "N*m", "[N*m]", "-"; empty where it says nothing or is none.
+std::optional<std::string> unit_in_cell(std::string_view cell);
+
+}  // namespace kurbel

@@ -1,0 +1,162 @@
+// outside_data.cpp — where each table's quantity stands, step by step, and how its leaving is told.
+#include "studies/validity/outside_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/numerics/index.h"
+#include "engine/run/recorders.h"
+#include "engine/scene/units.h"
+
+namespace kurbel {
+namespace {
+
+using Range = Network::DataRange;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool is_said(Beyond beyond) { return beyond == Beyond::hold || beyond == Beyond::line; }
+// What rounding leaves of an end.
+double slack(const Range& range) { return 1e-9 * (range.high - range.low); }
+bool is_left_below(const Range& range, double x) { return !is_said(range.below) && x < range.low - slack(range); }
+bool is_left_above(const Range& range, double x) { return !is_said(range.above) && x > range.high + slack(range); }
+
+std::string in_words(const Range& range, double x, const SpeedUnit& unit) {
+  const bool speed = range.over == Range::Over::speed || range.over == Range::Over::size_of_speed;
+  return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
+}
+
+}  // namespace
+
+DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
+  for (const Range& range : model.network.ranges) {
+    Watched watched{range, {}, {}};
+    for (std::size_t e = 0; e < model.network.elements.size(); ++e)
+      if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
+    const auto shaft = at(model.shaft_of_node[at(range.node)]);
+    const double gain = model.gain_of_node[at(range.node)];
+    switch (range.over) {
+      case Range::Over::time:
+        watched.value = [](const Snapshot& s) { return s.now.t; };
+        break;
+      case Range::Over::speed:
+        watched.value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; };
+        break;
+      case Range::Over::size_of_speed:
+        watched.value = [=](const Snapshot& s) { return std::abs(gain * s.now.speed[shaft]); };
+        break;
+      case Range::Over::channel:
+        for (Channel& channel : channels_of(model, {range.component}))
+          if (channel.name.text == range.channel)
+            watched.value = [offset = range.offset, sign = range.sign,
+                             of = std::move(channel.value)](const Snapshot& s) { return offset + sign * of(s); };
+    }
+    if (!watched.value) continue;  // merged with others: it does not move
+    watched_.push_back(std::move(watched));
+    since_.push_back(never), least_.push_back(range.low), greatest_.push_back(range.high);
+  }
+}
+
+bool DataRangeRecorder::is_in_force(const Watched& watched, const Snapshot& snapshot) const {
+  return watched.elements.empty() || std::any_of(watched.elements.begin(), watched.elements.end(),
+                                                 [&](std::size_t e) { return snapshot.now.active[e] != 0; });
+}
+
+void DataRangeRecorder::see(double t, const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const Range& range = watched_[i].range;
+    const double x = watched_[i].value(snapshot);
+    if (!(is_left_below(range, x) || is_left_above(range, x)) || !is_in_force(watched_[i], snapshot)) continue;
+    since_[i] = std::min(since_[i], t);
+    least_[i] = std::min(least_[i], x), greatest_[i] = std::max(greatest_[i], x);
+  }
+}
+
+void DataRangeRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  if (!watched_.empty()) see(t, equations.snapshot(t, y));
+}
+
+// Ends of tables are ends of steps: the first step beyond one begins there.
+void DataRangeRecorder::step(StepView& view) {
+  if (watched_.empty()) return;
+  see(view.t_previous(), view.snapshot(0.5 * (view.t_previous() + view.t())));
+  see(view.t_previous(), view.snapshot(view.t()));
+}
+
+std::optional<double> DataRangeRecorder::since() const {
+  double first = never;
+  for (const double since : since_) first = std::min(first, since);
+  return first < never ? std::optional(first) : std::nullopt;
+}
+
+std::vector<std::string> DataRangeRecorder::sentences() const {
+  std::vector<std::string> list;
+  std::vector<Message> refused;
+  const SpeedUnit& unit = model_.scene.speed_unit;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const Range& range = watched_[i].range;
+    for (const bool above : {false, true}) {
+      const double end = above ? range.high : range.low, reached = above ? greatest_[i] : least_[i];
+      if (reached == end || since_[i] == never) continue;
+      const std::string where = range.over == Range::Over::time
+                                    ? fmt::format("{} {}", above ? "ends at" : "begins at", in_words(range, end, unit))
+                                    : fmt::format("{} {}, and the motion goes to {}", above ? "ends at" : "begins at",
+                                                  in_words(range, end, unit), in_words(range, reached, unit));
+      if ((above ? range.above : range.below) == Beyond::refuse) {
+        const Section* section = model_.scene.find(range.component);
+        const std::string key = section && section->has(range.of) ? range.of : "table";
+        refused.push_back(
+            {model_.scene.file, section ? section->where(key) : Location{},
+             fmt::format("\"{}\": its table of {} {}, from {:.4g} s on: there is nothing to compute with. "
+                         "Give more of it, or say how it goes on: beyond = \"hold\" or \"line\"",
+                         range.component, range.of, where, since_[i])});
+        continue;
+      }
+      list.push_back(
+          fmt::format("the {} of \"{}\" is taken from outside its table, which {}; {}. No error is known of "
+                      "what hangs on it; beyond = \"hold\" or \"line\" would make it part of the data",
+                      range.of, range.component, where,
+                      (above ? range.line_above : range.line_below) ? "its last slope goes on there"
+                                                                    : "its end value holds there"));
+    }
+  }
+  if (!refused.empty()) throw SceneError(refused);
+  return list;
+}
+
+void drop_errors(std::vector<Figure>& figures, double since) {
+  for (Figure& figure : figures)
+    if (!figure.exact && !(figure.at && *figure.at < since)) figure.error.reset(), figure.at_error.reset();
+}
+
+void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
+  for (std::string& sentence : ranges.sentences()) result.answers.push_back({Question::sure, std::move(sentence), 0.5});
+  const std::optional<double> since = ranges.since();
+  if (!since) return;
+  drop_errors(result.figures, *since);
+  for (auto& [name, state] : result.final_state)
+    for (const auto error : {&ComponentState::angle_error, &ComponentState::speed_error,
+                             &ComponentState::angle_out_error, &ComponentState::speed_out_error})
+      (state.*error).reset();
+  for (std::size_t i = 0; i < std::min(result.event_errors.size(), result.events.size()); ++i)
+    if (result.events[i].t > *since) result.event_errors[i].reset();
+}
+
+std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point) {
+  DataRangeRecorder recorder(map.model());
+  if (!recorder.empty()) map.image(point.z, false, {&recorder});
+  return recorder.sentences();
+}
+
+bool lies_beyond_a_table(const Model& model, double link_speed) {
+  return std::any_of(model.network.ranges.begin(), model.network.ranges.end(), [&](const Range& range) {
+    const double speed = model.node_ratio[at(range.node)] * link_speed;
+    const double x = range.over == Range::Over::size_of_speed ? std::abs(speed) : speed;
+    return (range.over == Range::Over::speed || range.over == Range::Over::size_of_speed) &&
+           (is_left_below(range, x) || is_left_above(range, x));
+  });
+}
+
+}  // namespace kurbel
