@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -55,11 +55,11 @@ std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncert
   constexpr int iterations = 3;
   const Eigen::Index n = derivative.rows();
   if (n == 0 || !derivative.allFinite()) return {};
-  const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(derivative + shift * Eigen::MatrixXd::Identity(n, n));
+  const Lu inverse(derivative + shift * Eigen::MatrixXd::Identity(n, n));
   Family family{Eigen::VectorXd::Ones(n).normalized(), Eigen::VectorXd::Ones(n).normalized()};
   for (int i = 0; i < iterations; ++i) {
     family.tangent = inverse.solve(family.tangent).normalized();
-    family.quantity = inverse.transpose().solve(family.quantity).normalized();
+    family.quantity = inverse.solve_transposed(family.quantity).normalized();
   }
   if (!family.tangent.allFinite() || !family.quantity.allFinite()) return {};
   const double slope = family.quantity.dot(family.tangent);

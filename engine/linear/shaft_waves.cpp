@@ -1,11 +1,10 @@
 // shaft_waves.cpp — exact against discretised stiffness of shafts between their ends, along modes and as a count.
 #include "engine/linear/shaft_waves.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/lobatto_element.h"
 
@@ -72,7 +71,7 @@ int continuous_modes_below(const LinearDrive& drive, double omega) {
   // Its scale takes no part in the signs.
   const Eigen::VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * d * scale.asDiagonal();
-  const auto values = Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(scaled);
   return held + static_cast<int>((values.array() < 0).count());
 }
 

@@ -41,6 +41,10 @@ typename LuOf<Scalar>::Vector LuOf<Scalar>::solve(const Vector& right) const {
   return factors_->lu.solve(right);
 }
 template <class Scalar>
+typename LuOf<Scalar>::Vector LuOf<Scalar>::solve_transposed(const Vector& right) const {
+  return factors_->lu.transpose().solve(right);
+}
+template <class Scalar>
 typename LuOf<Scalar>::Matrix LuOf<Scalar>::solve_all(const Matrix& right) const {
   return factors_->lu.solve(right);
 }
@@ -131,13 +135,13 @@ Svd full_v_svd(const MatrixXd& a) {
   return {{}, svd.matrixV(), svd.singularValues()};
 }
 
-SymmetricEigen symmetric_eigen(const MatrixXd& a) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a);
-  if (solver.info() != Eigen::Success) throw std::runtime_error("the dense eigenvalue solver did not converge");
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
 namespace {
+
+Eigen::SelfAdjointEigenSolver<MatrixXd> solved_symmetric(const MatrixXd& a, int options) {
+  Eigen::SelfAdjointEigenSolver<MatrixXd> solver(a, options);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the dense eigenvalue solver did not converge");
+  return solver;
+}
 
 Eigen::EigenSolver<MatrixXd> solved(const MatrixXd& a, bool with_vectors) {
   if (!a.allFinite())  // the solver may not notice, and hand out what looks like a result
@@ -151,6 +155,12 @@ Eigen::EigenSolver<MatrixXd> solved(const MatrixXd& a, bool with_vectors) {
 }
 
 }  // namespace
+
+SymmetricEigen symmetric_eigen(const MatrixXd& a) {
+  const auto solver = solved_symmetric(a, Eigen::ComputeEigenvectors);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+VectorXd symmetric_eigenvalues(const MatrixXd& a) { return solved_symmetric(a, Eigen::EigenvaluesOnly).eigenvalues(); }
 
 Eigenpairs eigenpairs(const MatrixXd& a) {
   if (a.rows() == 0) return {};

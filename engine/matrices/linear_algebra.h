@@ -35,6 +35,7 @@ class LuOf {
   LuOf() = default;
   explicit LuOf(const Matrix& a);
   Vector solve(const Vector& right) const;
+  Vector solve_transposed(const Vector& right) const;  // Aᵀ x = b
   Matrix solve_all(const Matrix& right) const;
   Matrix inverse() const;
 
@@ -102,6 +103,7 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
 // A v = λ v of a full real matrix. Throws std::runtime_error where an entry is no number, or the iteration does not converge
 // (QR algorithm; Golub, Van Loan 2013, 7.5): nobody may take what did not converge for a result.

@@ -1,11 +1,10 @@
 // lobatto_element.cpp — points, weights and stiffness of a spectral element; what it and the continuum do to their ends.
 #include "engine/numerics/lobatto_element.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 
@@ -75,13 +74,13 @@ struct Made : LobattoElement {
     for (Index i = 1; i <= p; ++i) by_twist.row(i).head(i).setConstant(-1);
     MatrixXd s = by_twist.transpose() * points * by_twist;
     s = 0.5 * (s + s.transpose()).eval();
-    const MatrixXd inverse = s.inverse();
+    const MatrixXd inverse = Lu(s).inverse();
     for (Index k = 0; k < p; ++k)
       for (Index l = 0; l < p; ++l) stiffness.push_back(s(k, l)), compliance.push_back(inverse(k, l));
     if (p == 1) return;
     const VectorXd scale = w.segment(1, p - 1).cwiseSqrt().cwiseInverse();
     const MatrixXd inner = scale.asDiagonal() * points.block(1, 1, p - 1, p - 1) * scale.asDiagonal();
-    held = Eigen::SelfAdjointEigenSolver<MatrixXd>(inner, Eigen::EigenvaluesOnly).eigenvalues().cwiseSqrt();
+    held = symmetric_eigenvalues(inner).cwiseSqrt();
   }
 };
 
@@ -115,7 +114,7 @@ EndStiffness element_stiffness(int degree, double x) {
   double own = d(0, 0), other = d(0, p);
   if (p > 1) {
     const VectorXd from_in = d.col(0).segment(1, p - 1), from_out = d.col(p).segment(1, p - 1);
-    const VectorXd follows = d.block(1, 1, p - 1, p - 1).partialPivLu().solve(from_in);
+    const VectorXd follows = Lu(d.block(1, 1, p - 1, p - 1)).solve(from_in);
     own -= from_in.dot(follows), other -= from_out.dot(follows);
   }
   return {own + other, own - other};
