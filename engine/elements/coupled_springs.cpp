@@ -123,10 +123,12 @@ class RowPart final : public AnyConnection {
     damping = settled_whole->damping / share;
   }
 
-  double twist_at(double torque) const override { return torque / stiffness; }
+  double twist_at(double torque, double) const override { return torque / stiffness; }
   double torque_rate(double, double, double) const override { return 0; }
   double rest_twist(double) const override { return 0; }
   double rest_ratio(double) const override { return 1; }
+  double rest_ratio_slope(double) const override { return 0; }
+  double share_of_a(double, double) const override { return 1; }
   std::string describe() const override {
     const std::size_t parts = shape_->share.size();
     return row_part > 0 || parts == 1 ? std::string()

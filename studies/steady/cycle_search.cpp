@@ -365,7 +365,7 @@ class Search {
     ++finer.finer_shafts;
     SteadyOptions options = options_;
     options.traces = false;
-    const SteadyCycle other = Search(finer, effects_, study_, options).run();
+    const SteadyCycle other = Search(finer, effects_, options).run();
     if (other.found)
       add_differences(fine.figures, other.figures);
     else

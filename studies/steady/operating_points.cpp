@@ -163,7 +163,6 @@ void measure_errors(MeanCharacteristic& finer, OperatingDiagram& found) {
     point.torque_error =
         std::abs(mean.load - point.mean.load) + std::abs(point.load_slope) * point.speed_error + rounding;
   }
-  for (OperatingPoint& point : found.points) point.beyond_data = lies_beyond_a_table(machine.model(), point.mean.omega);
   found.strongest_error = std::abs(finer.at(found.strongest.omega).drive - found.strongest.drive) +
                           1e-9 * std::abs(found.strongest.drive);  // of the golden section
 }
@@ -226,6 +225,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
     result.points.push_back(point);
   }
   measure_errors(finer, result);
+  for (OperatingPoint& point : result.points) point.beyond_data = lies_beyond_a_table(machine.model(), point.mean.omega);
   return result;
 }
 

@@ -14,40 +14,40 @@
 namespace kurbel {
 namespace {
 
-using Range = Network::DataRange;
+using DataRange = Network::DataRange;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 bool is_said(Beyond beyond) { return beyond == Beyond::hold || beyond == Beyond::line; }
 // What rounding leaves of an end.
-double slack(const Range& range) { return 1e-9 * (range.high - range.low); }
-bool is_left_below(const Range& range, double x) { return !is_said(range.below) && x < range.low - slack(range); }
-bool is_left_above(const Range& range, double x) { return !is_said(range.above) && x > range.high + slack(range); }
+double slack(const DataRange& range) { return 1e-9 * (range.high - range.low); }
+bool is_left_below(const DataRange& range, double x) { return !is_said(range.below) && x < range.low - slack(range); }
+bool is_left_above(const DataRange& range, double x) { return !is_said(range.above) && x > range.high + slack(range); }
 
-std::string in_words(const Range& range, double x, const SpeedUnit& unit) {
-  const bool speed = range.over == Range::Over::speed || range.over == Range::Over::size_of_speed;
+std::string in_words(const DataRange& range, double x, const SpeedUnit& unit) {
+  const bool speed = range.over == DataRange::Over::speed || range.over == DataRange::Over::size_of_speed;
   return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
 }
 
 }  // namespace
 
 DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
-  for (const Range& range : model.network.ranges) {
+  for (const DataRange& range : model.network.ranges) {
     Watched watched{range, {}, {}};
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
       if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
     const auto shaft = at(model.shaft_of_node[at(range.node)]);
     const double gain = model.gain_of_node[at(range.node)];
     switch (range.over) {
-      case Range::Over::time:
+      case DataRange::Over::time:
         watched.value = [](const Snapshot& s) { return s.now.t; };
         break;
-      case Range::Over::speed:
+      case DataRange::Over::speed:
         watched.value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; };
         break;
-      case Range::Over::size_of_speed:
+      case DataRange::Over::size_of_speed:
         watched.value = [=](const Snapshot& s) { return std::abs(gain * s.now.speed[shaft]); };
         break;
-      case Range::Over::channel:
+      case DataRange::Over::channel:
         for (Channel& channel : channels_of(model, {range.component}))
           if (channel.name.text == range.channel)
             watched.value = [offset = range.offset, sign = range.sign,
@@ -66,7 +66,7 @@ bool DataRangeRecorder::is_in_force(const Watched& watched, const Snapshot& snap
 
 void DataRangeRecorder::see(double t, const Snapshot& snapshot) {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const Range& range = watched_[i].range;
+    const DataRange& range = watched_[i].range;
     const double x = watched_[i].value(snapshot);
     if (!(is_left_below(range, x) || is_left_above(range, x)) || !is_in_force(watched_[i], snapshot)) continue;
     since_[i] = std::min(since_[i], t);
@@ -96,11 +96,11 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
   std::vector<Message> refused;
   const SpeedUnit& unit = model_.scene.speed_unit;
   for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const Range& range = watched_[i].range;
+    const DataRange& range = watched_[i].range;
     for (const bool above : {false, true}) {
       const double end = above ? range.high : range.low, reached = above ? greatest_[i] : least_[i];
       if (reached == end || since_[i] == never) continue;
-      const std::string where = range.over == Range::Over::time
+      const std::string where = range.over == DataRange::Over::time
                                     ? fmt::format("{} {}", above ? "ends at" : "begins at", in_words(range, end, unit))
                                     : fmt::format("{} {}, and the motion goes to {}", above ? "ends at" : "begins at",
                                                   in_words(range, end, unit), in_words(range, reached, unit));
@@ -151,10 +151,10 @@ std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point) 
 }
 
 bool lies_beyond_a_table(const Model& model, double link_speed) {
-  return std::any_of(model.network.ranges.begin(), model.network.ranges.end(), [&](const Range& range) {
+  return std::any_of(model.network.ranges.begin(), model.network.ranges.end(), [&](const DataRange& range) {
     const double speed = model.node_ratio[at(range.node)] * link_speed;
-    const double x = range.over == Range::Over::size_of_speed ? std::abs(speed) : speed;
-    return (range.over == Range::Over::speed || range.over == Range::Over::size_of_speed) &&
+    const double x = range.over == DataRange::Over::size_of_speed ? std::abs(speed) : speed;
+    return (range.over == DataRange::Over::speed || range.over == DataRange::Over::size_of_speed) &&
            (is_left_below(range, x) || is_left_above(range, x));
   });
 }
