@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/analysis/family.h"
+#include "engine/analysis/link_speeds.h"
 #include "engine/analysis/sequence_ahead.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -24,25 +25,6 @@ constexpr double far_beyond = 30;       // rated speeds: that is no cycle but fl
 constexpr double no_edge = 1e299;
 // Events: several rounds of a sequence with some hundred events each (joints that move to and fro, gears that rattle).
 constexpr std::ptrdiff_t most_remembered = 20000;
-
-// The link's greatest speeds, forwards and backwards, at the ends of steps.
-class LinkSpeeds final : public Observer {
- public:
-  explicit LinkSpeeds(const Model& m)
-      : link_(m.angles[at(m.reduction_angle)]), free_(at(link_.shaft) < m.free_shafts) {}
-  void step(StepView& view) override {
-    if (!free_) return;
-    const double speed = link_.gain * view.y()[view.equations().speed_index(link_.shaft)];
-    forwards_ = std::max(forwards_, speed), backwards_ = std::max(backwards_, -speed);
-  }
-  bool turned_back() const { return forwards_ > 0 && backwards_ > 0; }
-  double greatest() const { return std::max(forwards_, backwards_); }
-
- private:
-  const TrackedAngle& link_;
-  bool free_;
-  double forwards_ = 0, backwards_ = 0;
-};
 
 class Search {
  public:
@@ -206,19 +188,13 @@ class Search {
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
     if (!is_settled() && state_.t < switched_until()) return;
-    if (is_settled() && !m_.scene.sequence.repeat && keeps_swinging(speeds)) return drift();
+    if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return drift();
     if (now.rate > still || period_.by_time) return;
     if (now.speed <= still) return end(Regime::Kind::at_rest, at_rest());
     const double omega = std::abs(link_speed());
     if (omega > still * m_.speed_scale) return;  // it creeps
     end(Regime::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
-  }
-  // To and fro as fast as over the wait before, hundreds of swings long: it will neither come round nor come to rest.
-  bool keeps_swinging(const LinkSpeeds& speeds) {
-    constexpr double as_before = 1e-4;
-    const double now = speeds.turned_back() ? speeds.greatest() : 0, before = std::exchange(swing_, now);
-    return now > 0 && std::abs(now - before) <= as_before * now;
   }
   std::string at_rest() {
     return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rested_at()));
@@ -458,7 +434,7 @@ class Search {
   bool done_ = false, aligned_ = false;
   double patience_factor_ = 1;
   int settled_rounds_ = 0, next_trial_ = 1;
-  double swing_ = 0;  // the link's greatest speed of the last wait, where it swung to and fro [rad/s]
+  LastSwing swings_;
   std::string why_not_, changes_most_;
   bool angle_changes_most_ = false, found_unstable_ = false;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed

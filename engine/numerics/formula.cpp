@@ -417,18 +417,28 @@ std::optional<FormulaFault> Formula::knots(double from, double to, std::vector<d
   return {};
 }
 
-void Formula::emit(int node, const Points& here, FormulaProgram& to) const {
+void Formula::emit(int node, const std::vector<double>& farthest, FormulaProgram& to) const {
   const Node& n = nodes_[static_cast<std::size_t>(node)];
-  if (n.op == FormulaOp::choose) return emit(here.value[static_cast<std::size_t>(n.a)] >= 0 ? n.b : n.c, here, to);
+  if (n.op == FormulaOp::choose) return emit(farthest[static_cast<std::size_t>(n.a)] >= 0 ? n.b : n.c, farthest, to);
   if (n.op == FormulaOp::power && n.number == 0) return to.push({FormulaOp::number, 1});  // also of 0: n vⁿ⁻¹ is 0·∞
-  if (n.a >= 0) emit(n.a, here, to);
-  if (n.b >= 0) emit(n.b, here, to);
+  if (n.a >= 0) emit(n.a, farthest, to);
+  if (n.b >= 0) emit(n.b, farthest, to);
   to.push({n.op, n.number});
 }
 
-FormulaProgram Formula::program(double x) const {
+// What a branch asks keeps its sign on the piece, but may touch 0 there, as x² does: its answer is that of the place,
+// of some, where it is farthest from 0.
+FormulaProgram Formula::program(double from, double to) const {
+  constexpr double golden = 0.6180339887498949;  // spreads places over the piece
+  constexpr int places = 12;
+  std::vector<double> farthest(nodes_.size(), 0.0);
+  for (int i = 0; i < places; ++i) {
+    const Points p = at(from + (to - from) * std::fmod(0.5 + golden * i, 1.0));
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      if (p.fault[k] < 0 && std::abs(p.value[k]) > std::abs(farthest[k])) farthest[k] = p.value[k];
+  }
   FormulaProgram made;
-  emit(static_cast<int>(nodes_.size()) - 1, at(x), made);
+  emit(static_cast<int>(nodes_.size()) - 1, farthest, made);
   return made;
 }
 

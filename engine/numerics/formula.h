@@ -144,8 +144,9 @@ class FormulaProgram {
   }
   static double within_one(double v) { return v < -1 ? -1 : v > 1 ? 1 : v; }
   static double root_of_rest(double v) {
+    constexpr double digit = 0x1p-53;  // of v beside ±1: what is less is not known
     const double rest = (1 - v) * (1 + v);
-    return std::sqrt(rest > near ? rest : near);
+    return std::sqrt(rest > digit ? rest : digit);
   }
   static constexpr double near = 1e-200, far = 1e200;  // in place of 0 and of what is divided by it
 
@@ -179,8 +180,8 @@ class Formula {
   // Ascending places from `from` to `to`, both with them, between which it is smooth and can be computed; what keeps it
   // from that.
   std::optional<FormulaFault> knots(double from, double to, std::vector<double>& knots) const;
-  // The piece that x lies in, where it can be computed.
-  FormulaProgram program(double x) const;
+  // The piece between two knots.
+  FormulaProgram program(double from, double to) const;
 
  private:
   struct Range {
@@ -197,7 +198,7 @@ class Formula {
   Points at(double x) const;
   std::vector<char> choices(double x) const;  // which are taken, in the order of the nodes
   FormulaFault fault_at(double x, int node) const;
-  void emit(int node, const Points& here, FormulaProgram& to) const;
+  void emit(int node, const std::vector<double>& farthest, FormulaProgram& to) const;
   std::optional<FormulaFault> look_into(double low, double high, double least, int& left,
                                         std::vector<std::pair<double, double>>& near) const;
 

@@ -150,7 +150,7 @@ class FormulaCurveReader {
           fmt::format("{} at {}, within its {}", fault->text, in_words(fault->x),
                       period > 0 ? "period" : "range; narrow it, or cut off what lies beyond by max, min or if"));
     std::vector<FormulaProgram> programs;
-    for (std::size_t i = 0; i + 1 < x.size(); ++i) programs.push_back(read->formula.program(0.5 * (x[i] + x[i + 1])));
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) programs.push_back(read->formula.program(x[i], x[i + 1]));
     try {
       curve = Curve(x, std::move(programs), period);
     } catch (const std::invalid_argument& wrong) {

@@ -37,8 +37,7 @@ Curve curve_of(const std::string& text, double from, double to, const FormulaNam
   EXPECT_FALSE(fault) << text << ": " << fault->text << " at x = " << fault->x;
   if (fault) return {};
   std::vector<FormulaProgram> programs;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    programs.push_back(read->formula.program(0.5 * (knots[i] + knots[i + 1])));
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) programs.push_back(read->formula.program(knots[i], knots[i + 1]));
   return Curve(knots, std::move(programs));
 }
 
@@ -276,7 +275,7 @@ TEST(Formula, NodesAndPiecesComputeTheSameOfAnglesOfManyTurns) {
     for (double x = 0.01; x < 1; x += 0.0917) {
       double by_nodes = 0;
       ASSERT_FALSE(read->formula.value(x, by_nodes)) << text;
-      EXPECT_EQ(read->formula.program(x)(x), by_nodes) << text << " at " << x;
+      EXPECT_EQ(read->formula.program(0.01, 1)(x), by_nodes) << text << " at " << x;
     }
   }
 }
@@ -285,6 +284,18 @@ TEST(Formula, WhatOnlyTouchesZeroHasNoKink) {
   EXPECT_EQ(curve_of("abs(x^2)", -1, 1).x().size(), 2u);
   EXPECT_EQ(curve_of("abs((x - 0.3)^2)", -1, 1).x().size(), 2u);
   EXPECT_EQ(curve_of("max(0, if(x < 1, 0, x - 1))", 0, 2).x().size(), 3u);
+}
+
+// Where a branch touches what it is compared with, right in the middle of its piece, its answer is that beside it.
+TEST(Formula, ABranchThatTouchesInTheMiddleIsTheOneBesideIt) {
+  for (const char* text :
+       {"max(0, x^2)", "max(0, x^20)", "clamp(x^2, 0, 9)", "if(x^2 > 0, x^2, 0)", "0 - min(-x^2, 0)"}) {
+    const Curve c = curve_of(text, -1, 1);
+    const double power = std::string(text).find("20") == std::string::npos ? 2 : 20;
+    for (const double x : {-0.9, -0.3, 0.2, 0.8}) EXPECT_NEAR(c.value(x), std::pow(x, power), 1e-15) << text;
+  }
+  const Curve shifted = curve_of("max(1, 1 + x^20)", -1, 1);  // the same to the last digit over a part of its piece
+  EXPECT_NEAR(shifted.value(0.9), 1 + std::pow(0.9, 20), 1e-15);
 }
 
 // Hertz: F = k d^1.5 in contact, nothing apart; its root is asked for where there is contact only.

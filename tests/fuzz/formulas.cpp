@@ -76,7 +76,7 @@ std::string fault_of_slope(const FormulaProgram& program, double x, double room)
 }
 
 std::string fault_of_piece(const Formula& formula, double from, double to) {
-  const FormulaProgram program = formula.program(0.5 * (from + to));
+  const FormulaProgram program = formula.program(from, to);
   for (const double part : {0.1, 0.37, 0.5, 0.81}) {
     const double x = from + part * (to - from), by_program = program(x);
     double by_nodes = 0;
