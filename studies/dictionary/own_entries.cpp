@@ -101,9 +101,8 @@ std::vector<Definition> entries_of_own() {
           "the greatest length of the stator current's space vector, which is the momentary value that a line can "
           "see",
           "an effective current: of alternating current that is the length over √2", "|M|/k, √(|M|/κ), |i_s|"),
-      of_run("power", "power of a prescribed shaft's drive", "W", "MOTOR",
-             "torque that keeps the shaft at its speed, times that speed", "the power of a motor that a scene gives",
-             "M ω"),
+      coupling("power", "power of a prescribed shaft's drive", "W", "MOTOR",
+               "torque that keeps the shaft at its speed, times that speed", "1.3"),
       of_run(
           "motor_rms_torque", "RMS torque of a motor over a run", "N*m", "MOTOR",
           "root of the mean square of its torque over the time run; a lower bound of heating: no-load losses and the "
@@ -129,10 +128,11 @@ std::vector<Definition> entries_of_own() {
       of_both("cycle_motor_power", "mean power of a motor over a cycle", "W", "MOTOR",
               "work that the motor gives to its shaft in the last whole cycle of a motion that repeats, over its time",
               "its rated power", "(1/T) ∫ M ω dt"),
-      of_both("machine_efficiency", "efficiency of the machine", "", "",
-              "useful work over driving work in the last whole cycle of a motion that repeats; what stored energy still "
-              "changes and what weights do is counted with the driving work",
-              "the efficiency of one gear or mechanism", "η = −A_useful/(A_driving + A_weight − ΔE)"),
+      of_both(
+          "machine_efficiency", "efficiency of the machine", "", "",
+          "useful work over driving work in the last whole cycle of a motion that repeats; what stored energy still "
+          "changes and what weights do is counted with the driving work",
+          "the efficiency of one gear or mechanism", "η = −A_useful/(A_driving + A_weight − ΔE)"),
       of_run("current_use", "use of a motor's rated current", "", "MOTOR",
              "RMS current of a line over the cycle that the thermal use is of, over that at the rated slip: of the "
              "two-axis model",
