@@ -71,7 +71,7 @@ TEST_F(TablesOfFiles, OtherUnitsInTheSceneAreRefusedNamingBoth) {
         << error.what();
   }
   write("speed [rpm];torque [in-lb]\n0;1\n1;0\n");
-  EXPECT_EQ(refusal("file = \"data.csv\", unit = [\"rpm\", \"N*m\"]").substr(0, 30),
+  EXPECT_EQ(refusal("file = \"data.csv\", unit = [\"rpm\", \"N*m\"]").substr(0, 31),
             "data.csv:1:13: motor \"motor\": t");
   write("speed;torque\n0;1\n1;0\n");
   EXPECT_NE(refusal("file = \"data.csv\"").find("neither \"unit\" nor the heading of column 1"), std::string::npos);
