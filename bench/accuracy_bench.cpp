@@ -190,16 +190,18 @@ BenchPoint chain_point(const std::shared_ptr<const Model>& model, const std::str
   return p;
 }
 
+BenchCurve chain_curve(const std::shared_ptr<const Model>& model, const std::string& method) {
+  BenchCurve curve{.problem = "E1", .solver = fmt::format("kurbel {}", method), .points = {}};
+  for (const double tolerance : tolerances) {
+    curve.points.push_back(chain_point(model, method, tolerance));
+    if (curve.points.back().seconds > 0.5) break;
+  }
+  return curve;
+}
+
 void chain_peak(BenchBook& book) {
   const auto model = model_of("six_inertia_chain");
-  for (const char* method : time_methods) {
-    BenchCurve curve{.problem = "E1", .solver = fmt::format("kurbel {}", method), .points = {}};
-    for (const double tolerance : tolerances) {
-      curve.points.push_back(chain_point(model, method, tolerance));
-      if (curve.points.back().seconds > 0.5) break;
-    }
-    book.curves.push_back(curve);
-  }
+  for (const char* method : time_methods) book.curves.push_back(chain_curve(model, method));
   for (const char* method : {"dop853", "verner6", "dopri5"})
     book.curves.push_back(hand_curve("E1", method, hand_written_e1));
 }
@@ -263,6 +265,34 @@ void accuracy_of_problems(BenchBook& book) {
   chain_peak(book);
   judge_problems(book);
   whole_program(book);
+}
+
+// The same method on both sides, in turn, so that a machine that is shared slows both alike.
+void ratios_to_hand_written(BenchBook& book) {
+  constexpr int turns = 5;
+  const std::string method = "dop853";
+  const auto free = model_of("free_slider_crank"), driven = model_of("driven_slider_crank"),
+             chain = model_of("six_inertia_chain");
+  const auto in_turn = [&](const std::string& problem, const auto& ours,
+                           BenchPoint (*by_hand)(const std::string&, double)) {
+    std::vector<double> ratios;
+    for (int turn = 0; turn < turns; ++turn) {
+      const BenchCurve curve = ours();
+      ratios.push_back(curve.time_to(1e-6) / hand_curve(problem, method, by_hand).time_to(1e-6));
+    }
+    std::sort(ratios.begin(), ratios.end());
+    return std::vector<std::string>{problem, times(ratios[turns / 2]),
+                                    fmt::format("{:.3g} … {:.3g}", ratios.front(), ratios.back())};
+  };
+  book.tables.push_back(
+      {.title = "Processor time to 1e-6 by dop853 over that of the loop by hand, five turns of both",
+       .columns = {"problem", "median", "range"},
+       .rows = {in_turn(
+                    "R1", [&] { return crank_curve("R1", free, method, 294.719373652657); }, hand_written_r1),
+                in_turn(
+                    "R2b", [&] { return crank_curve("R2b", driven, method, 175.990300636005); }, hand_written_r2b),
+                in_turn(
+                    "E1", [&] { return chain_curve(chain, method); }, hand_written_e1)}});
 }
 
 void accuracy_of_scenes(BenchBook& book) {

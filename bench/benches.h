@@ -66,10 +66,12 @@ void accuracy_of_scenes(BenchBook& book);    // the example scenes
 void growth_with_size(BenchBook& book);      // E2
 void costs_of_effects(BenchBook& book);      // switched on, and stiffened
 void counts_of_instructions(BenchBook& book, const std::string& counter);  // what is off is free
-void advice_on_scenes(BenchBook& book);   // within 5, 1 and 0.1 %, with what was held out
-void costs_of_elements(BenchBook& book);  // per evaluation, and events a second
-void costs_of_mechanisms();               // elements: table against closed form, extraction, multibody
-void costs_of_modes();                    // growth of the eigenvalue problem
+Table counts_of_single_machines(const std::string& counter);  // right-hand side, Jacobian, step of ten scenes
+void ratios_to_hand_written(BenchBook& book);                 // R1, R2b, E1 by dop853 beside the loops by hand, in turn
+void advice_on_scenes(BenchBook& book);                       // within 5, 1 and 0.1 %, with what was held out
+void costs_of_elements(BenchBook& book);                      // per evaluation, and events a second
+void costs_of_mechanisms();  // elements: table against closed form, extraction, multibody
+void costs_of_modes();       // growth of the eigenvalue problem
 void costs_of_steady_cycles();
 // What a sweep costs over bare runs, two threads over two processes, a shell loop over it; `program`: kurbel itself.
 void rates_of_sweeps(BenchBook& book, const std::string& program);

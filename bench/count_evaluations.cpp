@@ -1,9 +1,10 @@
 // count_evaluations.cpp — evaluates right-hand side and Jacobian of a scene with one effect off, for callgrind to
 // count.
 //
-//   kurbel_count_evaluations SCENE EFFECT off|without|run-off:METHOD|run-on:METHOD
+//   kurbel_count_evaluations SCENE EFFECT off|without|run-off:METHOD|run-on:METHOD|flow|jacobian|run:METHOD
 // "off": the effect is switched off; "without": besides, its keys are taken out of the scene; "run": a bare run to the
-// scene's end at 1e-7, with the effect on or off. Only what runs inside kurbel_counted_… is to be counted:
+// scene's end at 1e-7, with the effect on or off. "flow", "jacobian", "run:": the scene as it stands, whatever EFFECT; a run's
+// steps are printed. Only what runs inside kurbel_counted_… is to be counted:
 //   valgrind --tool=callgrind --toggle-collect=kurbel_counted_evaluations --toggle-collect=kurbel_counted_run …
 #include <cstdio>
 #include <exception>
@@ -29,11 +30,12 @@ struct Moment {
 extern "C" __attribute__((noinline)) double kurbel_counted_evaluations(Equations& equations,
                                                                        const std::vector<Moment>& states,
                                                                        std::vector<double>& rate,
-                                                                       std::vector<double>& values) {
+                                                                       std::vector<double>& values, bool flow,
+                                                                       bool jacobian) {
   double sum = 0;
   for (const Moment& s : states) {
-    equations.flow(s.t, s.y, rate);
-    equations.jacobian(s.t, s.y, values);
+    if (flow) equations.flow(s.t, s.y, rate);
+    if (jacobian) equations.jacobian(s.t, s.y, values);
     sum += rate.front();
   }
   return sum;
@@ -44,17 +46,17 @@ extern "C" __attribute__((noinline)) double kurbel_counted_run(Equations& equati
 }
 
 int main(int argc, char** argv) {
-  if (argc != 4)
-    return std::fprintf(stderr, "kurbel_count_evaluations SCENE EFFECT off|without|run-off:METHOD|run-on:METHOD\n"), 2;
+  if (argc != 4) return std::fprintf(stderr, "kurbel_count_evaluations SCENE EFFECT HOW (see the source)\n"), 2;
   try {
     Scene scene = read_scene(argv[1], all_kinds());
     const std::string effect = argv[2], how = argv[3];
     Effects effects = scene.effects;
+    const bool as_it_stands = how == "flow" || how == "jacobian" || how.starts_with("run:");
     for (const EffectFlag& flag : effect_flags())
-      if (effect == flag.name) effects.*(flag.flag) = how.starts_with("run-on:");
+      if (!as_it_stands && effect == flag.name) effects.*(flag.flag) = how.starts_with("run-on:");
     if (how == "without") test::erase_effect(scene, effect);
     Equations equations(compile(scene, effects), false);
-    if (how.starts_with("run-")) {
+    if (how.starts_with("run")) {
       const RunOptions options{.tolerance = 1e-7,
                                .method = how.substr(how.find(':') + 1),
                                .until = scene.run.until,
@@ -72,7 +74,8 @@ int main(int argc, char** argv) {
       for (std::size_t k = 0; k < y.size(); ++k) states.back().y[k] += 1e-9 * i * equations.error_control(1).scale[k];
     }
     std::vector<double> rate(y.size()), values(equations.jacobian_pattern().row.size());
-    std::printf("%.17g\n", kurbel_counted_evaluations(equations, states, rate, values));
+    std::printf("%.17g\n",
+                kurbel_counted_evaluations(equations, states, rate, values, how != "jacobian", how != "flow"));
     return 0;
   } catch (const std::exception& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 1;

@@ -32,6 +32,32 @@ Table cost_of_joint_friction(const std::string& counter) {
 
 }  // namespace
 
+// Of the scenes as they stand: what a structural change must not make dearer.
+Table counts_of_single_machines(const std::string& counter) {
+  Table table{
+      .title = "Instructions of one right-hand side, one Jacobian, one step of dop853 at 1e-7, counted by callgrind",
+      .columns = {"scene", "right-hand side", "Jacobian", "step"},
+      .rows = {}};
+  if (!callgrind_is_installed()) {
+    table.title += ": valgrind is not installed";
+    return table;
+  }
+  const std::string source = KURBEL_SOURCE_DIR;
+  for (const char* scene :
+       {"free_slider_crank", "driven_slider_crank", "six_inertia_chain", "crank_press", "piston_pump",
+        "four_bar_rocker", "stick_slip", "planetary_brake", "diesel_generator", "belt_mill"}) {
+    const std::string file = source + "/scenes/" + scene + ".toml";
+    const auto each = [&](const char* how, double times) {
+      const auto count = counted_instructions(counter, file, "-", how);
+      return count ? fmt::format("{:.0f}", static_cast<double>(*count) / times) : std::string("—");
+    };
+    constexpr double evaluations = 50;
+    table.rows.push_back({scene, each("flow", evaluations), each("jacobian", evaluations),
+                          each("run:dop853", steps_of_run(counter, file, "run:dop853"))});
+  }
+  return table;
+}
+
 void counts_of_instructions(BenchBook& book, const std::string& counter) {
   Table table{.title = "Instructions of 50 right-hand sides and Jacobians, counted by callgrind",
               .columns = {"scene", "effect off", "switched off", "never written", "difference"},

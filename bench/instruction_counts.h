@@ -53,4 +53,15 @@ inline std::optional<long> counted_instructions(const std::string& program, cons
   return count;
 }
 
+// Steps that the run of kurbel_count_evaluations takes; 1 where it failed.
+inline double steps_of_run(const std::string& program, const std::string& scene, const std::string& how) {
+  const auto file = std::filesystem::temp_directory_path() / ("kurbel_steps_" + std::to_string(getpid()) + ".out");
+  double steps = 1;
+  if (std::system(("'" + program + "' '" + scene + "' - " + how + " > '" + file.string() + "' 2> /dev/null").c_str()) ==
+      0)
+    std::ifstream(file) >> steps;
+  std::filesystem::remove(file);
+  return steps;
+}
+
 }  // namespace kurbel::bench

@@ -1,7 +1,7 @@
 // kurbel_bench.cpp — what accuracy, effects, size and elements cost, on the reference problems and the example scenes;
 // whether the hard cases end right, whether all verbs agree, and whether stated errors cover the true ones.
 //
-//   kurbel_bench accuracy|scenes|effects|counts|advice|growth|elements|sweep|hard|agreement|agreement2|coverage|all [--out FOLDER]
+//   kurbel_bench ratios|accuracy|scenes|effects|counts|advice|growth|elements|sweep|hard|agreement|agreement2|coverage|all [--out FOLDER]
 //   kurbel_bench hard [--only NAME] [--budget SECONDS] [--out FOLDER]
 //   kurbel_bench agreement|agreement2 [--only NAME] [--jobs 2] [--out FOLDER]
 //   kurbel_bench coverage [--variants N] [--seed S] [--shard 1/8] [--jobs J] [--minutes M] [--budget SECONDS]
@@ -49,6 +49,11 @@ int main(int argc, char** argv) {
     return all || part == name;
   };
   if (wants("accuracy")) accuracy_of_problems(book);
+  if (part == "ratios") {  // a minute: before and after a structural change
+    any = true;
+    ratios_to_hand_written(book);
+    book.tables.push_back(counts_of_single_machines(counter_beside(argv[0])));
+  }
   if (wants("scenes")) accuracy_of_scenes(book);
   if (wants("effects")) costs_of_effects(book);
   if (wants("counts")) counts_of_instructions(book, counter_beside(argv[0]));
@@ -89,7 +94,8 @@ int main(int argc, char** argv) {
   }
   if (!any) {
     std::fprintf(stderr,
-                 "kurbel_bench: give accuracy, scenes, effects, counts, advice, growth, elements, sweep, hard, agreement, "
+                 "kurbel_bench: give ratios, accuracy, scenes, effects, counts, advice, growth, elements, sweep, hard, "
+                 "agreement, "
                  "agreement2, coverage or all\n");
     return 2;
   }
