@@ -1,5 +1,6 @@
 // drive_torques_test.cpp — what drives a machine, in figures and columns: a prescribed shaft's torque and power by closed
 // forms, peaks of motors; and efficiencies of what does not close.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,6 +50,21 @@ rotor = { kind = "load", torque = "30 N*m", acts = "always", inertia = "0.5 kg*m
       EXPECT_NEAR(power[row], expected * (w0 + a * std::sin(W * t)), 1e-5);
     }
   }
+}
+
+// Nothing but the load's edges keeps the steps of such a machine short: every stroke does the load's work, wherever it begins.
+TEST(DriveOfAPrescribedShaft, DoesTheWorkOfEveryStroke) {
+  for (const int start : {0, 60, 170, 180, 181, 300, 359})
+    for (const char* speed : {"20 rpm", "-20 rpm"}) {
+      const Result r = test::run(fmt::format(R"(
+line = ["drive", "press"]
+drive = {{ kind = "prescribed speed", speed = "{0}" }}
+press = {{ kind = "slider-crank", radius = "75 mm", rod = "900 mm", load = {{ kind = "press", nominal_force = "6300 kN", nominal_travel = "13 mm" }} }}
+run = {{ start = {{ speed = "{0}", angle = "{1} deg" }}, until = "12 s" }}
+)",
+                                             speed, start));
+      EXPECT_NEAR(figure(r, "work.useful"), -4 * 6300e3 * 0.013, 1) << start << " " << speed;
+    }
 }
 
 // A crank at constant speed: m x′ x″ ω² for the slider, −F x′ for a force F on it.
