@@ -61,7 +61,7 @@ int accuracy(const AccuracyArguments& arguments) {
   return code;
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<AccuracyArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--within", arguments->within, "the cheapest setting with at most this error, e.g. 0.1%");

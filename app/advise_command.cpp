@@ -44,7 +44,7 @@ int run_advise(const AdviseArguments& arguments) {
   return present(output_of(advice), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<AdviseArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--within", arguments->within, "deviation allowed from the fullest model (default: 1 %)");

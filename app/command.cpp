@@ -42,46 +42,46 @@ Option& Option::check(std::function<std::string(const std::string&)> fault) {
   return *this;
 }
 
-std::string Command::name() const { return app_.get_name(); }
-Option Command::add_option(const std::string& name, std::string& value, const std::string& help) {
+std::string OptionList::name() const { return app_.get_name(); }
+Option OptionList::add_option(const std::string& name, std::string& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, double& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, double& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, int& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, int& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::size_t& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::size_t& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::optional<double>& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::optional<double>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::vector<double>& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::vector<double>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, std::vector<int>& value, const std::string& help) {
+Option OptionList::add_option(const std::string& name, std::vector<int>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option Command::add_flag(const std::string& name, bool& value, const std::string& help) {
+Option OptionList::add_flag(const std::string& name, bool& value, const std::string& help) {
   return Option(app_.add_flag(name, value, help));
 }
-Option Command::add_flag(const std::string& name, std::function<void()> act, const std::string& help) {
+Option OptionList::add_flag(const std::string& name, std::function<void()> act, const std::string& help) {
   return Option(app_.add_flag_callback(name, std::move(act), help));
 }
-Option Command::option(const std::string& name) { return Option(app_.get_option(name)); }
-void Command::action(std::function<void()> act) { app_.callback(std::move(act)); }
+Option OptionList::option(const std::string& name) { return Option(app_.get_option(name)); }
+void OptionList::action(std::function<void()> act) { app_.callback(std::move(act)); }
 
-std::vector<OptionText> options_of(const std::function<void(Command&)>& set_up, const std::string& name) {
+std::vector<OptionText> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name) {
   CLI::App program;
-  Command command(*program.add_subcommand(name));
+  OptionList command(*program.add_subcommand(name));
   set_up(command);
   std::vector<OptionText> texts;
   for (const CLI::Option* option : program.get_subcommand(name)->get_options())
@@ -143,7 +143,7 @@ bool parse(int argc, char** argv, const std::string& about, const std::string& v
   app.require_subcommand(1);
   app.set_version_flag("--version", version);
   for (const Subcommand& each : commands) {
-    Command command(*app.add_subcommand(each.name, each.help));
+    OptionList command(*app.add_subcommand(each.name, each.help));
     each.set_up(command);
   }
   refuse_empty_values(app);

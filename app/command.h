@@ -37,9 +37,9 @@ class Option {
   CLI::Option* option_;
 };
 
-class Command {
+class OptionList {
  public:
-  explicit Command(CLI::App& app) : app_(app) {}
+  explicit OptionList(CLI::App& app) : app_(app) {}
   std::string name() const;
 
   // The value is left alone where the option is not given. A name without dashes is an argument by its place.
@@ -68,11 +68,11 @@ struct OptionText {
   bool by_place = false, hidden = false;
 };
 // What a command declares.
-std::vector<OptionText> options_of(const std::function<void(Command&)>& set_up, const std::string& name);
+std::vector<OptionText> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name);
 
 struct Subcommand {
   std::string name, help;
-  std::function<void(Command&)> set_up;
+  std::function<void(OptionList&)> set_up;
 };
 // Does what the command line says: the action of its command, help, or a complaint. False: the command line is wrong, and
 // that has been said.

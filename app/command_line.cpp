@@ -73,7 +73,7 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void add_scene(Command& command, std::string& scene, bool& allow_files, std::vector<std::string>& set) {
+void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::vector<std::string>& set) {
   command.add_option("scene", scene, "scene file (TOML)").required();
   command.add_flag("--allow-files", allow_files,
                    "let the scene read data files outside of its own folder (default: only there and below)");
@@ -120,7 +120,7 @@ std::string format_fault(const std::string& list) {
 
 }  // namespace
 
-void add_study_options(Command& command, StudyOptions& options) {
+void add_study_options(OptionList& command, StudyOptions& options) {
   options.study = command.name();
   add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
@@ -143,7 +143,7 @@ void add_study_options(Command& command, StudyOptions& options) {
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
 }
 
-void add_measured_options(Command& command, MeasurementRequest& request) {
+void add_measured_options(OptionList& command, MeasurementRequest& request) {
   command.add_option(
       "--measured", request.file,
       "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is left "
@@ -226,7 +226,7 @@ Watch watch_of(const StudyOptions& options, Progress& progress) {
           .log = make_log(options.verbose)};
 }
 
-void add_former_name(Command& command, const std::string& name, std::string& value) {
+void add_former_name(OptionList& command, const std::string& name, std::string& value) {
   command.add_option(name, value).hidden();
 }
 
@@ -289,7 +289,7 @@ int present(const StudyOutput& study, const StudyOptions& options, bool all) {
   return stopped ? exit_interrupted : exit_run_failed;
 }
 
-void add_sheet_options(Command& command, SheetOptions& options) {
+void add_sheet_options(OptionList& command, SheetOptions& options) {
   command.add_flag("--sheet", options.wanted,
                    "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
                    "scales, to be printed");

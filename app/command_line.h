@@ -43,10 +43,10 @@ struct StudyOptions {
 };
 // --out, or results/SCENE/STUDY: no study writes over another's results.
 std::filesystem::path results_of(const StudyOptions& options);
-void add_scene(Command& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
-void add_study_options(Command& command, StudyOptions& options);
+void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
+void add_study_options(OptionList& command, StudyOptions& options);
 // --measured and what belongs to it: a test's record beside the simulation.
-void add_measured_options(Command& command, MeasurementRequest& request);
+void add_measured_options(OptionList& command, MeasurementRequest& request);
 
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {
@@ -73,7 +73,7 @@ void check_folder(const StudyOptions& options);
 Watch watch_of(const StudyOptions& options, Progress& progress);
 
 // The name that an option once had: taken still, and told nowhere.
-void add_former_name(Command& command, const std::string& name, std::string& value);
+void add_former_name(OptionList& command, const std::string& name, std::string& value);
 
 // Options of a simulation within a study: the same, and traces for the report.
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
@@ -92,7 +92,7 @@ struct SheetOptions {
   bool wanted = false;
   std::string paper;  // "A4", "A3"; empty: A4
 };
-void add_sheet_options(Command& command, SheetOptions& options);
+void add_sheet_options(OptionList& command, SheetOptions& options);
 // Throws std::invalid_argument for a paper that there is not, and where files are asked for and forbidden.
 Paper paper_of(const SheetOptions& options, const StudyOptions& study);
 

@@ -34,7 +34,7 @@ int study(const StudyOptions& arguments) {
   return present(output_of(found), arguments);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<StudyOptions>();
   add_study_options(command, *arguments);
   command.option("scene").required(false);

@@ -23,7 +23,7 @@ int explain(const std::string& asked, bool names) {
   return exit_done;
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto wanted = std::make_shared<std::pair<std::string, bool>>("", false);
   command.add_option("figure", wanted->first, "e.g. delta, delta.press, \"mean speed\" (default: all, a line each)");
   command.add_flag("--list", wanted->second, "only the names, a line each");

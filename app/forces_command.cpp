@@ -49,7 +49,7 @@ int forces(const ForcesArguments& arguments) {
   return present(output_of(find_forces(scene, options)), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<ForcesArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--positions", arguments->positions, "positions of a turn in the tables (default: 12)");

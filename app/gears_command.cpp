@@ -100,7 +100,7 @@ int gears(GearsArguments a) {
   return present(alone(a, speed), a.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto a = std::make_shared<GearsArguments>();
   add_study_options(command, a->study);
   command.option("scene").required(false);

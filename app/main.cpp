@@ -19,8 +19,9 @@ int run(int argc, char** argv) {
   int code = exit_done;
   std::vector<Subcommand> commands;
   for (const VerbText& verb : verbs())
-    commands.push_back({verb.name, verb.help,
-                        [&verb_code = code, set_up = verb.set_up](Command& command) { set_up(command, verb_code); }});
+    commands.push_back({verb.name, verb.help, [&verb_code = code, set_up = verb.set_up](OptionList& command) {
+                          set_up(command, verb_code);
+                        }});
   const kurbel::Deadline deadline(HUGE_VAL, &interrupted());  // whatever a command is at
   const bool right =
       parse(argc, argv,

@@ -52,7 +52,7 @@ int modes(const ModesArguments& arguments) {
   return present(output_of(found), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<ModesArguments>();
   add_study_options(command, arguments->study);
   command.add_option(

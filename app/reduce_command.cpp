@@ -48,7 +48,7 @@ int reduce_scene(ReduceArguments arguments) {
   return present(output_of(reduce(scene, arguments.options)), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<ReduceArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--positions", arguments->options.positions, "positions over the cycle (default: 12)");

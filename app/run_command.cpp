@@ -33,7 +33,7 @@ struct RunArguments {
   MeasurementRequest measured;
 };
 
-void add_run_options(Command& command, RunArguments& arguments) {
+void add_run_options(OptionList& command, RunArguments& arguments) {
   add_study_options(command, arguments.study);
   command.add_option("--effects", arguments.effects,
                      "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
@@ -174,7 +174,7 @@ int compare(const RunArguments& arguments) {
   return present(output_of(with_trials(std::move(c), options)), arguments.study);
 }
 
-void set_up_run(Command& command, int& code) {
+void set_up_run(OptionList& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
   command.add_flag("--all", arguments->all,
@@ -192,7 +192,7 @@ void set_up_run(Command& command, int& code) {
   command.action([&code, arguments] { code = run(*arguments); });
 }
 
-void set_up_compare(Command& command, int& code) {
+void set_up_compare(OptionList& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
   command.add_option("--against", arguments->against,

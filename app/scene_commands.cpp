@@ -128,13 +128,13 @@ struct SceneArguments {
   std::vector<std::string> set;
 };
 template <int (*action)(const std::string&, bool, const std::vector<std::string>&)>
-void set_up_with_scene(Command& command, int& code) {
+void set_up_with_scene(OptionList& command, int& code) {
   const auto scene = std::make_shared<SceneArguments>();
   add_scene(command, scene->file, scene->allow_files, scene->set);
   command.action([&code, scene] { code = action(scene->file, scene->allow_files, scene->set); });
 }
 
-void set_up_new(Command& command, int& code) {
+void set_up_new(OptionList& command, int& code) {
   struct Wanted {
     std::string kind, file;
     bool list = false;
@@ -152,14 +152,14 @@ void set_up_new(Command& command, int& code) {
   });
 }
 
-void set_up_keys(Command& command, int& code) {
+void set_up_keys(OptionList& command, int& code) {
   const auto wanted = std::make_shared<std::pair<std::string, bool>>("", false);
   command.add_option("kind", wanted->first, "e.g. coupling, \"induction motor\", run (default: all)");
   command.add_flag("--list", wanted->second, "only the names of the kinds, a line each");
   command.action([&code, wanted] { code = print_keys(wanted->first, wanted->second); });
 }
 
-void set_up_schema(Command& command, int& code) {
+void set_up_schema(OptionList& command, int& code) {
   command.action([&code] {
     say(scene_schema());
     code = exit_done;
@@ -167,7 +167,7 @@ void set_up_schema(Command& command, int& code) {
 }
 
 // What completion, manual page and docs/commands.md are made of.
-void set_up_commands(Command& command, int& code) {
+void set_up_commands(OptionList& command, int& code) {
   struct Wanted {
     std::string name;
     bool manual = false, markdown = false;

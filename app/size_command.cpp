@@ -40,7 +40,7 @@ int size_scene(SizeArguments arguments) {
   return present(output_of(size_flywheel(scene, o)), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<SizeArguments>();
   SizeOptions& o = arguments->options;
   add_study_options(command, arguments->study);

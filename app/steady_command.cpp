@@ -71,7 +71,7 @@ int steady(const SteadyArguments& arguments) {
   return present(rendered(std::move(findings)), arguments.study);
 }
 
-void set_up(Command& command, int& code) {
+void set_up(OptionList& command, int& code) {
   const auto arguments = std::make_shared<SteadyArguments>();
   add_study_options(command, arguments->study);
   command.add_option("--effects", arguments->effects,

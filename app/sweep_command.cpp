@@ -167,7 +167,7 @@ int sweep(const SweepArguments& a) {
   return present(output_of(study), a.study);
 }
 
-void set_up_sweep(Command& command, int& code) {
+void set_up_sweep(OptionList& command, int& code) {
   const auto a = std::make_shared<SweepArguments>();
   add_study_options(command, a->study);
   command
@@ -219,7 +219,7 @@ int merge(const MergeArguments& a) {
   return exit_done;
 }
 
-void set_up_merge(Command& command, int& code) {
+void set_up_merge(OptionList& command, int& code) {
   const auto a = std::make_shared<MergeArguments>();
   command.add_option("files", a->files, "databases of the shards").required();
   command.add_option("--into", a->into, "the database that is made").required();
@@ -263,7 +263,7 @@ int uncertainty(UncertaintyArguments a) {
   return present(output_of(study_uncertainty(question, a.options)), a.study);
 }
 
-void set_up_uncertainty(Command& command, int& code) {
+void set_up_uncertainty(OptionList& command, int& code) {
   const auto a = std::make_shared<UncertaintyArguments>();
   a->options.jobs = 0;
   add_study_options(command, a->study);
@@ -320,7 +320,7 @@ int difference(const DifferenceArguments& a) {
   return present(output_of(difference_between(questions[0], questions[1], a.of)), a.study);
 }
 
-void set_up_difference(Command& command, int& code) {
+void set_up_difference(OptionList& command, int& code) {
   const auto a = std::make_shared<DifferenceArguments>();
   add_study_options(command, a->study);
   command.add_option("other", a->other, "scene file of the other machine").required();

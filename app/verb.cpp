@@ -21,7 +21,7 @@ std::vector<VerbText>& registered() {
 
 std::vector<OptionText> declared_by(const VerbText& verb) {
   return options_of(
-      [&verb](Command& command) {
+      [&verb](OptionList& command) {
         int code = 0;
         verb.set_up(command, code);
       },
@@ -31,7 +31,8 @@ std::vector<OptionText> declared_by(const VerbText& verb) {
 std::set<std::string> shared_options() {
   StudyOptions options;
   std::set<std::string> names;
-  for (const OptionText& option : options_of([&](Command& command) { add_study_options(command, options); }, "study"))
+  for (const OptionText& option :
+       options_of([&](OptionList& command) { add_study_options(command, options); }, "study"))
     names.insert(option.name);
   return names;
 }

@@ -3,7 +3,7 @@
 //
 //     const Verb modes{{.place = 70, .name = "modes", .arguments = "scene.toml",
 //                       .help = "natural frequencies, …", .does = "natural frequencies, shapes, damping; …",
-//                       .set_up = [](Command& command, int& code) { … }}};
+//                       .set_up = [](OptionList& command, int& code) { … }}};
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct VerbText {
   std::string help;         // a line, in kurbel --help
   std::string does;         // for the manual page and docs/commands.md: Markdown without links
   // Adds options; the action leaves its exit code in `code`.
-  void (*set_up)(Command& command, int& code) = nullptr;
+  void (*set_up)(OptionList& command, int& code) = nullptr;
   bool of_scene = true;             // has the options that every study has; else all of its options are its own
   std::vector<std::string> more{};  // further examples: "scene.toml --explain", with what they do behind " | "
 };

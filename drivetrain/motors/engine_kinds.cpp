@@ -277,8 +277,10 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
   const auto fired = e.pressure ? &EngineKeys::pressure : &EngineKeys::torque;
   std::vector<Curve> diagrams;
   if (e.zero == Zero::gas_exchange && e.strokes != 4)
-    return static_cast<void>(
-        e.refuse(&EngineKeys::zero, "a two-stroke engine exchanges its gas at bottom dead centre"));
+    return static_cast<void>(e.refuse(&EngineKeys::zero,
+                                      "a two-stroke engine exchanges its gas at bottom dead centre, 180 deg from "
+                                      "firing; say \"firing\", with `shift` "
+                                      "in the diagram where its angle counts from elsewhere"));
   if (!put_diagram(e, fired, *(e.*fired), *geometry, diagrams)) return;
   std::vector<EngineTorque::Cylinder> cylinders;
   for (std::size_t k = 0; k < angles.size(); ++k) cylinders.push_back({angles[k], 0});

@@ -431,16 +431,14 @@ class Search {
   Periodicity period_;
   State state_;
   Regime out_;
-  bool done_ = false, aligned_ = false;
-  double patience_factor_ = 1;
+  bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
+  double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // the latter of its own, at the last look [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;
   std::string why_not_, changes_most_;
-  bool angle_changes_most_ = false, found_unstable_ = false;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
   std::vector<Event> events_;   // the last ones
   std::size_t events_seen_ = 0, looked_at_ = 0;
-  double period_changes_ = HUGE_VAL;  // of its own, at the last look [s]
 };
 
 }  // namespace

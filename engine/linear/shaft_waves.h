@@ -1,5 +1,5 @@
 // shaft_waves.h — what the elements of continuous shafts leave open in the modes, by their exact dynamic stiffness
-// (theory 5.18).
+// (theory 5.22).
 #pragma once
 
 #include <Eigen/Core>

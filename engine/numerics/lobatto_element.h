@@ -1,5 +1,5 @@
 // lobatto_element.h — a prismatic shaft as one spectral element: inertias at Gauss–Lobatto points, so that the mass
-// matrix is diagonal, and its exact dynamic stiffness, by which the element's error is known (theory 5.18).
+// matrix is diagonal, and its exact dynamic stiffness, by which the element's error is known (theory 5.22).
 #pragma once
 
 #include <vector>

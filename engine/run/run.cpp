@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/equations/contact.h"
 #include "engine/events/event_words.h"
 #include "engine/numerics/deadline.h"
 #include "engine/rigid/work_stepper.h"
@@ -18,6 +17,7 @@
 #include "engine/run/event_location.h"
 #include "engine/run/flush_denormals.h"
 #include "engine/run/method_choice.h"
+#include "engine/run/time_to_turn.h"
 
 namespace kurbel {
 namespace {
@@ -221,8 +221,7 @@ class Loop {
   }
 
   void note_step(double h) {
-    double& smallest = out_.statistics.smallest_step;
-    if (smallest == 0 || h < smallest) smallest = h;
+    if (double& smallest = out_.statistics.smallest_step; smallest == 0 || h < smallest) smallest = h;
   }
 
   // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back
@@ -234,24 +233,14 @@ class Loop {
     const Model& m = equations_.model();
     for (const TrackedAngle& angle : m.angles) {
       const auto shaft = static_cast<std::size_t>(angle.shaft);
-      const bool changes_laws = equations_.guard_count() > 0;
-      if (!changes_laws && (!m.shafts[shaft].variable || shaft >= m.free_shafts)) continue;
-      const double turned = stepper_->t() + time_to_turn(angle, (options_.elsewhere ? 0.4 : 0.5) * M_PI);
+      if (equations_.guard_count() == 0 && (!m.shafts[shaft].variable || shaft >= m.free_shafts)) continue;
+      const double turned =
+          stepper_->t() + time_to_turn(equations_, angle, (options_.elsewhere ? 0.4 : 0.5) * M_PI, *stepper_);
       if (!(turned < t)) continue;
       t = turned;
       bound_ = StepLimits::Bound::turn;
     }
     return t;
-  }
-
-  // Until the shaft has turned so far [rad], as it turns now; what is prescribed may begin at rest. Infinite: it stands.
-  double time_to_turn(const TrackedAngle& angle, double by) {
-    const Model& m = equations_.model();
-    const auto shaft = static_cast<std::size_t>(angle.shaft);
-    if (shaft < m.free_shafts) return by / std::abs(angle.gain * stepper_->y()[equations_.speed_index(angle.shaft)]);
-    const double t = stepper_->t(), omega = std::abs(angle.gain * prescribed_speed(m, equations_.modes(), shaft, t)),
-                 alpha = std::abs(angle.gain * prescribed_acceleration(m, equations_.modes(), shaft, t));
-    return 2 * by / (omega + std::sqrt(omega * omega + 2 * alpha * by));
   }
 
   bool pass_event(double t, std::vector<std::size_t> fired) {

@@ -2,7 +2,6 @@
 #include "studies/run/simulate.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -401,9 +400,8 @@ class Simulation {
     for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
       const auto times = std::count(list.begin(), list.end(), what);
       result_.notes.push_back(
-          fmt::format("{}: its events found no rest{}, so it follows a law without events; see the "
-                      "events",
-                      what, times > 1 ? fmt::format(" {} times", times) : ""));
+          fmt::format("{}: its events found no rest{}, so it follows a law without events; see the events", what,
+                      times > 1 ? fmt::format(" {} times", times) : ""));
     }
   }
   // What kept the steps short; nothing where the equations cannot be evaluated at the end.

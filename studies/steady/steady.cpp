@@ -223,12 +223,12 @@ class Study {
           cycle.why, scene_.sequence.steps.size());
     if (is_interrupted(cycle) || !out_.diagram || options_.mid_speed) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
-    const OperatingPoint& p = *out_.diagram->working_point();
-    if (cycle.kind == Regime::Kind::at_rest)
+    const OperatingPoint* p = out_.diagram->working_point();
+    if (p && cycle.kind == Regime::Kind::at_rest)
       return fmt::format(
           "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
           "start, or a drive with a steeper characteristic is needed",
-          scene_.speed_unit.text(p.mean.omega, 5), with_unit(p.mean.load, "N*m", 4), cycle.why);
+          scene_.speed_unit.text(p->mean.omega, 5), with_unit(p->mean.load, "N*m", 4), cycle.why);
     return cycle.why;
   }
   static bool is_interrupted(const SteadyCycle& cycle) {

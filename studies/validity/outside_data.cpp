@@ -107,11 +107,12 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
       if ((above ? range.above : range.below) == Beyond::refuse) {
         const Section* section = model_.scene.find(range.component);
         const std::string key = section && section->has(range.of) ? range.of : "table";
-        refused.push_back(
-            {model_.scene.file, section ? section->where(key) : Location{},
-             fmt::format("\"{}\": its table of {} {}, from {:.4g} s on: there is nothing to compute with. "
-                         "Give more of it, or say how it goes on: beyond = \"hold\" or \"line\"",
-                         range.component, range.of, where, since_[i])});
+        refused.push_back({model_.scene.file, section ? section->where(key) : Location{},
+                           fmt::format("\"{}\": its table of {} {} {}, and the motion is beyond it from {:.4g} s on: "
+                                       "there is nothing to compute "
+                                       "with. Give more of it, or say how it goes on: beyond = \"hold\" or \"line\"",
+                                       range.component, range.of, above ? "ends at" : "begins at",
+                                       in_words(range, end, unit), since_[i])});
         continue;
       }
       list.push_back(

@@ -135,7 +135,7 @@ std::string refusal_by_method(const Scene& scene, const std::string& method) {
 const std::vector<std::string>& scene_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> found;
-    for (const auto& file : std::filesystem::directory_iterator(std::string(KURBEL_SOURCE_DIR) + "/scenes"))
+    for (const auto& file : std::filesystem::directory_iterator(KURBEL_SOURCE_DIR "/scenes"))
       if (file.path().extension() == ".toml") found.push_back(file.path().stem());
     std::sort(found.begin(), found.end());
     return found;

@@ -86,8 +86,8 @@ TEST(BeyondTables, WhatTheSceneSaysIsData) {
 
 TEST(BeyondTables, AMotionThatMustNotLeaveItsTableIsRefused) {
   const std::string said = refusal(motor_that_ends("refuse"));
-  EXPECT_EQ(said.substr(0, said.find(", from")),
-            "5: \"motor\": its table of torque ends at 1796 rpm, and the motion goes to 1799.47 rpm");
+  EXPECT_EQ(said.substr(0, said.find(" from")),
+            "5: \"motor\": its table of torque ends at 1796 rpm, and the motion is beyond it");
   EXPECT_EQ(refusal(motor_that_ends("refuse", 0.1)), "") << "it does not get there";
 }
 
@@ -142,7 +142,9 @@ TEST(BeyondTables, OfAllScenesEachLeavingIsTold) {
     scene.run.until = std::min(scene.run.until, 3.0);
     const auto model = compile(scene, scene.effects);
     if (model->network.ranges.empty()) continue;
-    const Result r = simulate(model, "test", {.measure_error = false});
+    SimulateOptions bare;
+    bare.measure_error = false;
+    const Result r = simulate(model, "test", bare);
     bool beyond = false;
     for (const Network::DataRange& range : model->network.ranges) {
       const std::string channel =

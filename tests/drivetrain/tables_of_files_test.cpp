@@ -128,7 +128,7 @@ TEST(DiagramsZero, APressureThatCountsFromGasExchangeIsNoticed) {
     changed.replace(changed.find("misfire ="), 9, fmt::format("zero = \"{}\", misfire =", zero));
     Scene scene = scene_from(changed);
     scene.run.until = 30;
-    return run(scene, false).periods.steady_speed / rpm;
+    return figure(run(scene, false), "mean_speed.engine") / rpm;
   };
   EXPECT_NEAR(with("gas exchange"), 567.1, 0.1);
   EXPECT_NEAR(with("firing"), 757.4, 0.1) << "as said";

@@ -2,6 +2,7 @@
 // switching off and on again, catalogue data.
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <random>

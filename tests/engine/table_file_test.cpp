@@ -238,7 +238,9 @@ TEST(TableFile, OneTableInAllFormsIsTheSame) {
             ASSERT_EQ(r.errors, Texts()) << text.substr(0, 100);
             ASSERT_EQ(r.x, x) << text.substr(0, 100);
             ASSERT_EQ(r.y, y) << text.substr(0, 100);
-            if (units > 0) ASSERT_EQ(r.units, (Texts{"m", "N"})) << text.substr(0, 100);
+            if (units > 0) {
+              ASSERT_EQ(r.units, (Texts{"m", "N"})) << text.substr(0, 100);
+            }
           }
 }
 

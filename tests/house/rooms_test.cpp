@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "library", "app"};
 
-constexpr std::size_t most_files = 20;
+constexpr std::size_t most_files = 24;
 // Families of elements may be more.
 const std::map<std::string, std::size_t> families = {
     {"mechanisms/linkages", 23},  // five linkages, each with its bodies, and what Simbody is asked
@@ -177,7 +177,7 @@ TEST(House, ThePictureShowsEveryRoom) {
     EXPECT_TRUE(std::regex_search(picture, std::regex("[> /]" + name + "[<,: /]"))) << name;
 }
 
-TEST(House, RoomsHoldAtMostTwentyFiles) {
+TEST(House, RoomsHoldAFewFiles) {
   for (const std::string& room : rooms_in_order()) {
     const auto family = families.find(room);
     EXPECT_LE(sources_of(room).size(), family == families.end() ? most_files : family->second)

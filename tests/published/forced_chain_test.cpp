@@ -12,6 +12,7 @@ namespace {
 
 using test::Against;
 using test::figure;
+using test::PublishedSeries;
 using test::run;
 using test::two_pi;
 using test::Validation;

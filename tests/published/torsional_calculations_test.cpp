@@ -15,6 +15,7 @@ namespace {
 using fmt::format;
 using test::Against;
 using test::published_series;
+using test::PublishedSeries;
 using test::two_pi;
 using test::Validation;
 

@@ -230,7 +230,7 @@ TEST(RoundOff, OfAConservativeMachineIsNoVerdict) {
   const Scene scene = report("conservative_four_bar");
   const std::string why = refused([&] { steady(scene, {scene.effects}, {.start_search = false}); });
   EXPECT_FALSE(has(why, "for ever")) << why;
-  EXPECT_TRUE(has(why, "94.88") && has(why, "364.87")) << why;
+  EXPECT_TRUE(has(why, "94.87") && has(why, "364.87")) << why;
 }
 
 TEST(RoundOff, OfRandomConservativeMachinesIsNoVerdict) {
@@ -238,7 +238,7 @@ TEST(RoundOff, OfRandomConservativeMachinesIsNoVerdict) {
   for (int k = 0; k < 16; ++k) {
     const std::string text = fmt::format(R"(
 line = ["bar"]
-bar = {{ kind = "slider-crank", radius = "{0} m", rod = "{1} m", offset = "{2} m", crank_mass = "{3} kg", crank_com = "{4} m", crank_inertia = "{5} kg*m2", rod_mass = "{3} kg", rod_com = "{4} m", rod_inertia = "{5} kg*m2", slider_mass = "{6} kg", gravity = "9.81 m/s2", stroke_direction = "{7} deg" }}
+bar = {{ kind = "slider-crank", radius = "{0} m", rod = "{1} m", offset = "{2} m", crank_mass = "{3} kg", crank_com = "{4} m", crank_inertia = "{5} kg*m2", rod_mass = "{3} kg", rod_com = "{4} m", rod_inertia = "{5} kg*m2", slider_mass = "{6} kg", gravity = "9.81 m/s2", stroke_angle = "{7} deg" }}
 run = {{ start = {{ angle = "{8} deg", speed = "3 rad/s" }}, until = "10 s" }}
 )",
                                          uniform(random, 0.5, 2), uniform(random, 3, 9), uniform(random, -0.4, 0.4),
@@ -255,9 +255,11 @@ run = {{ start = {{ angle = "{8} deg", speed = "3 rad/s" }}, until = "10 s" }}
 
 // The link's rest is what the run says: 21.1972132 s.
 TEST(MotorSwitchedOff, RestsWhenTheRunSays) {
-  const Scene scene = report("motor_switched_off");
-  const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
-  EXPECT_TRUE(has(study.diagnosis, "comes to rest at 21.2 s")) << study.diagnosis;
+  waits_for_part(5, [] {
+    const Scene scene = report("motor_switched_off");
+    const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+    EXPECT_TRUE(has(study.diagnosis, "comes to rest at 21.2 s")) << study.diagnosis;
+  });
 }
 
 // A vibration about zero is a steady motion: |φ| = M/√((k − Jω²)² + (cω)²), of which the speed is ω times as much.

@@ -143,7 +143,7 @@ Seen run_of(const Scene& scene) {
   try {
     SimulateOptions options;
     options.measure_error = false;
-    if (!all_keys()) options.until = std::min(scene.run.until, 2.0);
+    if (!all_keys()) options.until = std::min(scene.run.until, 20.0);
     const Result r = simulate(scene, scene.effects, "", options);
     for (const Figure& f : r.figures) seen.numbers.push_back(f.value);
     for (const std::string& note : r.notes) seen.words += note + "\n";

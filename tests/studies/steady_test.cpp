@@ -176,8 +176,8 @@ TEST(Steady, LoadBeyondBreakdownIsAStallByTheDifference) {
 TEST(Steady, DriveThatAlwaysWinsIsARunaway) {
   const SteadyStudy study = steady(
       scene_from("line = [\"turbine\", \"load\"]\n"
-                 "turbine = { kind = \"torque source\", inertia = \"1 kg*m2\", table = { over = \"speed\", unit = "
-                 "[\"rad/s\", \"N*m\"], points = [[0, 50], [100, 20]] } }\n"
+                 "turbine = { kind = \"torque source\", inertia = \"1 kg*m2\", table = { over = \"speed\", "
+                 "beyond = \"hold\", unit = [\"rad/s\", \"N*m\"], points = [[0, 50], [100, 20]] } }\n"
                  "load = { kind = \"load\", torque = \"5 N*m\" }\n"),
       {Effects{}}, {});
   EXPECT_FALSE(study.complete);
