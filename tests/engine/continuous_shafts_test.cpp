@@ -81,7 +81,8 @@ struct Train {
                           shaft[k].length, shaft[k].diameter);
       if (ratio[k] != 1) {
         line += fmt::format(", \"g{}\"", k);
-        text += fmt::format("g{} = {{ kind = \"gearbox\", stages = [{{ ratio = {:.17g} }}] }}\n", k, ratio[k]);
+        text +=
+            fmt::format("g{} = {{ kind = \"gearbox\", stages = [{{ teeth = [40, {:.0f}] }}] }}\n", k, 40 * ratio[k]);
       }
       line += fmt::format(", \"j{}\"", k + 1);
       text += fmt::format("j{} = {{ kind = \"inertia\", inertia = \"{:.17g} kg*m2\" }}\n", k + 1, inertia[k + 1]);
@@ -168,7 +169,7 @@ TEST(ContinuousShaft, modes_of_random_trains_are_those_of_transfer_matrices) {
     Train train{{some(1, 500)}, {}, {}};
     for (int k = 0; k < 1 + repeat % 3; ++k) {
       train.shaft.push_back({some(0.3, 30), some(0.08, 0.4)});
-      train.ratio.push_back(repeat % 4 == 1 ? some(0.3, 4) : 1);
+      train.ratio.push_back(repeat % 4 == 1 ? std::round(40 * some(0.5, 4)) / 40 : 1);
       train.inertia.push_back(repeat % 5 == 2 && k == 0 && repeat % 3 > 0 ? 0 : some(1, 500));
     }
     SCOPED_TRACE(train.scene());

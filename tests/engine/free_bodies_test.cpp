@@ -179,7 +179,7 @@ void expect_all_together(const std::string& text, double tolerance) {
 TEST(EquilibriumStart, AcceleratesAllShaftsTogetherWhateverTheirLaws) {
   const std::string parts = R"(
 motor = { kind = "dc shunt motor", stall_torque = "2 kN*m", no_load_speed = "30 rad/s", inertia = "4 kg*m2" }
-soft = { kind = "coupling", stiffness = "9 kN*m/rad", damping_ratio = 0.1 }
+soft = { kind = "coupling", stiffness = "9 kN*m/rad", damping_ratio = 0.1, inertia_in = "0.02 kg*m2", inertia_out = "0.03 kg*m2" }
 first = { kind = "universal joint", stiffness = "20 kN*m/rad", angle = "30 deg", phase = "20 deg", damping_ratio = 0.02 }
 middle = { kind = "inertia", inertia = "0.3 kg*m2" }
 second = { kind = "universal joint", stiffness = "15 kN*m/rad", angle = "45 deg", phase = "-35 deg" }

@@ -40,7 +40,7 @@ TEST(VanishingDamping, ratios_and_branches_count) {
 line = ["a", "c1", "g", "c2", "d"]
 a = { kind = "inertia", inertia = "2 kg*m2" }
 c1 = { kind = "coupling", stiffness = "1 kN*m/rad" }
-g = { kind = "gearbox", stages = [{ ratio = 3 }] }
+g = { kind = "gearbox", stages = [{ teeth = [19, 57] }] }
 c2 = { kind = "coupling", stiffness = "5 kN*m/rad", WHAT }
 d = { kind = "inertia", inertia = "7 kg*m2" }
 c3 = { kind = "coupling", stiffness = "2 kN*m/rad" }
