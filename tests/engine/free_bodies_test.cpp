@@ -186,7 +186,7 @@ second = { kind = "universal joint", stiffness = "15 kN*m/rad", angle = "45 deg"
 wheel = { kind = "inertia", inertia = "0.7 kg*m2" }
 pair = { kind = "gear mesh", teeth = [20, 40], inertia = ["0.01 kg*m2", "0.1 kg*m2"], stiffness = "200 kN*m/rad", mesh_variation = [0.3] }
 saw = { kind = "load", torque = "500 N*m", acts = "always", inertia = "0.5 kg*m2" }
-crank = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", slider_mass = "30 kg", load = { kind = "constant", force = "-3 kN" } }
+crank = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", crank_inertia = "0.05 kg*m2", slider_mass = "30 kg", load = { kind = "constant", force = "-3 kN" } }
 )";
   for (const char* line :
        {R"("motor", "soft", "first", "saw")", R"("motor", "soft", "first", "middle", "second", "saw")",

@@ -59,7 +59,7 @@ line = ["c3", "e"]
   for (const auto& [words, right] : forms) {
     std::string one = text;
     one.replace(one.find("WHAT"), 4, words);
-    EXPECT_NEAR(damping_of(*compile(test::scene_from(one), Effects{true, {}}), "c2"), right, 1e-10) << words;
+    EXPECT_NEAR(damping_of(*compile(test::scene_from(one), Effects{}), "c2"), right, 1e-10) << words;
   }
 }
 

@@ -19,8 +19,8 @@ struct OpenNode {
 };
 
 // By what is published of a state alone, node by node; no walk through a tree is shared with what found the torques.
-// Nodes at which a standing shaft is held are left out, for holds of elements are not published; those of gears that a
-// standing member makes one ratio, whose torque is not; and the frame.
+// Nodes at which a standing shaft is held are left out, for holds of elements are not published; those of gears with
+// a prescribed member, whose torque is not either; and the frame.
 inline OpenNode most_open_node(Equations& equations, double t, std::span<const double> y) {
   const Snapshot& s = equations.snapshot(t, y);
   const Model& m = equations.model();
@@ -33,11 +33,12 @@ inline OpenNode most_open_node(Equations& equations, double t, std::span<const d
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
     act(static_cast<int>(n), -net.nodes[n].inertia * m.gain_of_node[n] * s.alpha[m.shaft_of_node[n]]);
   std::vector<char> is_left_out(net.nodes.size(), 0);
-  std::vector<char> is_known(net.relations.size(), 0);
-  for (const ShaftRelation& relation : m.relations) is_known[at(relation.relation)] = 1;
-  for (std::size_t r = 0; r < net.relations.size(); ++r)
-    for (int k = 0; !is_known[r] && k < net.relations[r].members(); ++k)
-      is_left_out[at(net.relations[r].node[at(k)])] = 1;
+  const auto is_prescribed = [&](int node) { return at(m.shaft_of_node[at(node)]) >= m.free_shafts; };
+  for (const Network::Relation& relation : net.relations) {
+    bool stands = false;
+    for (int k = 0; k < relation.members(); ++k) stands = stands || is_prescribed(relation.node[at(k)]);
+    for (int k = 0; stands && k < relation.members(); ++k) is_left_out[at(relation.node[at(k)])] = 1;
+  }
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const int node = net.elements[e].node, shaft = m.shaft_of_node[at(node)];
     const double alpha = m.gain_of_node[at(node)] * s.alpha[shaft];
