@@ -300,12 +300,12 @@ def compare_leaves(outcome, a, b, accuracy, nothing):
         (outcome.within if times <= 1 else outcome.different).append(Difference(path, x, y, times))
 
 
-def leaves_of_table(name, text):
+def leaves_of_table(name, text, left_out=LEFT_OUT):
     """Column by column, with its errors where the table has a column of them."""
     rows = [row for row in csv.reader(io.StringIO(text)) if row and not row[0].startswith("# ")]
     columns = {}
     for k, heading in enumerate(rows[0] if rows else ()):
-        if "processor time" in heading or heading.partition(" [")[0] in LEFT_OUT:
+        if "processor time" in heading or heading.partition(" [")[0] in left_out:
             continue
         columns[f"{heading}#{k}" if heading in columns else heading] = [value_of(row[k]) if k < len(row) else None for row in rows[1:]]
     found = {}
@@ -348,7 +348,7 @@ def compare_cells(a, b, left_out=frozenset(), tables=True, nothing=NOTHING):
         elif x == y:
             outcome.values += x.count(",")
         else:
-            compare_leaves(outcome, leaves_of_table(name, x), leaves_of_table(name, y), max(accuracy, SAMPLES), nothing)
+            compare_leaves(outcome, leaves_of_table(name, x, leave), leaves_of_table(name, y, leave), max(accuracy, SAMPLES), nothing)
     for stream in ("stdout", "stderr"):
         if stream not in leave and stream in a and stream in b:
             compare_words(outcome, stream, a[stream], b[stream], numbers=not summary_a)

@@ -182,6 +182,7 @@ if place:
 print("results:", place)
 open(CALLS, "a").write("x")
 while BUSY: pass
+sys.exit(ENDING)
 """
 
 
@@ -196,9 +197,9 @@ class Passes(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def program(self, name, value=0.05, busy=False):
+    def program(self, name, value=0.05, busy=False, ending=0):
         file = self.place / name
-        file.write_text(FAKE.replace("PYTHON", sys.executable).replace("VALUE", repr(value)).replace("BUSY", repr(busy)).replace("CALLS", repr(str(self.place / "calls"))))
+        file.write_text(FAKE.replace("PYTHON", sys.executable).replace("VALUE", repr(value)).replace("BUSY", repr(busy)).replace("ENDING", repr(ending)).replace("CALLS", repr(str(self.place / "calls"))))
         file.chmod(0o755)
         return file
 
@@ -219,6 +220,13 @@ class Passes(unittest.TestCase):
         file.write_bytes(file.read_bytes()[:40])
         golden.compute(self.program("a"), answers, self.cells, 100, 2, lambda text: None)
         self.assertEqual(self.calls(), len(self.cells) + 1)
+
+    def test_what_was_interrupted_is_no_answer(self):
+        answers = golden.Answers(self.place / "answers")
+        golden.compute(self.program("a", ending=130), answers, self.cells, 100, 1, lambda text: None)
+        self.assertIsNone(answers.load(self.cells[0]))
+        golden.compute(self.program("a", ending=3), answers, self.cells, 100, 1, lambda text: None)
+        self.assertEqual(answers.load(self.cells[0])["exit"], 3)
 
     def test_what_takes_too_long_is_cut_and_computed_where_more_is_allowed(self):
         answers, cell = golden.Answers(self.place / "answers"), self.cells[:1]
