@@ -31,6 +31,10 @@ class Command:
     writes: bool = True         # has --out
 
 
+# What accuracy chooses by processor time, and the words about it; errors and counts of each setting are compared.
+BY_TIME = frozenset({"stdout", "conclusion", "findings", "answers", "on_front", "on_front_of_model", "median", "fastest", "slowest"})
+INTERRUPTED = {130, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP, -signal.SIGKILL}  # no answer of the program
+
 # Trials and budgets go by processor time: left off, or so wide that they do not bind.
 COMMANDS = {
     "check": Command(("check", "SCENE"), writes=False),
@@ -47,7 +51,7 @@ COMMANDS = {
     "effects": Command(("effects", "SCENE"), frozenset({"stdout"})),
     "advise": Command(("advise", "SCENE", "--no-held-out"), frozenset({"stdout"})),
     "accuracy": Command(("accuracy", "SCENE", "--no-multibody", "--methods", "dop853", "esdirk", "--tolerances", "1e-4",
-                         "1e-6", "--time", "1e6 s"), frozenset({"stdout"})),
+                         "1e-6", "--time", "1e6 s"), BY_TIME),
     "uncertainty": Command(("uncertainty", "SCENE", "--samples", "20", "--jobs", "1", "--no-trials")),
     "modes --torque": Command(("modes", "SCENE", "--torque", "main_coupling"), scenes=("*press*", "*engine*")),
     "sweep": Command(("sweep", "SCENE", "--vary", "main_coupling.stiffness=500,900,1500 kN*m/rad", "--jobs", "1", "--into",
@@ -187,7 +191,8 @@ def compute(program, answers, cells, limit, jobs, say):
     def one(cell):
         nonlocal used, done
         answer = run_cell(program, cell, limit)
-        answers.keep(cell, answer)
+        if answer.get("exit") not in INTERRUPTED:
+            answers.keep(cell, answer)
         with lock:
             used, done = used + answer["seconds"], done + 1
             state = f"over {answer['cut']} s" if "cut" in answer else f"exit {answer['exit']}, {answer['seconds']:.1f} s"

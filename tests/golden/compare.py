@@ -35,7 +35,7 @@ NO_BRACKETS = str.maketrans("[]", "()")
 NUMBER = re.compile(r"[-+−]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?")
 TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of processor time"),
          (re.compile(r"costs (?:about the same time|[\d.e+-]+ × the time)"), "costs T × the time"),
-         (re.compile(r"costs most, [\d.e+-]+ × the time"), "costs most, T × the time"),
+         (re.compile(r"; [^;]* costs most, [\d.e+-]+ × the time without it"), ""),
          (re.compile(r"takes [\d.]+ of the time"), "takes T of the time"),
          (re.compile(r"(cycles' worth \([^)]*\)), [\d.e+-]+ (?:min|s|ms)"), r"\1, T"),
          (re.compile(r"kurbel \d+\.\d+\.\d+\S*"), "kurbel VERSION")]
@@ -211,7 +211,7 @@ def same(x, y):
     return type(x) is type(y) and x == y or is_number(x) and is_number(y) and x == y
 
 
-def share_of_allowed(a, b, accuracy):
+def share_of_allowed(a, b, accuracy, nothing):
     """|a − b| over what both sides' errors allow; up to 1: within."""
     if not (is_number(a.value) and is_number(b.value)) or not (math.isfinite(a.value) and math.isfinite(b.value)):
         return math.inf
@@ -223,7 +223,7 @@ def share_of_allowed(a, b, accuracy):
         return larger / max(min(abs(a.value), abs(b.value)), LAST_BITS * kin, 1e-300) / ESTIMATE
     stated = [leaf.error for leaf in (a, b) if leaf.error is not None]
     allowed = sum(stated) if stated else max(LAST_BITS * larger, accuracy * scale)
-    allowed = max(allowed, NOTHING * max(larger, kin))
+    allowed = max(allowed, nothing * max(larger, kin))
     return apart / allowed if allowed > 0 else math.inf
 
 
@@ -284,7 +284,7 @@ def stated_accuracy(summary):
     return max((x for x in stated if is_number(x)), default=0)
 
 
-def compare_leaves(outcome, a, b, accuracy):
+def compare_leaves(outcome, a, b, accuracy, nothing):
     for path in [*a, *(p for p in b if p not in a)]:
         x, y = a.get(path), b.get(path)
         if x and y and x.kind == y.kind == "words":
@@ -296,16 +296,16 @@ def compare_leaves(outcome, a, b, accuracy):
         if (x or y).kind == "effort":
             outcome.effort.append(Difference(path, x, y))
             continue
-        times = share_of_allowed(x, y, accuracy) if x and y else math.inf
+        times = share_of_allowed(x, y, accuracy, nothing) if x and y else math.inf
         (outcome.within if times <= 1 else outcome.different).append(Difference(path, x, y, times))
 
 
-def leaves_of_table(name, text):
+def leaves_of_table(name, text, left_out=LEFT_OUT):
     """Column by column, with its errors where the table has a column of them."""
     rows = [row for row in csv.reader(io.StringIO(text)) if row and not row[0].startswith("# ")]
     columns = {}
     for k, heading in enumerate(rows[0] if rows else ()):
-        if "processor time" in heading or heading.partition(" [")[0] in LEFT_OUT:
+        if "processor time" in heading or heading.partition(" [")[0] in left_out:
             continue
         columns[f"{heading}#{k}" if heading in columns else heading] = [value_of(row[k]) if k < len(row) else None for row in rows[1:]]
     found = {}
@@ -330,7 +330,7 @@ def value_of(cell):
         return cell
 
 
-def compare_cells(a, b, left_out=frozenset(), tables=True):
+def compare_cells(a, b, left_out=frozenset(), tables=True, nothing=NOTHING):
     """`left_out`: further names that a command's cells are compared without."""
     outcome = Outcome()
     if a["exit"] != b["exit"]:
@@ -339,7 +339,7 @@ def compare_cells(a, b, left_out=frozenset(), tables=True):
     summary_a, summary_b = a.get("summary") or {}, b.get("summary") or {}
     accuracy = max(stated_accuracy(summary_a), stated_accuracy(summary_b))
     leave = LEFT_OUT | left_out
-    compare_leaves(outcome, leaves(summary_a, leave), leaves(summary_b, leave), accuracy)
+    compare_leaves(outcome, leaves(summary_a, leave), leaves(summary_b, leave), accuracy, nothing)
     tables_a, tables_b = (cell.get("csv", {}) if tables else {} for cell in (a, b))
     for name in sorted({*tables_a, *tables_b} - leave):
         x, y = tables_a.get(name), tables_b.get(name)
@@ -348,7 +348,7 @@ def compare_cells(a, b, left_out=frozenset(), tables=True):
         elif x == y:
             outcome.values += x.count(",")
         else:
-            compare_leaves(outcome, leaves_of_table(name, x), leaves_of_table(name, y), max(accuracy, SAMPLES))
+            compare_leaves(outcome, leaves_of_table(name, x, leave), leaves_of_table(name, y, leave), max(accuracy, SAMPLES), nothing)
     for stream in ("stdout", "stderr"):
         if stream not in leave and stream in a and stream in b:
             compare_words(outcome, stream, a[stream], b[stream], numbers=not summary_a)

@@ -13,7 +13,7 @@ CHOSEN = {
     "run --explain": ("crank_press", "gear_pair", "drive_axle", "six_inertia_chain"),
     "run": ("scenes/*", "star_delta", "two_axis_motor", "armature_voltage_ramp", "belt_rigid_slips", "at_rest", "knuckle_small"),
     "compare": ("crank_press", "planetary_brake"),
-    "steady": ("crank_press", "four_bar_rocker", "piston_pump", "six_inertia_chain", "gear_pair", "genset", "dc_hoist",
+    "steady": ("crank_press", "piston_pump", "six_inertia_chain", "gear_pair", "genset", "dc_hoist",
                "two_axis_motor", "worm_losses_shaft", "sine_and_crank", "belt_slips", "planetary_held"),
     "modes": ("four_bar_rocker", "six_inertia_chain", "piston_pump", "torque_by_table", "housing_support_fan", "damper_tuned"),
     "forces": ("piston_pump", "four_bar_rocker", "knuckle_small"),
@@ -29,6 +29,9 @@ CHOSEN = {
 DEAR = {"four_cylinder_engine", "gear_test_rig", "ship_propulsion", "flexible_rod"}  # not run: 1 … 3 s each
 SLOW = 300     # s of processor time after which a cell is given up; instrumented programs take long
 LONG = 6       # items of a list without names that are kept: the first ones
+# Digests are held on other CPUs: measured without FMA, values moved by up to some 1e-11 of the largest of their unit where
+# stated errors were 1e-12. Whatever errors state, so much is nothing.
+NOTHING = 1e-10
 DIGITS = 12    # of a value: LAST_BITS stays far above what is cut off
 
 
@@ -72,4 +75,4 @@ def compare(file, program, jobs, say):
     """[(cell, outcome)] of all cells of the digest."""
     kept = {Cell(a["command"], a["scene"]): a for a in json.loads(file.read_text())["cells"].values()}
     found, spent = answers(program, list(kept), jobs, say)
-    return [(cell, compare_cells(a, found[cell], COMMANDS[cell.command].left_out, tables=False)) for cell, a in kept.items()], spent
+    return [(cell, compare_cells(a, found[cell], COMMANDS[cell.command].left_out, tables=False, nothing=NOTHING)) for cell, a in kept.items()], spent

@@ -66,6 +66,10 @@ class Comparison(unittest.TestCase):
         self.judged("identical", changed("summary", "statistics", "cpu_seconds", to=9.0))
         self.judged("identical", changed("stdout", to=lambda s: s.replace("3.1 ms of", "1.04 s of")))
         self.judged("identical", changed("summary", "conclusion", to=lambda s: s.replace("costs 36 ×", "costs 1.5 ×")))
+        # Which effect costs most is a time, too, and may be none.
+        dear = {"exit": 0, "summary": {"conclusion": "Most depends on gravity, 33 % off; backlash costs most, 1.5 × the time without it."}}
+        for other in ("; gravity costs most, 1.6 × the time without it.", "."):
+            self.judged("identical", {"exit": 0, "summary": {"conclusion": "Most depends on gravity, 33 % off" + other}}, dear)
 
     def test_numbers_of_steps_are_told_apart(self):
         outcome = self.judged("identical", changed("summary", "statistics", "steps", to=813))
@@ -178,6 +182,7 @@ if place:
 print("results:", place)
 open(CALLS, "a").write("x")
 while BUSY: pass
+sys.exit(ENDING)
 """
 
 
@@ -192,9 +197,9 @@ class Passes(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def program(self, name, value=0.05, busy=False):
+    def program(self, name, value=0.05, busy=False, ending=0):
         file = self.place / name
-        file.write_text(FAKE.replace("PYTHON", sys.executable).replace("VALUE", repr(value)).replace("BUSY", repr(busy)).replace("CALLS", repr(str(self.place / "calls"))))
+        file.write_text(FAKE.replace("PYTHON", sys.executable).replace("VALUE", repr(value)).replace("BUSY", repr(busy)).replace("ENDING", repr(ending)).replace("CALLS", repr(str(self.place / "calls"))))
         file.chmod(0o755)
         return file
 
@@ -215,6 +220,13 @@ class Passes(unittest.TestCase):
         file.write_bytes(file.read_bytes()[:40])
         golden.compute(self.program("a"), answers, self.cells, 100, 2, lambda text: None)
         self.assertEqual(self.calls(), len(self.cells) + 1)
+
+    def test_what_was_interrupted_is_no_answer(self):
+        answers = golden.Answers(self.place / "answers")
+        golden.compute(self.program("a", ending=130), answers, self.cells, 100, 1, lambda text: None)
+        self.assertIsNone(answers.load(self.cells[0]))
+        golden.compute(self.program("a", ending=3), answers, self.cells, 100, 1, lambda text: None)
+        self.assertEqual(answers.load(self.cells[0])["exit"], 3)
 
     def test_what_takes_too_long_is_cut_and_computed_where_more_is_allowed(self):
         answers, cell = golden.Answers(self.place / "answers"), self.cells[:1]
@@ -268,7 +280,7 @@ class TheCommittedDigest(unittest.TestCase):
             if not cell.get("summary"):
                 continue
             path, leaf = next(((p, x) for p, x in leaves(cell["summary"]).items() if x.kind == "value" and isinstance(x.value, float)
-                               and x.value and "[" in p), (None, None))
+                               and "[" in p and abs(x.value) > 1e-3 * x.kin > 0 and (x.error or 0) < 0.1 * abs(x.value)), (None, None))
             if path is None:
                 continue
             def altered(node):
@@ -276,9 +288,9 @@ class TheCommittedDigest(unittest.TestCase):
                     return {k: altered(v) for k, v in node.items()}
                 if isinstance(node, list):
                     return [altered(v) for v in node]
-                beyond = 2.5 * (leaf.error or 0) + abs(leaf.value)
+                beyond = 2.5 * (leaf.error or 0) + 1e-8 * leaf.kin
                 return node + beyond if isinstance(node, float) and node == leaf.value else node
-            self.assertEqual(compare_cells(cell, {**cell, "summary": altered(cell["summary"])}).verdict(), "different", name)
+            self.assertEqual(compare_cells(cell, {**cell, "summary": altered(cell["summary"])}, nothing=digest.NOTHING).verdict(), "different", name)
 
 
 if __name__ == "__main__":
