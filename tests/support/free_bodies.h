@@ -19,8 +19,8 @@ struct OpenNode {
 };
 
 // By what is published of a state alone, node by node; no walk through a tree is shared with what found the torques.
-// Nodes at which a standing shaft is held are left out, for holds of elements are not published; those of gears with
-// a prescribed member, whose torque is not either; and the frame.
+// Nodes at which a standing shaft is held are left out, for holds of elements are not published; those of gears
+// that a standing member makes one joint, whose torque meets no node of its own; and the frame.
 inline OpenNode most_open_node(Equations& equations, double t, std::span<const double> y) {
   const Snapshot& s = equations.snapshot(t, y);
   const Model& m = equations.model();
@@ -33,12 +33,9 @@ inline OpenNode most_open_node(Equations& equations, double t, std::span<const d
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
     act(static_cast<int>(n), -net.nodes[n].inertia * m.gain_of_node[n] * s.alpha[m.shaft_of_node[n]]);
   std::vector<char> is_left_out(net.nodes.size(), 0);
-  const auto is_prescribed = [&](int node) { return at(m.shaft_of_node[at(node)]) >= m.free_shafts; };
-  for (const Network::Relation& relation : net.relations) {
-    bool stands = false;
-    for (int k = 0; k < relation.members(); ++k) stands = stands || is_prescribed(relation.node[at(k)]);
-    for (int k = 0; stands && k < relation.members(); ++k) is_left_out[at(relation.node[at(k)])] = 1;
-  }
+  for (const GearTorque& gear : m.gear_torques)
+    for (const GearTorque::Term& term : gear.terms)
+      if (term.joint >= 0) is_left_out[at(gear.node)] = 1;
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const int node = net.elements[e].node, shaft = m.shaft_of_node[at(node)];
     const double alpha = m.gain_of_node[at(node)] * s.alpha[shaft];
