@@ -20,10 +20,12 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "library", "app"};
 
-constexpr std::size_t most_files = 24;
-// Families of elements may be more.
+constexpr std::size_t most_files = 20;
+// Families of elements may be more; the others named here have grown too large, and may not grow further.
 const std::map<std::string, std::size_t> families = {
     {"mechanisms/linkages", 23},  // five linkages, each with its bodies, and what Simbody is asked
+    {"engine/model", 23},        {"engine/analysis", 21},
+    {"engine/run", 21}, {"studies/findings", 21}, {"studies/run", 22}, {"app", 22},
 };
 
 constexpr long most_lines = 450;
@@ -177,7 +179,7 @@ TEST(House, ThePictureShowsEveryRoom) {
     EXPECT_TRUE(std::regex_search(picture, std::regex("[> /]" + name + "[<,: /]"))) << name;
 }
 
-TEST(House, RoomsHoldAFewFiles) {
+TEST(House, RoomsHoldAtMostTwentyFiles) {
   for (const std::string& room : rooms_in_order()) {
     const auto family = families.find(room);
     EXPECT_LE(sources_of(room).size(), family == families.end() ? most_files : family->second)
