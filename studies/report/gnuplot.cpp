@@ -146,7 +146,7 @@ std::vector<EventMark> marks_of(const Plot& plot) {
 // Drawn twice, as SVG and as PNG.
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
-      "# gnuplot {0}.gp → {0}.svg and {0}.png\nset terminal svg size 900,480 noenhanced font 'sans,14' background "
+      "# gnuplot {0}.gp → {0}.svg and {0}.png\nreset\nset terminal svg size 900,480 noenhanced font 'sans,14' background "
       "'white'\nset output '{0}.svg'\n"
       "set title {1}\nset xlabel {2}\nset ylabel {3}\nset grid lc rgb '#dddddd'\nset key outside below horizontal\n",
       name, quoted(plot.title), quoted(label(plot.x)), quoted(label(plot.y)));
@@ -200,12 +200,15 @@ std::vector<TextFile> gnuplot_files(const Report& report) {
 }
 
 std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int folder, int kept) {
-  std::vector<std::string> drawn;
-  if (!is_installed("gnuplot")) return drawn;
-  for (const TextFile& file : files) {
-    if (!file.name.ends_with(".gp")) continue;
-    const std::string name = file.name.substr(0, file.name.size() - 3);
-    const bool well = run_and_wait({"gnuplot", file.name}, folder, kept);
+  std::vector<std::string> drawn, scripts = {"gnuplot"};
+  for (const TextFile& file : files)
+    if (file.name.ends_with(".gp")) scripts.push_back(file.name);
+  if (scripts.size() == 1 || !is_installed("gnuplot")) return drawn;
+  // One process draws all of them; the first script that it cannot read ends it, then each has its own.
+  const bool all_well = run_and_wait(scripts, folder, kept);
+  for (std::size_t i = 1; i < scripts.size(); ++i) {
+    const bool well = all_well || run_and_wait({"gnuplot", scripts[i]}, folder, kept);
+    const std::string name = scripts[i].substr(0, scripts[i].size() - 3);
     for (const char* extension : {".svg", ".png"})
       if (const std::string picture = name + extension; faccessat(folder, picture.c_str(), F_OK, 0) == 0) {
         if (well)

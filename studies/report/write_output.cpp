@@ -19,7 +19,8 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
   if (options.plots) {
     const std::vector<TextFile> files = gnuplot_files(report);
     for (const TextFile& file : files) set.add("plots/" + file.name, file.text);
-    if (const Descriptor plots = open_folder(set.folder(), "plots"))
+    // Who interrupts does not wait for pictures: data and scripts are there to draw them.
+    if (const Descriptor plots = options.interrupted ? Descriptor() : open_folder(set.folder(), "plots"))
       for (const std::string& picture : draw_by_gnuplot(files, plots.get(), set.folder()))
         set.adopt("plots/" + picture);
   }

@@ -307,6 +307,7 @@ kind             = "engine"
 firing_order     = [1, 3, 2]
 firing_intervals = [<?"200 deg", "250 deg", "270 deg"|"250 deg", "200 deg", "270 deg">]
 phase            = "<?25|-475> deg"
+zero             = "firing"
 bore             = "60 mm"
 radius           = "40 mm"
 rod              = "130 mm"
@@ -326,6 +327,7 @@ kind         = "engine"
 firing_order = [1, 2]
 strokes      = "two"
 phase        = <a+ 0.4>
+zero         = "firing"
 torque       = <curve+ angle N*m: 0 20, 0.4 90, 1.2 40, 3 -4, 5.2 -30, 6.283185307179586 20>
 inertia      = "0.4 kg*m2"
 )",
